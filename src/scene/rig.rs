@@ -1,0 +1,200 @@
+//! The rig: a platform, its whiskers, its sensors, and how they are simulated.
+//!
+//! Body frame: origin at the platform's centre of mass, first axis forward (the heading), second axis to the left.
+
+use nalgebra::Point2;
+
+/// A platform with whiskers, and the settings of its simulation.
+///
+/// [`Rig::default`] is the reference rig: the thesis's platform with one whisker of 100 mm a side, swept back by 15°.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rig {
+    /// The body that carries the whiskers.
+    pub platform: Platform,
+    /// The whiskers, in the order in which samples list them.
+    pub whiskers: Vec<Whisker>,
+    /// How the simulator steps and resolves contact.
+    pub physics: Physics,
+    /// What a sample reports, and how noisily.
+    pub sensing: Sensing,
+}
+
+/// The body that carries the whiskers: a trapezoid in plan, symmetric about its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Platform {
+    /// Width at the tail (m).
+    pub tail_width: f64,
+    /// Width at the nose (m).
+    pub nose_width: f64,
+    /// Length from tail to nose (m).
+    pub length: f64,
+    /// Distance of the centre of mass ahead of the tail (m).
+    pub centre_of_mass: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about the vertical through the centre of mass (kg m²).
+    pub inertia: f64,
+    /// Time constant with which the servos take up a commanded velocity or yaw rate (s).
+    pub servo: f64,
+}
+
+/// One whisker: where it sits, its shaft, and the spring at its base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whisker {
+    /// The name by which policies bind to it.
+    pub name: String,
+    /// Where the base sits, in the body frame (m).
+    pub base_body: Point2<f64>,
+    /// Direction of the undeflected shaft in the body frame (rad, counter-clockwise from the heading).
+    pub direction_body: f64,
+    /// The shaft.
+    pub shaft: Shaft,
+    /// The base hinge, whose angle is the sensor's reading.
+    pub hinge: Hinge,
+}
+
+/// An elastic shaft of round wire, straight at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaft {
+    /// Length from the base to the tip (m).
+    pub length: f64,
+    /// Radius of the wire (m).
+    pub radius: f64,
+    /// Density (kg/m³).
+    pub density: f64,
+    /// Young's modulus (Pa).
+    pub young_modulus: f64,
+    /// Ratio of the material's damping to its stiffness (s).
+    pub damping: f64,
+    /// Rigid links that stand for the shaft in a simulation.
+    pub links: usize,
+}
+
+/// A torsion spring at a whisker's base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hinge {
+    /// Stiffness (N m/rad).
+    pub stiffness: f64,
+    /// Damping (N m s/rad).
+    pub damping: f64,
+    /// Inertia of the moving part of the suspension (kg m²).
+    pub armature: f64,
+}
+
+/// How the simulator steps and resolves contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Physics {
+    /// Length of one simulation step (s); a whole number of them makes up a sample.
+    pub step: f64,
+    /// Time constant of the contact constraint (s).
+    pub contact_time: f64,
+    /// Impedance of the contact constraint: at the surface, at full depth, and the depth at which it is full (m).
+    pub contact_impedance: [f64; 3],
+    /// Coefficient of sliding friction between whisker and object; 0 is frictionless.
+    pub friction: f64,
+    /// A contact deeper than this (m) ends the run: the physics can no longer be trusted.
+    pub penetration_limit: f64,
+}
+
+/// What a sample reports, and how noisily.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensing {
+    /// Samples a second (Hz).
+    pub sample_rate: f64,
+    /// Control ticks a second (Hz); a whole number of samples makes up a tick.
+    pub control_rate: f64,
+    /// Standard deviation of the noise on a base angle (rad).
+    pub angle_noise: f64,
+    /// Smallest step of a base angle's reading (rad); 0 is continuous.
+    pub angle_resolution: f64,
+    /// Whether samples carry shear and axial force at each base.
+    pub forces: bool,
+}
+
+impl Shaft {
+    /// Bending stiffness `E I` (N m²) of the round wire, `I = π r⁴ / 4`.
+    #[must_use]
+    pub fn bending_stiffness(&self) -> f64 {
+        self.young_modulus * std::f64::consts::FRAC_PI_4 * self.radius.powi(4)
+    }
+
+    /// Length of one link (m).
+    #[must_use]
+    pub fn link_length(&self) -> f64 {
+        self.length / self.links as f64
+    }
+}
+
+impl Default for Rig {
+    fn default() -> Self {
+        Self {
+            platform: Platform::default(),
+            whiskers: vec![Whisker::reference("r0", -1.0), Whisker::reference("l0", 1.0)],
+            physics: Physics::default(),
+            sensing: Sensing::default(),
+        }
+    }
+}
+
+impl Default for Platform {
+    fn default() -> Self {
+        Self {
+            tail_width: 0.12,
+            nose_width: 0.03,
+            length: 0.18,
+            centre_of_mass: 0.072,
+            mass: 0.51,
+            inertia: 0.0015,
+            servo: 0.05,
+        }
+    }
+}
+
+impl Whisker {
+    /// The reference whisker on one side of the reference platform: `side` is −1 for right, +1 for left.
+    fn reference(name: &str, side: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            base_body: Point2::new(0.053, side * 0.030),
+            direction_body: side * 105_f64.to_radians(),
+            shaft: Shaft::default(),
+            hinge: Hinge::default(),
+        }
+    }
+
+    /// Which side of the platform the whisker points to: −1 for right, +1 for left.
+    #[must_use]
+    pub fn side(&self) -> f64 {
+        if self.direction_body < 0.0 { -1.0 } else { 1.0 }
+    }
+}
+
+impl Default for Shaft {
+    fn default() -> Self {
+        Self { length: 0.1, radius: 0.125e-3, density: 6450.0, young_modulus: 100e9, damping: 1e-3, links: 16 }
+    }
+}
+
+impl Default for Hinge {
+    fn default() -> Self {
+        Self { stiffness: 1.0, damping: 0.01, armature: 1e-5 }
+    }
+}
+
+impl Default for Physics {
+    fn default() -> Self {
+        Self {
+            step: 1.0 / 300.0,
+            contact_time: 0.005,
+            contact_impedance: [0.95, 0.99, 1e-4],
+            friction: 0.0,
+            penetration_limit: 1e-3,
+        }
+    }
+}
+
+impl Default for Sensing {
+    fn default() -> Self {
+        Self { sample_rate: 300.0, control_rate: 30.0, angle_noise: 0.0, angle_resolution: 0.0, forces: false }
+    }
+}

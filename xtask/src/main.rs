@@ -1,0 +1,3 @@
+//! Set-up, demonstration and checks of Vibrissa, one command each.
+
+fn main() {}
