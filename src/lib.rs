@@ -1,3 +1,5 @@
 //! Scenarios, benchmarks and a policy language for whisker-based active touch.
 
+pub mod diagnostic;
 pub mod geometry;
+pub mod units;

@@ -1,0 +1,13 @@
+//! Faults in what the user wrote: one type with its place, and its renderings.
+
+mod kind;
+mod record;
+mod source;
+mod suggestion;
+mod terminal;
+
+pub use kind::{Diagnostic, Label, Severity};
+pub use record::{Record, RecordLabel, records};
+pub use source::{Position, Source, Span};
+pub use suggestion::suggest;
+pub use terminal::{Colour, terminal};

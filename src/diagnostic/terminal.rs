@@ -1,0 +1,89 @@
+//! Diagnostics for a person at a terminal.
+
+use super::{Diagnostic, Label, Severity, Source};
+use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+
+/// Whether a rendering carries terminal colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Colour {
+    /// Text alone.
+    #[default]
+    Plain,
+    /// ANSI escape sequences.
+    Ansi,
+}
+
+/// Renders diagnostics one below the other: the message, the place with its line and label, the hints. Ends with a
+/// newline unless there are none.
+#[must_use]
+pub fn terminal(source: &Source, diagnostics: &[Diagnostic], colour: Colour) -> String {
+    let renderer = match colour {
+        Colour::Plain => Renderer::plain(),
+        Colour::Ansi => Renderer::styled(),
+    };
+    let rendered: Vec<String> = diagnostics.iter().map(|diagnostic| render(source, diagnostic, &renderer)).collect();
+    rendered.join("\n")
+}
+
+fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let annotation = |kind: AnnotationKind, label: &Label| -> Annotation<'static> {
+        kind.span(source.clamp(label.span)).label(label.text.clone())
+    };
+    let snippet = Snippet::source(source.text.as_str())
+        .path(source.name.as_str())
+        .annotation(annotation(AnnotationKind::Primary, &diagnostic.primary))
+        .annotations(diagnostic.secondary.iter().map(|label| annotation(AnnotationKind::Context, label)));
+    let group = level
+        .primary_title(diagnostic.message.as_str())
+        .id(diagnostic.code)
+        .element(snippet)
+        .elements(diagnostic.hints.iter().map(|hint| Level::HELP.message(hint.as_str())));
+    renderer.render(&[group]) + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Span;
+    use proptest::prelude::*;
+
+    #[test]
+    fn the_line_is_shown_with_its_label_and_the_hint() {
+        let source = Source::new("disk.yaml", "object:\n  circle: {radius: -1 m}\n");
+        let fault = Diagnostic::error("S0301", "the radius is negative", Span::new(27, 31), "must be more than 0 m")
+            .note(Span::new(10, 16), "of this circle")
+            .hint("write the radius, such as 300 mm");
+        let expected = "\
+error[S0301]: the radius is negative
+ --> disk.yaml:2:20
+  |
+2 |   circle: {radius: -1 m}
+  |   ------           ^^^^ must be more than 0 m
+  |   |
+  |   of this circle
+  |
+  = help: write the radius, such as 300 mm
+";
+        assert_eq!(terminal(&source, &[fault], Colour::Plain), expected);
+    }
+
+    #[test]
+    fn colour_is_only_there_when_asked_for() {
+        let source = Source::new("a", "b");
+        let fault = [Diagnostic::warning("S0000", "m", Span::new(0, 1), "l")];
+        assert!(terminal(&source, &fault, Colour::Ansi).contains('\u{1b}'));
+        assert!(!terminal(&source, &fault, Colour::Plain).contains('\u{1b}'));
+    }
+
+    proptest! {
+        #[test]
+        fn any_span_of_any_text_can_be_rendered(text in "(\\PC|\n|\r|\t){0,40}", start in 0_usize..60, end in 0_usize..60) {
+            let fault = Diagnostic::error("S0000", "m", Span { start, end }, "l").note(Span { start: end, end: start }, "n");
+            let _ = terminal(&Source::new("a", text), &[fault], Colour::Plain);
+        }
+    }
+}

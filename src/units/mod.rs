@@ -1,0 +1,14 @@
+//! Physical dimensions, units and quantities, as the scenario format and the policy language write them.
+//!
+//! Inside the program every number is in SI units and radians; this room is the edge where text with a unit becomes
+//! such a number, and back.
+
+mod dimension;
+mod format;
+mod quantity;
+mod unit;
+
+pub use dimension::Dimension;
+pub use format::format_si;
+pub use quantity::{Quantity, QuantityError, parse_quantity};
+pub use unit::{Unit, UnitError, parse_unit, suggest_unit, units_of};
