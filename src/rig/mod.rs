@@ -107,6 +107,8 @@ pub struct Sensing {
     pub angle_noise: f64,
     /// Smallest step of a base angle's reading (rad); 0 is continuous.
     pub angle_resolution: f64,
+    /// A base angle beyond this (rad) counts as touching.
+    pub contact_threshold: f64,
     /// Whether samples carry shear and axial force at each base.
     pub forces: bool,
 }
@@ -122,6 +124,21 @@ impl Shaft {
     #[must_use]
     pub fn link_length(&self) -> f64 {
         self.length / self.links as f64
+    }
+
+    /// Mass of one link (kg).
+    #[must_use]
+    pub fn link_mass(&self) -> f64 {
+        self.density * std::f64::consts::PI * self.radius.powi(2) * self.link_length()
+    }
+
+    /// Stiffness of every joint between links (N m/rad), from the root to the tip.
+    ///
+    /// The trapezoid rule for the bending energy: `EI / l` at a joint between two links of length `l`, and `2 EI / l` at the
+    /// root, where only half a link's length bends.
+    pub fn joint_stiffnesses(&self) -> impl Iterator<Item = f64> {
+        let between = self.bending_stiffness() / self.link_length();
+        (0..self.links).map(move |joint| if joint == 0 { 2.0 * between } else { between })
     }
 }
 
@@ -147,6 +164,20 @@ impl Default for Platform {
             inertia: 0.0015,
             servo: 0.05,
         }
+    }
+}
+
+impl Platform {
+    /// The corners of the platform's outline in the body frame (m), counter-clockwise from the right end of the tail.
+    #[must_use]
+    pub fn outline_body(&self) -> [Point2<f64>; 4] {
+        let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
+        [
+            Point2::new(tail, -self.tail_width / 2.0),
+            Point2::new(nose, -self.nose_width / 2.0),
+            Point2::new(nose, self.nose_width / 2.0),
+            Point2::new(tail, self.tail_width / 2.0),
+        ]
     }
 }
 
@@ -195,6 +226,13 @@ impl Default for Physics {
 
 impl Default for Sensing {
     fn default() -> Self {
-        Self { sample_rate: 300.0, control_rate: 30.0, angle_noise: 0.0, angle_resolution: 0.0, forces: false }
+        Self {
+            sample_rate: 300.0,
+            control_rate: 30.0,
+            angle_noise: 0.0,
+            angle_resolution: 0.0,
+            contact_threshold: 2e-5,
+            forces: false,
+        }
     }
 }

@@ -1,0 +1,140 @@
+//! The evaluator: runs a block of code over the registers.
+
+use crate::geometry::{Vector2, angle};
+
+use super::action::{Action, Mover, Turn};
+use super::op::{Block, Op, Register, Wide};
+use super::senses::Senses;
+
+/// Runs `block` of `code` and returns the last action that it gave, if any.
+pub(super) fn evaluate<S: Senses>(
+    code: &[Op],
+    block: &Block,
+    registers: &mut [f64],
+    senses: &mut S,
+) -> Option<Action> {
+    let mut file = File(registers);
+    let mut action = None;
+    let mut next = block.start as usize;
+    while next < block.end as usize {
+        let op = code[next];
+        next += 1;
+        match op {
+            Op::Copy { to, a } => file.put(to, file.at(a)),
+            Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
+            Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
+            Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
+            Op::Divide { to, a, b } => file.put(to, file.at(a) / file.at(b)),
+            Op::Negate { to, a } => file.put(to, -file.at(a)),
+            Op::Absolute { to, a } => file.put(to, file.at(a).abs()),
+            Op::Sign { to, a } => file.put(to, sign(file.at(a))),
+            Op::SquareRoot { to, a } => file.put(to, file.at(a).sqrt()),
+            Op::Minimum { to, a, b } => file.put(to, minimum(file.at(a), file.at(b))),
+            Op::Maximum { to, a, b } => file.put(to, -minimum(-file.at(a), -file.at(b))),
+            Op::Sine { to, a } => file.put(to, file.at(a).sin()),
+            Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
+            Op::Wrap { to, a } => file.put(to, angle::wrap(file.at(a))),
+            Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
+            Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
+            #[expect(clippy::float_cmp, reason = "the language's == is exact; it compares truths and whiskers")]
+            Op::Equal { to, a, b } => file.put_truth(to, file.at(a) == file.at(b)),
+            Op::And { to, a, b } => file.put_truth(to, file.truth(a) && file.truth(b)),
+            Op::Or { to, a, b } => file.put_truth(to, file.truth(a) || file.truth(b)),
+            Op::Not { to, a } => file.put_truth(to, !file.truth(a)),
+            Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
+            Op::Unit { to, a } => file.put_vector(to, unit(file.vector(a))),
+            Op::Angle { to, a } => {
+                let vector = file.vector(a);
+                file.put(to, vector.y.atan2(vector.x));
+            }
+            Op::Rotate { to, a, b } => file.put_vector(to, angle::rotate(file.vector(a), file.at(b))),
+            Op::Time { to } => file.put(to, senses.time()),
+            Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
+            Op::BodyPosition { to } => file.put_vector(to, senses.body_position()),
+            Op::Whisker { to, whisker, quantity } => file.put(to, senses.whisker(file.index(whisker), quantity)),
+            Op::WhiskerVector { to, whisker, quantity } => {
+                file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
+            }
+            Op::TipAt { to, whisker, a } => file.put_vector(to, senses.tip_at(file.index(whisker), file.at(a))),
+            Op::JumpUnless { a, target } => {
+                if !file.truth(a) {
+                    next = target as usize;
+                }
+            }
+            Op::Jump { target } => next = target as usize,
+            Op::Record { whisker } => senses.record(file.index(whisker)),
+            Op::SteerBodyFacing { along, speed, heading } => {
+                action = Some(file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading))));
+            }
+            Op::SteerBodyTurning { along, speed, rate } => {
+                action = Some(file.steer(Mover::Body, along, speed, Turn::Rate(file.at(rate))));
+            }
+            Op::SteerWhiskerFacing { whisker, along, speed, heading } => {
+                let mover = Mover::Whisker(file.index(whisker));
+                action = Some(file.steer(mover, along, speed, Turn::Facing(file.at(heading))));
+            }
+            Op::SteerWhiskerTurning { whisker, along, speed, rate } => {
+                let mover = Mover::Whisker(file.index(whisker));
+                action = Some(file.steer(mover, along, speed, Turn::Rate(file.at(rate))));
+            }
+            Op::Hold => action = Some(Action::Hold),
+            Op::Stop => action = Some(Action::Stop),
+        }
+    }
+    action
+}
+
+/// The registers, read and written as what the code takes them for.
+struct File<'a>(&'a mut [f64]);
+
+impl File<'_> {
+    fn at(&self, register: Register) -> f64 {
+        self.0[usize::from(register)]
+    }
+
+    fn put(&mut self, register: Register, value: f64) {
+        self.0[usize::from(register)] = value;
+    }
+
+    fn truth(&self, register: Register) -> bool {
+        self.at(register) > 0.5
+    }
+
+    fn put_truth(&mut self, register: Register, truth: bool) {
+        self.put(register, f64::from(u8::from(truth)));
+    }
+
+    fn vector(&self, register: Wide) -> Vector2 {
+        Vector2::new(self.at(register), self.at(register + 1))
+    }
+
+    fn put_vector(&mut self, register: Wide, vector: Vector2) {
+        self.put(register, vector.x);
+        self.put(register + 1, vector.y);
+    }
+
+    /// A whisker's index.
+    fn index(&self, register: Register) -> usize {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whisker registers hold indices")]
+        let index = self.at(register) as usize;
+        index
+    }
+
+    fn steer(&self, mover: Mover, along: Wide, speed: Register, turn: Turn) -> Action {
+        Action::Steer { mover, along_world: self.vector(along), speed: self.at(speed), turn }
+    }
+}
+
+/// The lesser of two numbers; not a number if either is not, so that a bad sample is never hidden.
+fn minimum(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+}
+
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
+
+fn unit(vector: Vector2) -> Vector2 {
+    let norm = vector.norm();
+    if norm == 0.0 { Vector2::zeros() } else { vector / norm }
+}

@@ -1,0 +1,98 @@
+//! The operations that compiled code is made of.
+
+use std::ops::Range;
+
+use super::senses::{BodyScalar, WhiskerScalar, WhiskerVector};
+
+/// A place in the register file.
+pub type Register = u16;
+
+/// The first of two neighbouring places, which hold a vector's x and y.
+pub type Wide = u16;
+
+/// A range of the program's code.
+pub type Block = Range<u32>;
+
+/// One operation. `to` is where the result goes; truths are 1 and 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "operands are named alike throughout: to, a, b, and what the variant says")]
+pub enum Op {
+    /// `to = a`
+    Copy { to: Register, a: Register },
+    /// `to = a + b`
+    Add { to: Register, a: Register, b: Register },
+    /// `to = a - b`
+    Subtract { to: Register, a: Register, b: Register },
+    /// `to = a * b`
+    Multiply { to: Register, a: Register, b: Register },
+    /// `to = a / b`
+    Divide { to: Register, a: Register, b: Register },
+    /// `to = -a`
+    Negate { to: Register, a: Register },
+    /// `to = |a|`
+    Absolute { to: Register, a: Register },
+    /// `to = sign(a)`: −1, 0 or 1
+    Sign { to: Register, a: Register },
+    /// `to = √a`
+    SquareRoot { to: Register, a: Register },
+    /// `to = min(a, b)`
+    Minimum { to: Register, a: Register, b: Register },
+    /// `to = max(a, b)`
+    Maximum { to: Register, a: Register, b: Register },
+    /// `to = sin(a)`
+    Sine { to: Register, a: Register },
+    /// `to = cos(a)`
+    Cosine { to: Register, a: Register },
+    /// `to = a wrapped to (-π, π]`
+    Wrap { to: Register, a: Register },
+    /// `to = a < b`
+    Less { to: Register, a: Register, b: Register },
+    /// `to = a <= b`
+    LessOrEqual { to: Register, a: Register, b: Register },
+    /// `to = a == b`
+    Equal { to: Register, a: Register, b: Register },
+    /// `to = a and b`
+    And { to: Register, a: Register, b: Register },
+    /// `to = a or b`
+    Or { to: Register, a: Register, b: Register },
+    /// `to = not a`
+    Not { to: Register, a: Register },
+    /// `to = length of the vector a`
+    Norm { to: Register, a: Wide },
+    /// `to = the vector a at unit length`, and zero for zero
+    Unit { to: Wide, a: Wide },
+    /// `to = direction of the vector a` (rad)
+    Angle { to: Register, a: Wide },
+    /// `to = the vector a turned by the angle b`
+    Rotate { to: Wide, a: Wide, b: Register },
+    /// `to = time since the start of the run`
+    Time { to: Register },
+    /// `to = a quantity of the body`
+    Body { to: Register, quantity: BodyScalar },
+    /// `to = position of the body`
+    BodyPosition { to: Wide },
+    /// `to = a quantity of a whisker`
+    Whisker { to: Register, whisker: Register, quantity: WhiskerScalar },
+    /// `to = a vector of a whisker`
+    WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
+    /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
+    TipAt { to: Wide, whisker: Register, a: Register },
+    /// Goes on at `target` unless `a`; `target` lies ahead.
+    JumpUnless { a: Register, target: u32 },
+    /// Goes on at `target`, which lies ahead.
+    Jump { target: u32 },
+    /// Takes a whisker's tip as a point of the estimated contour.
+    Record { whisker: Register },
+    /// Steers the body, facing a heading.
+    SteerBodyFacing { along: Wide, speed: Register, heading: Register },
+    /// Steers the body, turning at a rate.
+    SteerBodyTurning { along: Wide, speed: Register, rate: Register },
+    /// Steers a whisker's base, the body facing a heading.
+    SteerWhiskerFacing { whisker: Register, along: Wide, speed: Register, heading: Register },
+    /// Steers a whisker's base, the body turning at a rate.
+    SteerWhiskerTurning { whisker: Register, along: Wide, speed: Register, rate: Register },
+    /// Keeps to the last command.
+    Hold,
+    /// Stands still.
+    Stop,
+}

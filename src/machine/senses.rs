@@ -1,0 +1,72 @@
+//! What a machine can ask of perception.
+
+use crate::geometry::Vector2;
+
+/// Perception as a machine sees it. Values are asked for only when the active state needs them.
+///
+/// Every whisker is named by its index in the program's list of whiskers.
+pub trait Senses {
+    /// Time since the start of the run (s).
+    fn time(&self) -> f64;
+
+    /// A number that belongs to the body.
+    fn body(&self, quantity: BodyScalar) -> f64;
+
+    /// Position of the platform's centre of mass in the world frame (m).
+    fn body_position(&self) -> Vector2;
+
+    /// A number that belongs to a whisker; truths are 1 and 0.
+    fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64;
+
+    /// A vector that belongs to a whisker.
+    fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2;
+
+    /// Where the whisker's tip would touch, in the frame of its base (m), if its base angle were `deflection` (rad).
+    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2;
+
+    /// Takes the whisker's tip, if it touches, as a point of the estimated contour.
+    fn record(&mut self, whisker: usize);
+}
+
+/// Numbers that belong to the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyScalar {
+    /// Heading in the world frame (rad).
+    Yaw,
+}
+
+/// Numbers and truths that belong to a whisker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhiskerScalar {
+    /// Filtered base angle (rad, counter-clockwise positive).
+    Deflection,
+    /// Whether the base angle is beyond the rig's contact threshold.
+    Touching,
+    /// Direction of the undeflected shaft in the world frame (rad).
+    Yaw,
+    /// −1 for a whisker on the right, +1 for one on the left.
+    Side,
+    /// +1 when bent as forward motion bends it, −1 when bent the other way, 0 when not touching.
+    Sense,
+    /// Length of the shaft (m).
+    Length,
+    /// Whether the contour behind the tip is known well enough to have a tangent.
+    ContourReady,
+    /// Curvature at the end of the contour (rad/m, counter-clockwise positive in the direction of travel).
+    ContourCurvature,
+}
+
+/// Vectors that belong to a whisker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhiskerVector {
+    /// Place of the tip's contact in the world frame (m).
+    Tip,
+    /// Place of the tip's contact in the frame of the whisker's base (m).
+    TipBase,
+    /// Place of the base in the world frame (m).
+    Base,
+    /// Direction of travel at the end of the contour in the world frame (unit vector).
+    ContourTangent,
+    /// Newest point of the contour in the world frame (m).
+    ContourEnd,
+}

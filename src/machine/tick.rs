@@ -1,0 +1,190 @@
+//! A machine at work: memory, transitions, one action a tick.
+
+use std::sync::Arc;
+
+use super::action::Action;
+use super::evaluate::evaluate;
+use super::program::{Guard, Program, Target, Transition};
+use super::senses::Senses;
+
+/// The most transitions that one tick takes; a policy that wants more fails.
+pub const CHAIN_LIMIT: usize = 8;
+
+/// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
+const TIME_SLACK: f64 = 1e-9;
+
+/// A running machine: a program and its memory.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    program: Arc<Program>,
+    registers: Vec<f64>,
+    state: usize,
+    entered_at: Option<f64>,
+    /// For every guard with a duration, since when its condition has held.
+    holding_since: Vec<Option<f64>>,
+    /// How many timers, at the front, belong to the rules that hold always and outlive a transition.
+    lasting_timers: usize,
+    failure: Option<Failure>,
+}
+
+/// Why a machine has failed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Failure {
+    /// The policy went to `Failure` and gave this reason.
+    #[error("{0}")]
+    Policy(Arc<str>),
+    /// A command was not a finite number.
+    #[error("state {state} gave a command that is not a finite number")]
+    NotFinite {
+        /// The state that gave it.
+        state: Arc<str>,
+    },
+    /// One tick took more than [`CHAIN_LIMIT`] transitions.
+    #[error("more than {CHAIN_LIMIT} transitions in one tick, the last into {state}")]
+    Chain {
+        /// The state that the last one led into.
+        state: Arc<str>,
+    },
+}
+
+/// What a tick gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tick {
+    /// What the platform is asked to do.
+    pub action: Action,
+    /// Whether the machine goes on.
+    pub outcome: Outcome,
+}
+
+/// Whether a machine goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It goes on.
+    Running,
+    /// It has failed, for the reason that [`Machine::failure`] gives, and stands still for good.
+    Failed,
+}
+
+impl Machine {
+    /// A machine at the start of `program`.
+    #[must_use]
+    pub fn new(program: Arc<Program>) -> Self {
+        Self {
+            registers: program.image.clone(),
+            state: program.initial,
+            entered_at: None,
+            holding_since: vec![None; program.timers],
+            lasting_timers: program.always.iter().filter(|rule| rule.guard.is_timed()).count(),
+            failure: None,
+            program,
+        }
+    }
+
+    /// The program that it runs.
+    #[must_use]
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Index of the active state.
+    #[must_use]
+    pub fn state(&self) -> usize {
+        self.state
+    }
+
+    /// Name of the active state, `Failure` after a failure.
+    #[must_use]
+    pub fn state_name(&self) -> &str {
+        if self.failure.is_some() { "Failure" } else { &self.program.states[self.state].name }
+    }
+
+    /// Why the machine has failed, if it has.
+    #[must_use]
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
+    }
+
+    /// One tick: first the rules that hold always, then the active state's transitions in their written order (and those of
+    /// the state entered, up to [`CHAIN_LIMIT`]), then what the active state does.
+    ///
+    /// An action with a number that is not finite is never given: the machine fails instead.
+    pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
+        if self.failure.is_some() {
+            return Tick { action: Action::Stop, outcome: Outcome::Failed };
+        }
+        let program = Arc::clone(&self.program);
+        let now = senses.time();
+        self.entered_at.get_or_insert(now);
+
+        let mut taken = self.due(&program, &program.always, now, senses);
+        for _ in 0..CHAIN_LIMIT {
+            let Some(target) = taken.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses))
+            else {
+                return self.act(&program, senses);
+            };
+            match target {
+                Target::State { state, arguments } => {
+                    evaluate(&program.code, arguments, &mut self.registers, senses);
+                    self.state = *state;
+                    self.entered_at = Some(now);
+                    self.holding_since[self.lasting_timers..].fill(None);
+                }
+                Target::Failure(reason) => return self.fail(Failure::Policy(Arc::clone(reason))),
+            }
+            taken = None;
+        }
+        self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
+    }
+
+    fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Tick {
+        let state = &program.states[self.state];
+        let action = evaluate(&program.code, &state.body, &mut self.registers, senses).unwrap_or(Action::Hold);
+        if !action.is_finite() {
+            return self.fail(Failure::NotFinite { state: Arc::clone(&state.name) });
+        }
+        Tick { action, outcome: Outcome::Running }
+    }
+
+    fn fail(&mut self, failure: Failure) -> Tick {
+        self.failure = Some(failure);
+        Tick { action: Action::Stop, outcome: Outcome::Failed }
+    }
+
+    /// The target of the first transition that is due. Every guard is looked at, so that the timers of the later ones run.
+    fn due<'p, S: Senses>(
+        &mut self,
+        program: &'p Program,
+        transitions: &'p [Transition],
+        now: f64,
+        senses: &mut S,
+    ) -> Option<&'p Target> {
+        let mut first = None;
+        for transition in transitions {
+            if self.holds(program, &transition.guard, now, senses) && first.is_none() {
+                first = Some(&transition.target);
+            }
+        }
+        first
+    }
+
+    fn holds<S: Senses>(&mut self, program: &Program, guard: &Guard, now: f64, senses: &mut S) -> bool {
+        match guard {
+            Guard::When { code, truth, lasting } => {
+                evaluate(&program.code, code, &mut self.registers, senses);
+                let holds = self.registers[usize::from(*truth)] > 0.5;
+                let Some((duration, timer)) = lasting else { return holds };
+                let since = &mut self.holding_since[*timer];
+                if !holds {
+                    *since = None;
+                    return false;
+                }
+                now - *since.get_or_insert(now) >= self.registers[usize::from(*duration)] - TIME_SLACK
+            }
+            Guard::After { code, time } => {
+                evaluate(&program.code, code, &mut self.registers, senses);
+                let active = now - self.entered_at.unwrap_or(now);
+                active >= self.registers[usize::from(*time)] - TIME_SLACK
+            }
+        }
+    }
+}

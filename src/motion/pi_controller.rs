@@ -1,0 +1,61 @@
+//! A PI controller with a limited output.
+
+/// A proportional-integral controller whose output is limited and whose integral stands still while it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PiController {
+    /// Output for a unit of error.
+    proportional: f64,
+    /// Growth of the output in a second for a unit of error.
+    integral: f64,
+    /// Greatest magnitude of the output.
+    limit: f64,
+    accumulated: f64,
+}
+
+impl PiController {
+    /// A controller at rest.
+    #[must_use]
+    pub fn new(proportional: f64, integral: f64, limit: f64) -> Self {
+        Self { proportional, integral, limit, accumulated: 0.0 }
+    }
+
+    /// The output for `error`, `period` seconds after the last.
+    pub fn next(&mut self, error: f64, period: f64) -> f64 {
+        let accumulated = self.accumulated + self.integral * error * period;
+        let output = self.proportional * error + accumulated;
+        // An integral that grew while the output is at its limit would take as long to unwind.
+        if output.abs() <= self.limit {
+            self.accumulated = accumulated;
+        }
+        output.clamp(-self.limit, self.limit)
+    }
+
+    /// Forgets the past.
+    pub fn reset(&mut self) {
+        self.accumulated = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PiController;
+
+    #[test]
+    fn the_output_never_exceeds_its_limit_and_the_integral_does_not_wind_up() {
+        let mut controller = PiController::new(1.0, 10.0, 0.5);
+        for _ in 0..1000 {
+            assert!(controller.next(1.0, 0.1).abs() <= 0.5);
+        }
+        assert!(controller.next(-0.1, 0.1) < 0.0, "the output follows the error's sign at once");
+    }
+
+    #[test]
+    fn a_lasting_error_is_integrated_away() {
+        let mut controller = PiController::new(1.0, 2.0, 10.0);
+        let (mut value, disturbance) = (0.0, 0.7);
+        for _ in 0..2000 {
+            value += 0.01 * (controller.next(1.0 - value, 0.01) - disturbance);
+        }
+        assert!((value - 1.0_f64).abs() < 1e-3);
+    }
+}

@@ -1,0 +1,41 @@
+//! A low-pass filter for base angles.
+
+use biquad::{Biquad, Coefficients, DirectForm2Transposed, ToHertz, Type};
+
+/// A third-order Butterworth low-pass filter, at rest at zero: a first-order section before a second-order one of quality 1.
+#[derive(Debug, Clone)]
+pub struct LowPass {
+    first: DirectForm2Transposed<f64>,
+    second: DirectForm2Transposed<f64>,
+}
+
+/// A cutoff at or above half of the sampling rate.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("a cutoff of {cutoff} Hz needs samples faster than {} Hz, not {rate} Hz", 2.0 * cutoff)]
+pub struct CutoffError {
+    cutoff: f64,
+    rate: f64,
+}
+
+impl LowPass {
+    /// A filter with its −3 dB point at `cutoff` (Hz) for samples at `rate` (Hz).
+    ///
+    /// # Errors
+    /// [`CutoffError`] unless the cutoff is positive and below half of the rate.
+    pub fn new(cutoff: f64, rate: f64) -> Result<Self, CutoffError> {
+        let section = |kind, quality| {
+            Coefficients::from_params(kind, rate.hz(), cutoff.hz(), quality)
+                .map(DirectForm2Transposed::new)
+                .map_err(|_| CutoffError { cutoff, rate })
+        };
+        Ok(Self {
+            first: section(Type::SinglePoleLowPass, std::f64::consts::FRAC_1_SQRT_2)?,
+            second: section(Type::LowPass, 1.0)?,
+        })
+    }
+
+    /// Takes one sample and gives the filtered value.
+    pub fn next(&mut self, value: f64) -> f64 {
+        self.second.run(self.first.run(value))
+    }
+}

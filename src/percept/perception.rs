@@ -1,0 +1,149 @@
+//! Perception as a whole: samples in, senses out.
+
+use crate::geometry::{Point2, Pose, Vector2};
+use crate::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+use crate::rig::Rig;
+use crate::signal::Sample;
+
+use super::low_pass::{CutoffError, LowPass};
+use super::tip_model::{TipModel, TipModelError};
+use super::whisker::PerceivedWhisker;
+
+/// Perception of a rig by the whiskers that a policy binds.
+#[derive(Debug, Clone)]
+pub struct Perception {
+    time: f64,
+    body: Pose,
+    /// In the policy's order.
+    whiskers: Vec<PerceivedWhisker>,
+    /// For each of them, its index in the rig and so in samples.
+    in_sample: Vec<usize>,
+}
+
+/// Why a policy cannot perceive with a rig.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BindError {
+    /// The rig has no whisker of a name that the policy binds.
+    #[error("the policy binds the whisker `{name}`, which the rig does not have; the rig has {known}")]
+    NoSuchWhisker {
+        /// The name.
+        name: String,
+        /// The rig's whiskers.
+        known: String,
+    },
+    /// A whisker's mechanics give no tip model.
+    #[error(transparent)]
+    TipModel(#[from] TipModelError),
+    /// The rig samples too slowly for the filter.
+    #[error(transparent)]
+    Cutoff(#[from] CutoffError),
+}
+
+impl Perception {
+    /// Perception of `rig` by the whiskers called `names`.
+    ///
+    /// # Errors
+    /// [`BindError`] when the rig lacks a whisker, or its mechanics or rates leave no model or filter.
+    pub fn new(rig: &Rig, names: &[String]) -> Result<Self, BindError> {
+        let mut whiskers = Vec::with_capacity(names.len());
+        let mut in_sample = Vec::with_capacity(names.len());
+        for name in names {
+            let Some(index) = rig.whiskers.iter().position(|whisker| whisker.name == *name) else {
+                let known = rig.whiskers.iter().map(|whisker| format!("`{}`", whisker.name)).collect::<Vec<_>>();
+                return Err(BindError::NoSuchWhisker { name: name.clone(), known: known.join(", ") });
+            };
+            let sensing = &rig.sensing;
+            let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
+            let model = TipModel::new(&rig.whiskers[index])?;
+            whiskers.push(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing.contact_threshold));
+            in_sample.push(index);
+        }
+        Ok(Self { time: 0.0, body: Pose::default(), whiskers, in_sample })
+    }
+
+    /// Begins a tick with the samples since the last one, oldest first.
+    pub fn update(&mut self, samples: &[Sample]) {
+        for sample in samples {
+            for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
+                whisker.filter(sample.whiskers[index].base_angle);
+            }
+        }
+        if let Some(newest) = samples.last() {
+            (self.time, self.body) = (newest.time, newest.body);
+        }
+        for whisker in &mut self.whiskers {
+            whisker.place(self.body);
+        }
+    }
+
+    /// Pose of the platform's centre of mass.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.body
+    }
+
+    /// Filtered base angle (rad) of a whisker.
+    #[must_use]
+    pub fn deflection(&self, whisker: usize) -> f64 {
+        self.whiskers[whisker].deflection
+    }
+
+    /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.
+    #[must_use]
+    pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
+        let whisker = &self.whiskers[whisker];
+        (whisker.recorded && whisker.touches()).then(|| whisker.tip_world())
+    }
+}
+
+impl Senses for Perception {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn body(&self, quantity: BodyScalar) -> f64 {
+        match quantity {
+            BodyScalar::Yaw => self.body.heading,
+        }
+    }
+
+    fn body_position(&self) -> Vector2 {
+        self.body.position.coords
+    }
+
+    fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
+        let whisker = &self.whiskers[whisker];
+        let truth = |truth: bool| f64::from(u8::from(truth));
+        match quantity {
+            WhiskerScalar::Deflection => whisker.deflection,
+            WhiskerScalar::Touching => truth(whisker.touches()),
+            WhiskerScalar::Yaw => whisker.yaw,
+            WhiskerScalar::Side => whisker.side,
+            WhiskerScalar::Sense if whisker.touches() => whisker.deflection.signum() * whisker.side,
+            WhiskerScalar::Sense => 0.0,
+            WhiskerScalar::Length => whisker.length,
+            WhiskerScalar::ContourReady => truth(whisker.contour.is_ready()),
+            WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
+        }
+    }
+
+    fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
+        let whisker = &self.whiskers[whisker];
+        let undefined = Vector2::new(f64::NAN, f64::NAN);
+        match quantity {
+            WhiskerVector::Tip => whisker.tip_world().coords,
+            WhiskerVector::TipBase => whisker.tip_base(),
+            WhiskerVector::Base => whisker.base_world.coords,
+            WhiskerVector::ContourTangent => whisker.contour.tangent().unwrap_or(undefined),
+            WhiskerVector::ContourEnd => whisker.contour.newest().map_or(undefined, |point| point.coords),
+        }
+    }
+
+    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
+        self.whiskers[whisker].model.contact_base(deflection)
+    }
+
+    fn record(&mut self, whisker: usize) {
+        self.whiskers[whisker].record();
+    }
+}

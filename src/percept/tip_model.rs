@@ -1,0 +1,132 @@
+//! Where a whisker's tip touches, from its base angle alone.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::Vector2;
+
+use crate::rig::Whisker;
+
+use super::chain::ShaftChain;
+
+/// A one-channel tip model: from the base angle to the place where the tip touches.
+///
+/// The base angle alone does not fix the tip; the direction of the contact force matters too. The model takes the direction
+/// that it has while the platform swipes along a surface parallel to its heading, and is exact there; it is about 0.2 mm
+/// off for every degree between the surface and the heading. A bend the other way is taken to be the mirror image.
+///
+/// The curve is fitted to the mechanics of the whisker's own chain: solutions at equal steps of the base angle, joined by
+/// cubics that match them and their slopes.
+#[derive(Debug, Clone)]
+pub struct TipModel {
+    step: f64,
+    /// Places of contact for base angles 0, `step`, 2 `step`, …
+    knots: Vec<Knot>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Knot {
+    contact_base: Vector2<f64>,
+    /// Change of the place for one step of the base angle.
+    slope: Vector2<f64>,
+}
+
+/// The chain of a whisker has no equilibrium where the model needs one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "whisker {whisker}: no tip model beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
+    base_angle * 1e6
+)]
+pub struct TipModelError {
+    whisker: String,
+    base_angle: f64,
+}
+
+/// Greatest base moment of the model, in units of `EI / L`; the reference target is 1.6 of them.
+const MOMENT_RANGE: f64 = 6.0;
+/// Steps of the base angle.
+const STEPS: usize = 120;
+/// The least angle (rad) between the undeflected shaft and the normal of the surface: a shaft that meets a surface head-on
+/// may buckle to either side, so that no model can know.
+const LEAST_SWEEP: f64 = 0.26;
+
+impl TipModel {
+    /// The model of `whisker`.
+    ///
+    /// # Errors
+    /// [`TipModelError`] when its chain has no equilibrium somewhere in the model's range.
+    pub fn new(whisker: &Whisker) -> Result<Self, TipModelError> {
+        let chain = ShaftChain::new(whisker);
+        let force_direction = Self::force_direction(whisker);
+        let shaft = &whisker.shaft;
+        let step = MOMENT_RANGE * shaft.bending_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
+        let normal = Vector2::new(force_direction.cos(), force_direction.sin());
+
+        let mut contacts = Vec::with_capacity(STEPS + 1);
+        let mut solution = chain.straight();
+        let mut before = solution;
+        for index in 0..=STEPS {
+            let base_angle = step * index as f64;
+            let mut guess = solution;
+            // Straight on from the last two solutions; the first step is that of a cantilever under a small force.
+            if index == 1 {
+                guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
+                guess.tip_angle = guess.force * force_direction.sin() * shaft.length.powi(2)
+                    / (2.0 * shaft.bending_stiffness());
+            } else if index > 1 {
+                guess.force += solution.force - before.force;
+                guess.tip_angle += solution.tip_angle - before.tip_angle;
+            }
+            if index > 0 {
+                before = solution;
+                solution = chain
+                    .solve(base_angle, force_direction, &guess)
+                    .ok_or_else(|| TipModelError { whisker: whisker.name.clone(), base_angle })?;
+            }
+            // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
+            contacts.push(solution.tip_base - shaft.radius * normal);
+        }
+        Ok(Self { step, knots: knots(&contacts) })
+    }
+
+    /// Direction (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
+    /// swipes along a surface parallel to its heading.
+    fn force_direction(whisker: &Whisker) -> f64 {
+        let swept_back = (whisker.direction_body.abs() - FRAC_PI_2).max(LEAST_SWEEP);
+        std::f64::consts::PI - swept_back
+    }
+
+    /// Where the tip touches, in the frame of the whisker's base (m), at `base_angle` (rad). Beyond the model's range the
+    /// place at the end of the range.
+    #[must_use]
+    pub fn contact_base(&self, base_angle: f64) -> Vector2<f64> {
+        let last = self.knots.len() - 1;
+        let along = (base_angle.abs() / self.step).min(last as f64);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]
+        let index = (along as usize).min(last - 1);
+        let (a, b) = (&self.knots[index], &self.knots[index + 1]);
+        let u = along - index as f64;
+        let v = 1.0 - u;
+        let place = (1.0 + 2.0 * u) * v * v * a.contact_base
+            + u * v * v * a.slope
+            + (1.0 + 2.0 * v) * u * u * b.contact_base
+            - v * u * u * b.slope;
+        Vector2::new(place.x, place.y * base_angle.signum())
+    }
+}
+
+/// Knots with slopes from their neighbours: central differences of fourth order inside, of lower order at the ends.
+fn knots(contacts: &[Vector2<f64>]) -> Vec<Knot> {
+    let at = |index: usize| contacts[index];
+    let last = contacts.len() - 1;
+    (0..=last)
+        .map(|index| {
+            let slope = match (index, last - index) {
+                (0, _) => 2.0 * at(1) - 1.5 * at(0) - 0.5 * at(2),
+                (_, 0) => 1.5 * at(last) - 2.0 * at(last - 1) + 0.5 * at(last - 2),
+                (1, _) | (_, 1) => (at(index + 1) - at(index - 1)) / 2.0,
+                _ => (8.0 * (at(index + 1) - at(index - 1)) - (at(index + 2) - at(index - 2))) / 12.0,
+            };
+            Knot { contact_base: at(index), slope }
+        })
+        .collect()
+}

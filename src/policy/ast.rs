@@ -1,0 +1,194 @@
+//! The syntax tree of a policy. Every node knows its place in the source.
+
+use crate::diagnostic::Span;
+
+/// A name and where it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) span: Span,
+}
+
+/// A whole file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct File {
+    pub(super) machine: Name,
+    pub(super) whiskers: Vec<Name>,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) initial: Vec<Name>,
+    pub(super) derived: Vec<Derived>,
+    pub(super) laws: Vec<Law>,
+    pub(super) states: Vec<State>,
+    pub(super) always: Vec<Transition>,
+}
+
+/// `param name = value in low .. high`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Parameter {
+    pub(super) name: Name,
+    pub(super) value: Bound,
+    pub(super) range: Option<(Bound, Bound)>,
+}
+
+/// A quantity with its sign.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bound {
+    pub(super) negative: bool,
+    pub(super) quantity: Quantity,
+    pub(super) span: Span,
+}
+
+/// A number and its unit, as written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Quantity {
+    pub(super) number: String,
+    pub(super) unit: Option<Name>,
+    pub(super) span: Span,
+}
+
+/// `name: type`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Argument {
+    pub(super) name: Name,
+    pub(super) type_name: TypeName,
+}
+
+/// `length`, `vector of length`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TypeName {
+    pub(super) base: Name,
+    pub(super) of: Option<Name>,
+}
+
+/// `let name(arguments) = value`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Derived {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
+    pub(super) value: Expression,
+}
+
+/// `law name(arguments) { … }`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Law {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
+    pub(super) body: Vec<Statement>,
+}
+
+/// `state name(arguments) { … }`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct State {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
+    pub(super) body: Vec<Statement>,
+    pub(super) transitions: Vec<Transition>,
+}
+
+/// `when …` and `after …`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Transition {
+    pub(super) guard: Guard,
+    pub(super) target: Target,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Guard {
+    When { condition: Expression, lasting: Option<Expression> },
+    After(Expression),
+}
+
+/// `Name`, `Name(values)`, `Failure("reason")`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Target {
+    pub(super) name: Name,
+    pub(super) text: Option<Name>,
+    pub(super) values: Vec<Expression>,
+    pub(super) span: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Statement {
+    Let { name: Name, value: Expression },
+    /// Conditions with their blocks, tried in order, and the block for when none holds.
+    If { branches: Vec<(Expression, Vec<Statement>)>, otherwise: Vec<Statement> },
+    Do { law: Name, values: Vec<Expression>, span: Span },
+    Record(Expression),
+    Steer(Box<Steer>),
+    Hold,
+    Stop,
+}
+
+/// `steer mover along direction at speed facing angle`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Steer {
+    /// The whisker whose base is to move; `None` for the body.
+    pub(super) whisker: Option<Expression>,
+    pub(super) along: Expression,
+    pub(super) speed: Expression,
+    pub(super) turn: Turn,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Turn {
+    Facing(Expression),
+    Turning(Expression),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Expression {
+    pub(super) kind: Kind,
+    pub(super) span: Span,
+    /// Levels of nesting below, which the parser bounds.
+    pub(super) depth: usize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Kind {
+    Quantity(Quantity),
+    Truth(bool),
+    /// `name`, `name(values)`, `body`
+    Root { name: Name, values: Option<Vec<Expression>> },
+    /// `owner.name`, `owner.name(values)`
+    Member { owner: Box<Expression>, name: Name, values: Option<Vec<Expression>> },
+    Norm(Box<Expression>),
+    Negate(Box<Expression>),
+    Not(Box<Expression>),
+    Binary { operator: Binary, left: Box<Expression>, right: Box<Expression> },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Binary {
+    Or,
+    And,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Equal,
+    Unequal,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+}
+
+impl Binary {
+    /// How the operator is written.
+    pub(super) fn symbol(self) -> &'static str {
+        match self {
+            Self::Or => "or",
+            Self::And => "and",
+            Self::Less => "<",
+            Self::LessOrEqual => "<=",
+            Self::Greater => ">",
+            Self::GreaterOrEqual => ">=",
+            Self::Equal => "==",
+            Self::Unequal => "!=",
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+        }
+    }
+}

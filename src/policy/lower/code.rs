@@ -1,0 +1,102 @@
+//! The code and the registers of a program in the making.
+
+use std::collections::HashMap;
+
+use crate::machine::{Block, Op, Register};
+
+/// The most operations that a program may have; laws that use laws that use laws can multiply.
+const LENGTH_LIMIT: usize = 50_000;
+/// The most registers that a program may have.
+const REGISTER_LIMIT: usize = 60_000;
+
+/// The code and the registers of a program in the making.
+#[derive(Debug)]
+pub(super) struct Code {
+    pub(super) ops: Vec<Op>,
+    /// What registers hold at the start of a run.
+    pub(super) image: Vec<f64>,
+    /// Registers of constants, by their bits.
+    constants: HashMap<u64, Register>,
+    /// Whether the program outgrew its limits, from when on nothing more is written.
+    pub(super) full: bool,
+}
+
+impl Code {
+    pub(super) fn new() -> Self {
+        Self { ops: Vec::new(), image: Vec::new(), constants: HashMap::new(), full: false }
+    }
+
+    /// A fresh place for `width` numbers.
+    pub(super) fn place(&mut self, width: u16) -> Register {
+        if self.image.len() + usize::from(width) > REGISTER_LIMIT {
+            self.full = true;
+            return 0;
+        }
+        let register = Register::try_from(self.image.len()).unwrap_or(0);
+        self.image.resize(self.image.len() + usize::from(width), 0.0);
+        register
+    }
+
+    /// A place that holds `value` from the start.
+    pub(super) fn constant(&mut self, value: f64) -> Register {
+        if let Some(&register) = self.constants.get(&value.to_bits()) {
+            return register;
+        }
+        let register = self.place(1);
+        if let Some(cell) = self.image.get_mut(usize::from(register))
+            && !self.full
+        {
+            *cell = value;
+            self.constants.insert(value.to_bits(), register);
+        }
+        register
+    }
+
+    /// Writes one operation.
+    pub(super) fn push(&mut self, op: Op) {
+        if self.ops.len() >= LENGTH_LIMIT {
+            self.full = true;
+        } else if !self.full {
+            self.ops.push(op);
+        }
+    }
+
+    /// Writes an operation whose result is one number, and says where that will be.
+    pub(super) fn scalar(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
+        let to = self.place(1);
+        self.push(op(to));
+        to
+    }
+
+    /// Writes an operation whose result is a vector, and says where that will be.
+    pub(super) fn vector(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
+        let to = self.place(2);
+        self.push(op(to));
+        to
+    }
+
+    /// Copies `width` numbers.
+    pub(super) fn copy(&mut self, to: Register, from: Register, width: u16) {
+        for offset in 0..width {
+            self.push(Op::Copy { to: to + offset, a: from + offset });
+        }
+    }
+
+    /// Where the next operation will be.
+    pub(super) fn here(&self) -> u32 {
+        u32::try_from(self.ops.len()).unwrap_or(u32::MAX)
+    }
+
+    /// What was written since `start`.
+    pub(super) fn since(&self, start: u32) -> Block {
+        start..self.here()
+    }
+
+    /// Lets the jump at `jump` lead to the next operation.
+    pub(super) fn land(&mut self, jump: u32) {
+        let here = self.here();
+        if let Some(Op::Jump { target } | Op::JumpUnless { target, .. }) = self.ops.get_mut(jump as usize) {
+            *target = here;
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! Expressions.
+
+use crate::diagnostic::{Diagnostic, Span, suggest};
+use crate::machine::Op;
+use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
+use crate::policy::builtins::{self, Member, MemberSource};
+use crate::policy::types::{Type, Value};
+use crate::units::{Dimension, parse_unit, units_of};
+
+use super::Compiler;
+use super::scope::Scope;
+
+impl<'f> Compiler<'f> {
+    /// Writes the code of an expression. `None` when the expression is at fault, which has been reported then.
+    pub(super) fn expression(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
+        match &expression.kind {
+            Kind::Quantity(quantity) => {
+                let (value, dimension) = self.quantity(quantity)?;
+                Some(Value { r#type: Type::Scalar(dimension), register: self.code.constant(value) })
+            }
+            Kind::Truth(truth) => {
+                let register = self.code.constant(f64::from(u8::from(*truth)));
+                Some(Value { r#type: Type::Truth, register })
+            }
+            Kind::Root { name, values } => self.root(scope, name, values.as_deref(), expression.span),
+            Kind::Member { owner, name, values } => self.member(scope, owner, name, values.as_deref()),
+            Kind::Norm(inner) => self.norm(scope, inner),
+            Kind::Negate(inner) => {
+                let value = self.expression(scope, inner)?;
+                match value.r#type {
+                    Type::Scalar(_) | Type::Vector(_) => Some(self.each(value, |to, a| Op::Negate { to, a })),
+                    other => self.mismatch(inner.span, other, "a number or a vector can be negated"),
+                }
+            }
+            Kind::Not(inner) => {
+                let a = self.expect(scope, inner, Type::Truth)?;
+                Some(Value { r#type: Type::Truth, register: self.code.scalar(|to| Op::Not { to, a: a.register }) })
+            }
+            Kind::Binary { operator, left, right } => {
+                let (left_value, right_value) = (self.expression(scope, left), self.expression(scope, right));
+                self.binary(*operator, (left_value?, left.span), (right_value?, right.span))
+            }
+        }
+    }
+
+    /// Writes the code of an expression that must have a type.
+    pub(super) fn expect(&mut self, scope: &Scope<'f>, expression: &'f Expression, wanted: Type) -> Option<Value> {
+        let value = self.expression(scope, expression)?;
+        if value.r#type == wanted {
+            return Some(value);
+        }
+        let mut diagnostic = Diagnostic::error(
+            "P0301",
+            format!("this must be {wanted}, not {}", value.r#type),
+            expression.span,
+            format!("is {}", value.r#type),
+        );
+        if let (Type::Scalar(wanted), Type::Scalar(Dimension::NUMBER)) = (wanted, value.r#type) {
+            diagnostic = diagnostic.hint(format!("give it a unit, such as {}", units_of(wanted).join(", ")));
+        }
+        self.report(diagnostic);
+        None
+    }
+
+    /// The SI value and the dimension of a number with a unit.
+    pub(super) fn quantity(&mut self, quantity: &Quantity) -> Option<(f64, Dimension)> {
+        // The grammar lets nothing through that is not a number.
+        let number: f64 = quantity.number.parse().unwrap_or(f64::NAN);
+        let (value, dimension) = match &quantity.unit {
+            None => (number, Dimension::NUMBER),
+            Some(unit) => match parse_unit(&unit.text.replace('*', " ")) {
+                Ok(known) => (known.to_si(number), known.dimension()),
+                Err(error) => {
+                    let message = format!("`{}` is not a unit", unit.text);
+                    let diagnostic = Diagnostic::error("P0302", message, unit.span, error.to_string());
+                    self.report(diagnostic.hint(error.hint()));
+                    return None;
+                }
+            },
+        };
+        if !value.is_finite() {
+            let diagnostic = Diagnostic::error("P0303", "the number is too large", quantity.span, "not finite");
+            self.report(diagnostic.hint("write a number that a 64-bit float can hold"));
+            return None;
+        }
+        Some((value, dimension))
+    }
+
+    fn root(
+        &mut self,
+        scope: &Scope<'f>,
+        name: &'f Name,
+        values: Option<&'f [Expression]>,
+        span: Span,
+    ) -> Option<Value> {
+        if let Some(derived) = self.derived.get(name.text.as_str()).copied() {
+            return self.derived_value(scope, derived, values.unwrap_or_default(), span);
+        }
+        if let Some((function, usage)) = builtins::function(&name.text) {
+            return self.function(scope, function, usage, values.unwrap_or_default(), span);
+        }
+        let value = scope.get(&name.text).or_else(|| self.globals.get(name.text.as_str()).copied());
+        let value = value.or_else(|| match name.text.as_str() {
+            "body" => Some(Value { r#type: Type::Body, register: 0 }),
+            "time" => Some(Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) }),
+            _ => None,
+        });
+        let Some(value) = value else {
+            self.unknown_name(scope, name);
+            return None;
+        };
+        if values.is_some() {
+            let message = format!("`{}` is {} and takes no values", name.text, value.r#type);
+            self.report(Diagnostic::error("P0304", message, span, "called like a function").hint("leave out the parentheses"));
+            return None;
+        }
+        Some(value)
+    }
+
+    fn member(
+        &mut self,
+        scope: &Scope<'f>,
+        owner: &'f Expression,
+        name: &'f Name,
+        values: Option<&'f [Expression]>,
+    ) -> Option<Value> {
+        let value = self.expression(scope, owner)?;
+        let members = builtins::members(value.r#type);
+        let Some(&member) = members.iter().find(|member| member.name == name.text) else {
+            let message = format!("{} has no `{}`", value.r#type, name.text);
+            let mut diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
+            if let Some(meant) = suggest(&name.text, members.iter().map(|member| member.name)) {
+                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
+            }
+            if !members.is_empty() {
+                let known: Vec<&str> = members.iter().map(|member| member.name).collect();
+                diagnostic = diagnostic.hint(format!("{} has {}", value.r#type, known.join(", ")));
+            }
+            self.report(diagnostic);
+            return None;
+        };
+        self.member_value(scope, value, member, name, values)
+    }
+
+    fn member_value(
+        &mut self,
+        scope: &Scope<'f>,
+        owner: Value,
+        member: Member,
+        name: &'f Name,
+        values: Option<&'f [Expression]>,
+    ) -> Option<Value> {
+        let whisker = owner.register;
+        let register = match (member.source, values) {
+            (MemberSource::TipAt, Some([deflection])) => {
+                let a = self.expect(scope, deflection, Type::ANGLE)?.register;
+                self.code.vector(|to| Op::TipAt { to, whisker, a })
+            }
+            (MemberSource::TipAt, _) => {
+                let message = format!("`{}` needs one value, the deflection", name.text);
+                let diagnostic = Diagnostic::error("P0304", message, name.span, "which deflection?");
+                self.report(diagnostic.hint(format!("write `{}(300 urad)`", name.text)));
+                return None;
+            }
+            (_, Some(_)) => {
+                let message = format!("`{}` takes no values", name.text);
+                let diagnostic = Diagnostic::error("P0304", message, name.span, "called like a function");
+                self.report(diagnostic.hint("leave out the parentheses"));
+                return None;
+            }
+            (MemberSource::Contour, None) => whisker,
+            (MemberSource::Scalar(quantity), None) => self.code.scalar(|to| Op::Whisker { to, whisker, quantity }),
+            (MemberSource::Vector(quantity), None) => {
+                self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity })
+            }
+            (MemberSource::Body(quantity), None) => self.code.scalar(|to| Op::Body { to, quantity }),
+            (MemberSource::BodyPosition, None) => self.code.vector(|to| Op::BodyPosition { to }),
+        };
+        Some(Value { r#type: member.r#type, register })
+    }
+
+    fn norm(&mut self, scope: &Scope<'f>, inner: &'f Expression) -> Option<Value> {
+        let Value { r#type, register: a } = self.expression(scope, inner)?;
+        match r#type {
+            Type::Vector(dimension) => {
+                let register = self.code.scalar(|to| Op::Norm { to, a });
+                Some(Value { r#type: Type::Scalar(dimension), register })
+            }
+            Type::Scalar(_) => Some(Value { r#type, register: self.code.scalar(|to| Op::Absolute { to, a }) }),
+            other => self.mismatch(inner.span, other, "only a number or a vector has a magnitude"),
+        }
+    }
+
+    fn binary(&mut self, operator: Binary, left: (Value, Span), right: (Value, Span)) -> Option<Value> {
+        let ((left, left_span), (right, right_span)) = (left, right);
+        let (a, b) = (left.register, right.register);
+        let truth = |register| Some(Value { r#type: Type::Truth, register });
+        match (operator, left.r#type, right.r#type) {
+            (Binary::Or, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::Or { to, a, b })),
+            (Binary::And, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::And { to, a, b })),
+            (Binary::Less, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                truth(self.code.scalar(|to| Op::Less { to, a, b }))
+            }
+            (Binary::Greater, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                truth(self.code.scalar(|to| Op::Less { to, a: b, b: a }))
+            }
+            (Binary::LessOrEqual, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                truth(self.code.scalar(|to| Op::LessOrEqual { to, a, b }))
+            }
+            (Binary::GreaterOrEqual, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                truth(self.code.scalar(|to| Op::LessOrEqual { to, a: b, b: a }))
+            }
+            (Binary::Equal | Binary::Unequal, l, r)
+                if l == r && matches!(l, Type::Truth | Type::Whisker | Type::Scalar(_)) =>
+            {
+                let equal = self.code.scalar(|to| Op::Equal { to, a, b });
+                truth(if operator == Binary::Equal {
+                    equal
+                } else {
+                    self.code.scalar(|to| Op::Not { to, a: equal })
+                })
+            }
+            (Binary::Add, Type::Scalar(l), Type::Scalar(r)) | (Binary::Add, Type::Vector(l), Type::Vector(r))
+                if l == r =>
+            {
+                Some(self.pairwise(left, right, |to, a, b| Op::Add { to, a, b }))
+            }
+            (Binary::Subtract, Type::Scalar(l), Type::Scalar(r))
+            | (Binary::Subtract, Type::Vector(l), Type::Vector(r))
+                if l == r =>
+            {
+                Some(self.pairwise(left, right, |to, a, b| Op::Subtract { to, a, b }))
+            }
+            (Binary::Multiply, Type::Scalar(l), Type::Scalar(r)) => {
+                let r#type = Type::Scalar(self.dimension(l.checked_mul(r), left_span.to(right_span))?);
+                Some(Value { r#type, register: self.code.scalar(|to| Op::Multiply { to, a, b }) })
+            }
+            (Binary::Multiply, Type::Scalar(l), Type::Vector(r)) => {
+                let dimension = self.dimension(l.checked_mul(r), left_span.to(right_span))?;
+                Some(self.scaled(right, left, dimension, |to, a, b| Op::Multiply { to, a, b }))
+            }
+            (Binary::Multiply, Type::Vector(l), Type::Scalar(r)) => {
+                let dimension = self.dimension(l.checked_mul(r), left_span.to(right_span))?;
+                Some(self.scaled(left, right, dimension, |to, a, b| Op::Multiply { to, a, b }))
+            }
+            (Binary::Divide, Type::Scalar(l), Type::Scalar(r)) => {
+                let r#type = Type::Scalar(self.dimension(l.checked_div(r), left_span.to(right_span))?);
+                Some(Value { r#type, register: self.code.scalar(|to| Op::Divide { to, a, b }) })
+            }
+            (Binary::Divide, Type::Vector(l), Type::Scalar(r)) => {
+                let dimension = self.dimension(l.checked_div(r), left_span.to(right_span))?;
+                Some(self.scaled(left, right, dimension, |to, a, b| Op::Divide { to, a, b }))
+            }
+            (_, left_type, right_type) => {
+                let message = format!("`{}` does not go with {left_type} and {right_type}", operator.symbol());
+                let mut diagnostic = Diagnostic::error("P0301", message, left_span.to(right_span), "")
+                    .note(left_span, format!("is {left_type}"))
+                    .note(right_span, format!("is {right_type}"));
+                if let Some(hint) = binary_hint(operator, left_type, right_type) {
+                    diagnostic = diagnostic.hint(hint);
+                }
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    /// The dimension of a product, unless its exponents went out of range.
+    pub(super) fn dimension(&mut self, dimension: Option<Dimension>, span: Span) -> Option<Dimension> {
+        if dimension.is_none() {
+            let diagnostic = Diagnostic::error("P0305", "the dimension has too large an exponent", span, "of this");
+            self.report(diagnostic.hint("no physical quantity needs such a power; divide first"));
+        }
+        dimension
+    }
+
+    /// Reports a value of a type that does not belong.
+    pub(super) fn mismatch<T>(&mut self, span: Span, found: Type, rule: &str) -> Option<T> {
+        self.report(Diagnostic::error("P0301", rule, span, format!("is {found}")));
+        None
+    }
+
+    /// Applies an operation to a number, or to both parts of a vector.
+    fn each(&mut self, value: Value, op: impl Fn(u16, u16) -> Op) -> Value {
+        let register = self.code.place(value.r#type.width());
+        for part in 0..value.r#type.width() {
+            self.code.push(op(register + part, value.register + part));
+        }
+        Value { r#type: value.r#type, register }
+    }
+
+    /// Applies an operation to two numbers, or part by part to two vectors, of one type.
+    pub(super) fn pairwise(&mut self, left: Value, right: Value, op: impl Fn(u16, u16, u16) -> Op) -> Value {
+        let register = self.code.place(left.r#type.width());
+        for part in 0..left.r#type.width() {
+            self.code.push(op(register + part, left.register + part, right.register + part));
+        }
+        Value { r#type: left.r#type, register }
+    }
+
+    /// Applies an operation to both parts of a vector and a number.
+    fn scaled(&mut self, vector: Value, by: Value, dimension: Dimension, op: impl Fn(u16, u16, u16) -> Op) -> Value {
+        let register = self.code.place(2);
+        for part in 0..2 {
+            self.code.push(op(register + part, vector.register + part, by.register));
+        }
+        Value { r#type: Type::Vector(dimension), register }
+    }
+}
+
+/// What to do about operands that do not go together.
+fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
+    match (operator, left, right) {
+        (_, Type::Scalar(dimension), Type::Scalar(Dimension::NUMBER))
+        | (_, Type::Scalar(Dimension::NUMBER), Type::Scalar(dimension)) => {
+            Some(format!("give the plain number a unit, such as {}", units_of(dimension).join(", ")))
+        }
+        (Binary::Multiply, Type::Vector(_), Type::Vector(_)) => Some("write `dot(a, b)` or `cross(a, b)`".to_owned()),
+        (Binary::Less | Binary::Greater, Type::Vector(_), _) => Some("compare its length, `|v|`".to_owned()),
+        _ => None,
+    }
+}

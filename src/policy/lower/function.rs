@@ -1,0 +1,197 @@
+//! Calls: of the language's functions, and of derived values.
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::machine::Op;
+use crate::policy::ast::{Derived, Expression};
+use crate::policy::builtins::Function;
+use crate::policy::types::{Type, Value};
+use crate::units::Dimension;
+
+use super::Compiler;
+use super::scope::Scope;
+
+impl<'f> Compiler<'f> {
+    /// Writes a call of one of the language's functions.
+    pub(super) fn function(
+        &mut self,
+        scope: &Scope<'f>,
+        function: Function,
+        usage: &str,
+        values: &'f [Expression],
+        span: Span,
+    ) -> Option<Value> {
+        let given: Vec<Option<Value>> = values.iter().map(|value| self.expression(scope, value)).collect();
+        let given: Vec<Value> = given.into_iter().collect::<Option<_>>()?;
+        let types: Vec<Type> = given.iter().map(|value| value.r#type).collect();
+        let register = |index: usize| given[index].register;
+        let scalar = |dimension, register| Some(Value { r#type: Type::Scalar(dimension), register });
+        let vector = |dimension, register| Some(Value { r#type: Type::Vector(dimension), register });
+        match (function, types.as_slice()) {
+            (Function::Abs, &[Type::Scalar(dimension)]) => {
+                scalar(dimension, self.code.scalar(|to| Op::Absolute { to, a: register(0) }))
+            }
+            (Function::Sign, [Type::Scalar(_)]) => {
+                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Sign { to, a: register(0) }))
+            }
+            (Function::Sqrt, &[Type::Scalar(dimension)]) if square_root(dimension).is_some() => {
+                let root = square_root(dimension)?;
+                scalar(root, self.code.scalar(|to| Op::SquareRoot { to, a: register(0) }))
+            }
+            (Function::Min, &[Type::Scalar(a), Type::Scalar(b)]) if a == b => {
+                scalar(a, self.code.scalar(|to| Op::Minimum { to, a: register(0), b: register(1) }))
+            }
+            (Function::Max, &[Type::Scalar(a), Type::Scalar(b)]) if a == b => {
+                scalar(a, self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) }))
+            }
+            (Function::Clamp, &[Type::Scalar(a), Type::Scalar(b), Type::Scalar(c)]) if a == b && b == c => {
+                let raised = self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) });
+                scalar(a, self.code.scalar(|to| Op::Minimum { to, a: raised, b: register(2) }))
+            }
+            (Function::Sin, &[Type::ANGLE]) => {
+                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Sine { to, a: register(0) }))
+            }
+            (Function::Cos, &[Type::ANGLE]) => {
+                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Cosine { to, a: register(0) }))
+            }
+            (Function::Direction, &[Type::ANGLE]) => {
+                let to = self.code.place(2);
+                self.code.push(Op::Cosine { to, a: register(0) });
+                self.code.push(Op::Sine { to: to + 1, a: register(0) });
+                vector(Dimension::NUMBER, to)
+            }
+            (Function::Vector, &[Type::Scalar(x), Type::Scalar(y)]) if x == y => {
+                let to = self.code.place(2);
+                self.code.push(Op::Copy { to, a: register(0) });
+                self.code.push(Op::Copy { to: to + 1, a: register(1) });
+                vector(x, to)
+            }
+            (Function::Unit, [Type::Vector(_)]) => {
+                vector(Dimension::NUMBER, self.code.vector(|to| Op::Unit { to, a: register(0) }))
+            }
+            (Function::Angle, [Type::Vector(_)]) => {
+                scalar(Dimension::ANGLE, self.code.scalar(|to| Op::Angle { to, a: register(0) }))
+            }
+            (Function::Rotate, &[Type::Vector(dimension), Type::ANGLE]) => {
+                vector(dimension, self.code.vector(|to| Op::Rotate { to, a: register(0), b: register(1) }))
+            }
+            (Function::Turn, &[Type::ANGLE, Type::ANGLE]) => {
+                let difference = self.code.scalar(|to| Op::Subtract { to, a: register(1), b: register(0) });
+                scalar(Dimension::ANGLE, self.code.scalar(|to| Op::Wrap { to, a: difference }))
+            }
+            (Function::Dot | Function::Cross, &[Type::Vector(a), Type::Vector(b)]) => {
+                let dimension = self.dimension(a.checked_mul(b), span)?;
+                scalar(dimension, self.product(function, register(0), register(1)))
+            }
+            _ => {
+                let found: Vec<String> = types.iter().map(ToString::to_string).collect();
+                let found = if found.is_empty() { "nothing".to_owned() } else { found.join(", ") };
+                let message = format!("`{usage}` does not take {found}");
+                self.report(Diagnostic::error("P0304", message, span, "these values").hint(expectation(function)));
+                None
+            }
+        }
+    }
+
+    /// The dot or the cross product of two vectors.
+    fn product(&mut self, function: Function, a: u16, b: u16) -> u16 {
+        let crossed = u16::from(function == Function::Cross);
+        let first = self.code.scalar(|to| Op::Multiply { to, a, b: b + crossed });
+        let second = self.code.scalar(|to| Op::Multiply { to, a: a + 1, b: b + 1 - crossed });
+        self.code.scalar(|to| {
+            if function == Function::Cross {
+                Op::Subtract { to, a: first, b: second }
+            } else {
+                Op::Add { to, a: first, b: second }
+            }
+        })
+    }
+
+    /// Writes a derived value into the place of its use.
+    pub(super) fn derived_value(
+        &mut self,
+        scope: &Scope<'f>,
+        derived: &'f Derived,
+        values: &'f [Expression],
+        span: Span,
+    ) -> Option<Value> {
+        let inner = self.arguments(scope, &derived.name, &derived.arguments, values, span)?;
+        self.writing.push(&derived.name.text);
+        let value = self.expression(&inner, &derived.value);
+        self.writing.pop();
+        value
+    }
+
+    /// The scope of a law or derived value that is used with `values`. `None` if these do not fit, or if it is broken or uses
+    /// itself; all of that has been reported then.
+    pub(super) fn arguments(
+        &mut self,
+        scope: &Scope<'f>,
+        name: &'f crate::policy::ast::Name,
+        arguments: &'f [crate::policy::ast::Argument],
+        values: &'f [Expression],
+        span: Span,
+    ) -> Option<Scope<'f>> {
+        if self.writing.contains(&name.text.as_str()) {
+            let chain = self.writing.join("` uses `");
+            let message = format!("`{}` uses itself (`{chain}` uses `{}`)", name.text, name.text);
+            self.report(
+                Diagnostic::error("P0401", message, span, "used within itself")
+                    .hint("a tick does a bounded amount of work: there is no recursion; keep memory in states instead"),
+            );
+            return None;
+        }
+        if values.len() != arguments.len() {
+            let message = format!("`{}` takes {}, not {}", name.text, count(arguments.len()), values.len());
+            let names: Vec<&str> = arguments.iter().map(|argument| argument.name.text.as_str()).collect();
+            self.report(
+                Diagnostic::error("P0304", message, span, "used here")
+                    .note(name.span, "made here")
+                    .hint(format!("write `{}({})`", name.text, names.join(", "))),
+            );
+            return None;
+        }
+        let mut inner = Scope::default();
+        let mut complete = true;
+        for (argument, value) in arguments.iter().zip(values) {
+            // An unknown type is reported where the law itself is checked.
+            let of = argument.type_name.of.as_ref().map(|of| of.text.as_str());
+            let r#type = Type::named(&argument.type_name.base.text, of)?;
+            match self.expect(scope, value, r#type) {
+                Some(value) => inner.insert(&argument.name.text, value),
+                None => complete = false,
+            }
+        }
+        (complete && !self.broken.contains(&name.text.as_str())).then_some(inner)
+    }
+}
+
+fn count(values: usize) -> String {
+    match values {
+        0 => "no values".to_owned(),
+        1 => "1 value".to_owned(),
+        more => format!("{more} values"),
+    }
+}
+
+/// The dimension whose square is `dimension`, if there is one.
+fn square_root(dimension: Dimension) -> Option<Dimension> {
+    let Dimension { length, angle, time, mass } = dimension;
+    let even = [length, angle, time, mass].iter().all(|exponent| exponent % 2 == 0);
+    even.then(|| Dimension::new(length / 2, angle / 2, time / 2, mass / 2))
+}
+
+/// What a function takes.
+fn expectation(function: Function) -> &'static str {
+    match function {
+        Function::Abs | Function::Sign => "it takes one number of any dimension",
+        Function::Sqrt => "it takes one number whose dimension is a square, such as an area",
+        Function::Min | Function::Max => "it takes two numbers of one dimension",
+        Function::Clamp => "it takes three numbers of one dimension: what to clamp, the least, the greatest",
+        Function::Sin | Function::Cos | Function::Direction => "it takes one angle",
+        Function::Vector => "it takes two numbers of one dimension",
+        Function::Unit | Function::Angle => "it takes one vector",
+        Function::Rotate => "it takes a vector and an angle",
+        Function::Turn => "it takes two angles and gives the shorter turn from the first to the second",
+        Function::Dot | Function::Cross => "it takes two vectors",
+    }
+}

@@ -1,0 +1,60 @@
+//! Parameters.
+
+use crate::diagnostic::Diagnostic;
+use crate::machine;
+use crate::policy::ast::{Bound, Parameter};
+use crate::units::{Dimension, format_si, parse_unit};
+
+use super::Compiler;
+
+impl<'f> Compiler<'f> {
+    /// Checks a parameter. The one with index `i` must come as the `i`th.
+    pub(super) fn parameter(&mut self, parameter: &'f Parameter) -> Option<machine::Parameter> {
+        let (default, dimension) = self.bound(&parameter.value, None)?;
+        let range = match &parameter.range {
+            None => None,
+            Some((low, high)) => {
+                let (high_value, high_dimension) = self.bound(high, None)?;
+                // `in 1 .. 200 mm/s`: the unit behind the range is that of both ends.
+                let (low_value, low_dimension) = self.bound(low, Some(high))?;
+                for (bound, found) in [(low, low_dimension), (high, high_dimension)] {
+                    if found != dimension {
+                        let message = format!("the range of `{}` is in another dimension", parameter.name.text);
+                        self.report(
+                            Diagnostic::error("P0301", message, bound.span, format!("is {}", found.phrase()))
+                                .note(parameter.value.span, format!("is {}", dimension.phrase())),
+                        );
+                        return None;
+                    }
+                }
+                Some((low_value, high_value))
+            }
+        };
+        if let (Some((low, high)), Some((low_bound, high_bound))) = (range, &parameter.range) {
+            let show = |value| format_si(value, dimension);
+            if low > high {
+                let message = format!("the range of `{}` is empty", parameter.name.text);
+                let label = format!("{} is more than {}", show(low), show(high));
+                let diagnostic = Diagnostic::error("P0306", message, low_bound.span.to(high_bound.span), label);
+                self.report(diagnostic.hint("write the lesser end first"));
+            } else if !(low..=high).contains(&default) {
+                let message = format!("`{}` is outside of its own range", parameter.name.text);
+                let label = format!("not between {} and {}", show(low), show(high));
+                let diagnostic = Diagnostic::error("P0306", message, parameter.value.span, label);
+                self.report(diagnostic.note(low_bound.span.to(high_bound.span), "the range"));
+            }
+        }
+        Some(machine::Parameter { name: parameter.name.text.clone(), dimension, default, range })
+    }
+
+    /// A bound's SI value and dimension; without a unit of its own it takes that of `other`.
+    fn bound(&mut self, bound: &'f Bound, other: Option<&'f Bound>) -> Option<(f64, Dimension)> {
+        let (mut value, mut dimension) = self.quantity(&bound.quantity)?;
+        if let (None, Some(unit)) = (&bound.quantity.unit, other.and_then(|other| other.quantity.unit.as_ref()))
+            && let Ok(unit) = parse_unit(&unit.text.replace('*', " "))
+        {
+            (value, dimension) = (unit.to_si(value), unit.dimension());
+        }
+        Some((if bound.negative { -value } else { value }, dimension))
+    }
+}

@@ -1,0 +1,106 @@
+//! Statements.
+
+use crate::diagnostic::{Diagnostic, Span, suggest};
+use crate::machine::Op;
+use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
+use crate::policy::types::{Type, Value};
+
+use super::Compiler;
+use super::scope::Scope;
+
+impl<'f> Compiler<'f> {
+    /// Writes the code of statements; names given in them end with them.
+    pub(super) fn statements(&mut self, scope: &mut Scope<'f>, statements: &'f [Statement]) {
+        let names = scope.len();
+        for statement in statements {
+            // Whatever is at fault has been reported; the next statement may have faults of its own.
+            let _ = self.statement(scope, statement);
+        }
+        scope.truncate(names);
+    }
+
+    fn statement(&mut self, scope: &mut Scope<'f>, statement: &'f Statement) -> Option<()> {
+        match statement {
+            Statement::Let { name, value } => {
+                let value = self.expression(scope, value)?;
+                self.bind(scope, name, value);
+            }
+            Statement::If { branches, otherwise } => self.conditional(scope, branches, otherwise),
+            Statement::Do { law, values, span } => self.apply(scope, law, values, *span)?,
+            Statement::Record(whisker) => {
+                let whisker = self.expect(scope, whisker, Type::Whisker)?.register;
+                self.code.push(Op::Record { whisker });
+            }
+            Statement::Steer(steer) => self.steer(scope, steer)?,
+            Statement::Hold => self.code.push(Op::Hold),
+            Statement::Stop => self.code.push(Op::Stop),
+        }
+        Some(())
+    }
+
+    fn conditional(
+        &mut self,
+        scope: &mut Scope<'f>,
+        branches: &'f [(Expression, Vec<Statement>)],
+        otherwise: &'f [Statement],
+    ) {
+        let mut exits = Vec::new();
+        for (condition, block) in branches {
+            let a = self.expect(scope, condition, Type::Truth).map_or(0, |value| value.register);
+            let skip = self.code.here();
+            self.code.push(Op::JumpUnless { a, target: skip + 1 });
+            self.statements(scope, block);
+            exits.push(self.code.here());
+            self.code.push(Op::Jump { target: skip + 1 });
+            self.code.land(skip);
+        }
+        self.statements(scope, otherwise);
+        for exit in exits {
+            self.code.land(exit);
+        }
+    }
+
+    fn apply(&mut self, scope: &Scope<'f>, name: &'f Name, values: &'f [Expression], span: Span) -> Option<()> {
+        let Some(law) = self.laws.get(name.text.as_str()).copied() else {
+            let message = format!("there is no law `{}`", name.text);
+            let mut diagnostic = Diagnostic::error("P0201", message, name.span, "unknown law");
+            let mut known: Vec<&str> = self.laws.keys().copied().collect();
+            known.sort_unstable();
+            if let Some(meant) = suggest(&name.text, known) {
+                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
+            }
+            self.report(diagnostic);
+            return None;
+        };
+        let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
+        self.writing.push(&law.name.text);
+        self.statements(&mut inner, &law.body);
+        self.writing.pop();
+        Some(())
+    }
+
+    fn steer(&mut self, scope: &Scope<'f>, steer: &'f Steer) -> Option<()> {
+        let whisker = match &steer.whisker {
+            None => Some(None),
+            Some(whisker) => self.expect(scope, whisker, Type::Whisker).map(|value| Some(value.register)),
+        };
+        let along = self.expression(scope, &steer.along).and_then(|value| match value.r#type {
+            Type::Vector(_) => Some(value.register),
+            other => self.mismatch(steer.along.span, other, "the direction of a motion must be a vector"),
+        });
+        let speed = self.expect(scope, &steer.speed, Type::SPEED);
+        let turn = match &steer.turn {
+            Turn::Facing(heading) => self.expect(scope, heading, Type::ANGLE),
+            Turn::Turning(rate) => self.expect(scope, rate, Type::ANGULAR_SPEED),
+        };
+        let (whisker, along) = (whisker?, along?);
+        let (Value { register: speed, .. }, Value { register: turned, .. }) = (speed?, turn?);
+        self.code.push(match (whisker, &steer.turn) {
+            (None, Turn::Facing(_)) => Op::SteerBodyFacing { along, speed, heading: turned },
+            (None, Turn::Turning(_)) => Op::SteerBodyTurning { along, speed, rate: turned },
+            (Some(whisker), Turn::Facing(_)) => Op::SteerWhiskerFacing { whisker, along, speed, heading: turned },
+            (Some(whisker), Turn::Turning(_)) => Op::SteerWhiskerTurning { whisker, along, speed, rate: turned },
+        });
+        Some(())
+    }
+}

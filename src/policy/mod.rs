@@ -1,0 +1,30 @@
+//! The compiler of the policy language: from text to a [`Program`](crate::machine::Program).
+//!
+//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
+//! types and units and writes the machine's code. `builtins` is the one table of what the language offers.
+
+mod ast;
+mod builtins;
+mod grammar;
+mod lower;
+mod parse;
+mod types;
+
+use crate::diagnostic::{Diagnostic, Source};
+use crate::machine::Program;
+
+/// Compiles the text of a policy.
+///
+/// # Errors
+/// Every fault that was found, in the order of their places: one of syntax, or all of names, types, units and structure.
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::compile};
+/// let source = Source::new("still.fsm", "machine still  initial Still  state Still { stop }");
+/// assert_eq!(&*compile(&source)?.states[0].name, "Still");
+/// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
+/// ```
+pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
+    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    lower::lower(&file)
+}

@@ -1,0 +1,86 @@
+//! The types of the language.
+
+use std::fmt;
+
+use crate::machine::Register;
+use crate::units::Dimension;
+
+/// The type of a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Type {
+    Truth,
+    Scalar(Dimension),
+    Vector(Dimension),
+    Whisker,
+    /// The contour behind a whisker's tip.
+    Contour,
+    /// The platform.
+    Body,
+}
+
+impl Type {
+    pub(super) const NUMBER: Self = Self::Scalar(Dimension::NUMBER);
+    pub(super) const LENGTH: Self = Self::Scalar(Dimension::LENGTH);
+    pub(super) const ANGLE: Self = Self::Scalar(Dimension::ANGLE);
+    pub(super) const TIME: Self = Self::Scalar(Dimension::TIME);
+    pub(super) const SPEED: Self = Self::Scalar(Dimension::SPEED);
+    pub(super) const ANGULAR_SPEED: Self = Self::Scalar(Dimension::ANGULAR_SPEED);
+
+    /// How many registers a value takes.
+    pub(super) fn width(self) -> u16 {
+        if matches!(self, Self::Vector(_)) { 2 } else { 1 }
+    }
+
+    /// The type that `base`, or `base of of`, names.
+    pub(super) fn named(base: &str, of: Option<&str>) -> Option<Self> {
+        match (base, of) {
+            ("whisker", None) => Some(Self::Whisker),
+            ("truth", None) => Some(Self::Truth),
+            ("vector", None) => Some(Self::Vector(Dimension::NUMBER)),
+            ("vector", Some(of)) => dimension(of).map(Self::Vector),
+            (base, None) => dimension(base).map(Self::Scalar),
+            _ => None,
+        }
+    }
+}
+
+/// The dimensions that type names can name.
+pub(super) const DIMENSIONS: [(&str, Dimension); 12] = [
+    ("number", Dimension::NUMBER),
+    ("length", Dimension::LENGTH),
+    ("angle", Dimension::ANGLE),
+    ("time", Dimension::TIME),
+    ("area", Dimension::AREA),
+    ("speed", Dimension::SPEED),
+    ("acceleration", Dimension::ACCELERATION),
+    ("angular_speed", Dimension::ANGULAR_SPEED),
+    ("angular_acceleration", Dimension::ANGULAR_ACCELERATION),
+    ("frequency", Dimension::FREQUENCY),
+    ("force", Dimension::FORCE),
+    ("moment", Dimension::MOMENT),
+];
+
+fn dimension(name: &str) -> Option<Dimension> {
+    DIMENSIONS.iter().find(|(known, _)| *known == name).map(|&(_, dimension)| dimension)
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Truth => f.write_str("a truth"),
+            Self::Scalar(dimension) => f.write_str(&dimension.phrase()),
+            Self::Vector(Dimension::NUMBER) => f.write_str("a vector of plain numbers"),
+            Self::Vector(dimension) => write!(f, "a vector in {}", dimension.si_unit()),
+            Self::Whisker => f.write_str("a whisker"),
+            Self::Contour => f.write_str("a contour"),
+            Self::Body => f.write_str("the body"),
+        }
+    }
+}
+
+/// A value that code computes: its type and where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Value {
+    pub(super) r#type: Type,
+    pub(super) register: Register,
+}
