@@ -2,4 +2,13 @@
 
 pub mod diagnostic;
 pub mod geometry;
+pub mod machine;
+pub mod motion;
+pub mod percept;
+pub mod policy;
+pub mod rig;
+pub mod run;
+pub mod scene;
+pub mod signal;
 pub mod units;
+pub mod world;

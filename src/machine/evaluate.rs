@@ -1,6 +1,6 @@
 //! The evaluator: runs a block of code over the registers.
 
-use crate::geometry::{Vector2, angle};
+use crate::geometry::{Vector2, rotate, wrap};
 
 use super::action::{Action, Mover, Turn};
 use super::op::{Block, Op, Register, Wide};
@@ -33,7 +33,7 @@ pub(super) fn evaluate<S: Senses>(
             Op::Maximum { to, a, b } => file.put(to, -minimum(-file.at(a), -file.at(b))),
             Op::Sine { to, a } => file.put(to, file.at(a).sin()),
             Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
-            Op::Wrap { to, a } => file.put(to, angle::wrap(file.at(a))),
+            Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
             Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
             Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
             #[expect(clippy::float_cmp, reason = "the language's == is exact; it compares truths and whiskers")]
@@ -47,7 +47,7 @@ pub(super) fn evaluate<S: Senses>(
                 let vector = file.vector(a);
                 file.put(to, vector.y.atan2(vector.x));
             }
-            Op::Rotate { to, a, b } => file.put_vector(to, angle::rotate(file.vector(a), file.at(b))),
+            Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),
             Op::Time { to } => file.put(to, senses.time()),
             Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
             Op::BodyPosition { to } => file.put_vector(to, senses.body_position()),

@@ -1,6 +1,6 @@
 //! Steering a body or a whisker.
 
-use crate::geometry::{Pose, Vector2, angle};
+use crate::geometry::{Pose, Vector2, turn_between};
 use crate::machine::{Action, Mover, Turn};
 use crate::rig::Rig;
 use crate::signal::Command;
@@ -49,7 +49,7 @@ impl Steering {
                 let yaw_rate = match turn {
                     Turn::Rate(rate) => rate,
                     Turn::Facing(heading) => {
-                        self.yaw_controller.next(angle::turn_between(body.heading, heading), self.period)
+                        self.yaw_controller.next(turn_between(body.heading, heading), self.period)
                     }
                 };
                 let velocity = speed * unit(along_world);

@@ -76,6 +76,12 @@ impl Perception {
         }
     }
 
+    /// Time of the newest sample (s).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Pose of the platform's centre of mass.
     #[must_use]
     pub fn pose(&self) -> Pose {

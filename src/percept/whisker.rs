@@ -1,6 +1,6 @@
 //! One whisker as perceived.
 
-use crate::geometry::{Point2, Pose, Vector2};
+use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::rig::Whisker;
 
 use super::contour_spline::ContourSpline;
@@ -69,7 +69,7 @@ impl PerceivedWhisker {
 
     /// Where the tip touches, in the world frame (m).
     pub(super) fn tip_world(&self) -> Point2 {
-        self.base_world + crate::geometry::angle::rotate(self.tip_base(), self.yaw)
+        self.base_world + rotate(self.tip_base(), self.yaw)
     }
 
     /// Takes the tip as a point of the contour if it touches. A contour that was left off begins anew.

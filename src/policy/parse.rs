@@ -73,7 +73,7 @@ fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
 }
 
 fn bound(pair: Pair<'_, Rule>) -> Parsed<Bound> {
-    let span = pair.as_span().into();
+    let span = place(&pair);
     let mut reader = Reader::new(pair);
     let negative = reader.has(Rule::minus);
     if negative {
@@ -83,7 +83,7 @@ fn bound(pair: Pair<'_, Rule>) -> Parsed<Bound> {
 }
 
 fn quantity(pair: Pair<'_, Rule>) -> Parsed<Quantity> {
-    let span = pair.as_span().into();
+    let span = place(&pair);
     let mut reader = Reader::new(pair);
     let number = reader.take(Rule::number)?.as_str().to_owned();
     let unit = if reader.has(Rule::unit) { Some(named(&reader.take(Rule::unit)?)) } else { None };
@@ -127,7 +127,7 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
         _ => Guard::When { condition: first, lasting: None },
     };
     let pair = reader.take(Rule::target)?;
-    let span = pair.as_span().into();
+    let span = place(&pair);
     let mut reader = Reader::new(pair);
     let name = reader.name()?;
     let text = if reader.has(Rule::text_argument) {
@@ -146,7 +146,7 @@ fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
 
 fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
     let rule = pair.as_rule();
-    let span: Span = pair.as_span().into();
+    let span = place(&pair);
     let mut reader = Reader::new(pair);
     Ok(match rule {
         Rule::binding => Statement::Let { name: reader.name()?, value: reader.expression()? },
@@ -218,7 +218,7 @@ fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
 
 fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
     let pair = reader.next()?;
-    let span: Span = pair.as_span().into();
+    let span = place(&pair);
     match pair.as_rule() {
         Rule::minus => {
             let inner = climb(reader, PREFIX_POWER)?;
@@ -278,8 +278,12 @@ fn node(kind: Kind, span: Span, depth: usize) -> Parsed<Expression> {
     Ok(Expression { kind, span, depth: depth + 1 })
 }
 
+fn place(pair: &Pair<'_, Rule>) -> Span {
+    Span::new(pair.as_span().start(), pair.as_span().end())
+}
+
 fn named(pair: &Pair<'_, Rule>) -> Name {
-    Name { text: pair.as_str().to_owned(), span: pair.as_span().into() }
+    Name { text: pair.as_str().to_owned(), span: place(pair) }
 }
 
 fn internal(span: Span) -> Box<Diagnostic> {
@@ -295,7 +299,7 @@ struct Reader<'i> {
 
 impl<'i> Reader<'i> {
     fn new(pair: Pair<'i, Rule>) -> Self {
-        let span = pair.as_span().into();
+        let span = place(&pair);
         let mut pairs = pair.into_inner();
         // Words of the grammar that only mark a place carry nothing.
         while pairs.peek().is_some_and(|pair| is_marker(pair.as_rule())) {
@@ -322,7 +326,7 @@ impl<'i> Reader<'i> {
 
     fn take(&mut self, rule: Rule) -> Parsed<Pair<'i, Rule>> {
         let pair = self.next()?;
-        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(pair.as_span().into())) }
+        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(place(&pair))) }
     }
 
     fn name(&mut self) -> Parsed<Name> {

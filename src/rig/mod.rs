@@ -36,6 +36,19 @@ pub struct Platform {
     pub inertia: f64,
     /// Time constant with which the servos take up a commanded velocity or yaw rate (s).
     pub servo: f64,
+    /// The controller that turns the platform to a heading.
+    pub yaw: YawController,
+}
+
+/// The controller that turns the platform to a heading: proportional and integral, with a limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct YawController {
+    /// Yaw rate for a unit of error (1/s).
+    pub proportional: f64,
+    /// Growth of the yaw rate for a unit of error (1/s²).
+    pub integral: f64,
+    /// Greatest yaw rate (rad/s).
+    pub limit: f64,
 }
 
 /// One whisker: where it sits, its shaft, and the spring at its base.
@@ -107,6 +120,8 @@ pub struct Sensing {
     pub angle_noise: f64,
     /// Smallest step of a base angle's reading (rad); 0 is continuous.
     pub angle_resolution: f64,
+    /// Cutoff of the low-pass filter that base angles go through (Hz).
+    pub filter_cutoff: f64,
     /// A base angle beyond this (rad) counts as touching.
     pub contact_threshold: f64,
     /// Whether samples carry shear and axial force at each base.
@@ -163,7 +178,14 @@ impl Default for Platform {
             mass: 0.51,
             inertia: 0.0015,
             servo: 0.05,
+            yaw: YawController::default(),
         }
+    }
+}
+
+impl Default for YawController {
+    fn default() -> Self {
+        Self { proportional: 1.0, integral: 0.3, limit: std::f64::consts::FRAC_PI_2 }
     }
 }
 
@@ -231,6 +253,7 @@ impl Default for Sensing {
             control_rate: 30.0,
             angle_noise: 0.0,
             angle_resolution: 0.0,
+            filter_cutoff: 20.0,
             contact_threshold: 2e-5,
             forces: false,
         }

@@ -43,7 +43,7 @@ impl Solid {
             return Err(SolidError::Open);
         }
         if let [Piece::Arc(arc)] = contour.pieces() {
-            return Ok(Self::Cylinder { centre: arc.centre(), radius: arc.radius() });
+            return Ok(Self::Cylinder { centre: arc.centre, radius: arc.radius });
         }
         if !contour.is_convex() {
             return Err(SolidError::Concave);
@@ -57,9 +57,9 @@ fn chords(piece: &Piece) -> impl Iterator<Item = Point2> {
     let count = match piece {
         Piece::Segment(_) => 1,
         Piece::Arc(arc) => {
-            let widest = 2.0 * (1.0 - SAGITTA / arc.radius()).clamp(-1.0, 1.0).acos();
+            let widest = 2.0 * (1.0 - SAGITTA / arc.radius).clamp(-1.0, 1.0).acos();
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-            let count = (arc.sweep().abs() / widest).ceil().max(1.0) as usize;
+            let count = (arc.sweep.abs() / widest).ceil().max(1.0) as usize;
             count
         }
     };

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 
-use crate::geometry::{Contour, Point2, Pose, Vector2};
+use crate::geometry::{Contour, Point2, Pose};
 use crate::rig::Rig;
 use crate::scene::{SolidError, mjcf};
 use crate::signal::{Command, Sample};
@@ -137,8 +137,8 @@ impl MujocoWorld {
 
 impl World for MujocoWorld {
     fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
-        let Vector2 { x, y } = command.velocity_world;
-        self.data.ctrl_mut().copy_from_slice(&[x, y, command.yaw_rate]);
+        let velocity = command.velocity_world;
+        self.data.ctrl_mut().copy_from_slice(&[velocity.x, velocity.y, command.yaw_rate]);
         self.body_touched = false;
         self.samples.clear();
         for _ in 0..self.samples_per_tick {

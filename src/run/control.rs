@@ -1,0 +1,51 @@
+//! The controller: everything between a sample and a command.
+
+use std::sync::Arc;
+
+use crate::machine::{Machine, Outcome, Program};
+use crate::motion::Steering;
+use crate::percept::{BindError, Perception};
+use crate::rig::Rig;
+use crate::signal::{Command, Sample};
+
+/// Perception, machine and steering of one rig under one policy: all that runs at the control rate.
+#[derive(Debug, Clone)]
+pub struct Control {
+    perception: Perception,
+    machine: Machine,
+    steering: Steering,
+}
+
+impl Control {
+    /// The controller of `rig` under `program`, at the start of a run.
+    ///
+    /// # Errors
+    /// [`BindError`] when the rig does not have what the policy needs.
+    pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
+        Ok(Self {
+            perception: Perception::new(rig, &program.whiskers)?,
+            steering: Steering::new(rig, &program.whiskers),
+            machine: Machine::new(program),
+        })
+    }
+
+    /// One tick: takes the samples since the last one, oldest first, and gives the command until the next. Allocates
+    /// nothing.
+    pub fn tick(&mut self, samples: &[Sample]) -> (Command, Outcome) {
+        self.perception.update(samples);
+        let tick = self.machine.tick(&mut self.perception);
+        (self.steering.command(&tick.action, self.perception.pose()), tick.outcome)
+    }
+
+    /// What it perceives.
+    #[must_use]
+    pub fn perception(&self) -> &Perception {
+        &self.perception
+    }
+
+    /// Its machine.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+}

@@ -1,0 +1,119 @@
+//! A whole run.
+
+use std::time::{Duration, Instant};
+
+use crate::geometry::Point2;
+use crate::machine;
+use crate::scene::{Outcome, Stop};
+use crate::signal::{Command, MAX_WHISKERS};
+use crate::world::World;
+
+use super::control::Control;
+use super::trace::{TickRecord, Trace};
+
+/// What a run gave.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why, if not as it should.
+    pub reason: Option<String>,
+    /// Name of the state that it ended in.
+    pub final_state: String,
+    /// What happened.
+    pub trace: Trace,
+    /// Wall time of the loop alone.
+    pub wall: Duration,
+    /// Wall time of each control tick: perception, machine and steering.
+    pub tick_times: Vec<Duration>,
+}
+
+/// Drives `world` by `control` until `stop`, and calls `progress` with the simulated time (s) at every tick.
+pub fn drive(
+    world: &mut dyn World,
+    mut control: Control,
+    stop: &Stop,
+    period: f64,
+    mut progress: impl FnMut(f64),
+) -> Run {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of ticks of a run")]
+    let most_ticks = (stop.time / period).ceil() as usize;
+    let program = control.machine().program();
+    let mut trace = Trace {
+        whiskers: program.whiskers.clone(),
+        states: program.states.iter().map(|state| state.name.to_string()).collect(),
+        period,
+        ticks: Vec::with_capacity(most_ticks),
+    };
+    let mut tick_times = Vec::with_capacity(most_ticks);
+    let mut closure = LoopWatch::default();
+    let mut command = Command::STOP;
+    let start = Instant::now();
+    let (outcome, reason) = loop {
+        let samples = match world.advance(&command) {
+            Ok(samples) => samples,
+            Err(fault) => break (Outcome::Diverged, Some(fault.to_string())),
+        };
+        let before_tick = Instant::now();
+        let (next, ticked) = control.tick(samples);
+        tick_times.push(before_tick.elapsed());
+        command = next;
+
+        let tick = record(&control, command, world.body_touches());
+        trace.ticks.push(tick);
+        progress(tick.time);
+        if ticked == machine::Outcome::Failed {
+            break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
+        }
+        if let Some(aim) = &stop.loop_closed
+            && closure.closed(&tick, aim.within, aim.after)
+        {
+            break (Outcome::Completed, None);
+        }
+        if trace.ticks.len() >= most_ticks {
+            break match &stop.loop_closed {
+                None => (Outcome::Completed, None),
+                Some(_) => (Outcome::Timeout, Some(format!("the loop did not close within {} s", stop.time))),
+            };
+        }
+    };
+    let final_state = control.machine().state_name().to_owned();
+    Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times }
+}
+
+fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord {
+    let (perception, machine) = (control.perception(), control.machine());
+    let mut tick = TickRecord {
+        time: perception.time(),
+        body: perception.pose(),
+        state: if machine.failure().is_some() { machine.program().states.len() } else { machine.state() },
+        deflections: [0.0; MAX_WHISKERS],
+        tips: [None; MAX_WHISKERS],
+        command,
+        body_touches,
+    };
+    for whisker in 0..machine.program().whiskers.len() {
+        tick.deflections[whisker] = perception.deflection(whisker);
+        tick.tips[whisker] = perception.recorded_tip(whisker);
+    }
+    tick
+}
+
+/// Watches for tips that come back to where their whisker's first one was.
+#[derive(Debug, Default)]
+struct LoopWatch {
+    /// Time and place of each whisker's first tip.
+    first: [Option<(f64, Point2)>; MAX_WHISKERS],
+}
+
+impl LoopWatch {
+    fn closed(&mut self, tick: &TickRecord, within: f64, after: f64) -> bool {
+        let mut closed = false;
+        for (first, tip) in self.first.iter_mut().zip(&tick.tips) {
+            let Some(tip) = tip else { continue };
+            let (time, place) = *first.get_or_insert((tick.time, *tip));
+            closed |= tick.time - time >= after && (tip - place).norm() <= within;
+        }
+        closed
+    }
+}

@@ -1,0 +1,43 @@
+//! What happened in a run, tick by tick.
+
+use crate::geometry::{Point2, Pose};
+use crate::signal::{Command, MAX_WHISKERS};
+
+/// What happened in a run, tick by tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// The whiskers that the policy binds, in its order.
+    pub whiskers: Vec<String>,
+    /// The machine's states; ticks name them by index, and `Failure` by the index behind the last.
+    pub states: Vec<String>,
+    /// Time between ticks (s).
+    pub period: f64,
+    /// The ticks.
+    pub ticks: Vec<TickRecord>,
+}
+
+/// One tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TickRecord {
+    /// Time since the start of the run (s).
+    pub time: f64,
+    /// Pose of the platform's centre of mass, as sampled.
+    pub body: Pose,
+    /// The active state after the tick.
+    pub state: usize,
+    /// Filtered base angles (rad).
+    pub deflections: [f64; MAX_WHISKERS],
+    /// Tip estimates that the policy recorded (m, world frame).
+    pub tips: [Option<Point2>; MAX_WHISKERS],
+    /// The command that the tick gave.
+    pub command: Command,
+    /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
+    pub body_touches: bool,
+}
+
+impl Trace {
+    /// The recorded tips of one whisker with the ticks' indices.
+    pub fn tips(&self, whisker: usize) -> impl Iterator<Item = (usize, Point2)> {
+        self.ticks.iter().enumerate().filter_map(move |(index, tick)| Some((index, tick.tips[whisker]?)))
+    }
+}
