@@ -2,4 +2,5 @@
 
 pub mod diagnostic;
 pub mod geometry;
+pub mod scene;
 pub mod units;

@@ -111,6 +111,21 @@ pub struct Sensing {
     pub forces: bool,
 }
 
+impl Platform {
+    /// The corners in the body frame (m), counter-clockwise from the right end of the tail.
+    #[must_use]
+    pub fn outline_body(&self) -> [Point2<f64>; 4] {
+        let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
+        let (tail_side, nose_side) = (0.5 * self.tail_width, 0.5 * self.nose_width);
+        [
+            Point2::new(tail, -tail_side),
+            Point2::new(nose, -nose_side),
+            Point2::new(nose, nose_side),
+            Point2::new(tail, tail_side),
+        ]
+    }
+}
+
 impl Shaft {
     /// Bending stiffness `E I` (N m²) of the round wire, `I = π r⁴ / 4`.
     #[must_use]
