@@ -1,1 +1,38 @@
-//! Poses, contours, distances.
+//! Poses, and exact planar contours made of segments and circular arcs: lengths, areas, nearest points, signed
+//! distances, parallel contours, shape makers.
+//!
+//! Lengths are metres, angles radians; x is to the right, y up, angles and turns are positive counter-clockwise.
+//! Everything is computed on the pieces themselves, never on a polyline that stands in for them.
+
+mod angle;
+mod arc;
+mod bounding_box;
+mod contour;
+mod distance;
+mod error;
+mod joint;
+mod piece;
+mod pose;
+mod sample;
+mod segment;
+mod shapes;
+mod simple;
+
+pub use angle::{turn_between, wrap};
+pub use arc::Arc;
+pub use bounding_box::BoundingBox;
+pub use contour::{Contour, JOIN_TOLERANCE, SHORTEST_PIECE};
+pub use distance::Nearest;
+pub use error::ContourError;
+pub use joint::Corner;
+pub use piece::Piece;
+pub use pose::{Pose, perpendicular, rotate, unit};
+pub use sample::ContourPoint;
+pub use segment::Segment;
+pub use shapes::{Path, ShapeError, circle, polygon, regular_polygon, rounded_rectangle};
+
+/// A point of the plane: coordinates in metres.
+pub type Point2 = nalgebra::Point2<f64>;
+
+/// A vector of the plane.
+pub type Vector2 = nalgebra::Vector2<f64>;

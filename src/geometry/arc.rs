@@ -1,0 +1,148 @@
+//! Circular pieces.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::{BoundingBox, Point2, Pose, Vector2, perpendicular, unit};
+
+/// A circular piece of a contour.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Arc {
+    /// Centre of the circle (m).
+    pub centre: Point2,
+    /// Radius of the circle (m), positive.
+    pub radius: f64,
+    /// Direction from the centre to the start (rad).
+    pub start_angle: f64,
+    /// Angle travelled (rad), positive counter-clockwise; a full circle is ±2π.
+    pub sweep: f64,
+}
+
+impl Arc {
+    /// Length (m).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.radius * self.sweep.abs()
+    }
+
+    /// Where it starts (m).
+    #[must_use]
+    pub fn start(&self) -> Point2 {
+        self.at_angle(self.start_angle)
+    }
+
+    /// Where it ends (m).
+    #[must_use]
+    pub fn end(&self) -> Point2 {
+        self.at_angle(self.start_angle + self.sweep)
+    }
+
+    /// The point at arc length `s` (m) from the start, `s` held to the arc.
+    #[must_use]
+    pub fn point_at(&self, s: f64) -> Point2 {
+        self.at_angle(self.angle_at(s))
+    }
+
+    /// The direction of travel at arc length `s` (m), a unit vector.
+    #[must_use]
+    pub fn tangent_at(&self, s: f64) -> Vector2 {
+        perpendicular(unit(self.angle_at(s))) * self.sweep.signum()
+    }
+
+    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    #[must_use]
+    pub fn nearest(&self, point: Point2) -> f64 {
+        let travelled = self.angle_travelled(point);
+        if travelled < self.sweep.abs() {
+            self.radius * travelled
+        } else if (point - self.start()).norm_squared() <= (point - self.end()).norm_squared() {
+            0.0
+        } else {
+            self.length()
+        }
+    }
+
+    /// Distance (m) from a point to the nearest point of the arc.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        if self.angle_travelled(point) < self.sweep.abs() {
+            ((point - self.centre).norm() - self.radius).abs()
+        } else {
+            (point - self.start()).norm().min((point - self.end()).norm())
+        }
+    }
+
+    /// The same arc travelled the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self { start_angle: self.start_angle + self.sweep, sweep: -self.sweep, ..*self }
+    }
+
+    /// The arc, given in the frame of `pose`, in world coordinates.
+    #[must_use]
+    pub fn transformed(&self, pose: &Pose) -> Self {
+        Self { centre: pose.point_to_world(self.centre), start_angle: self.start_angle + pose.heading, ..*self }
+    }
+
+    /// The box around it.
+    #[must_use]
+    pub fn bounding_box(&self) -> BoundingBox {
+        let mut bounds = BoundingBox::around(self.start(), self.end());
+        for quarter in 0..4_u8 {
+            let extreme = self.at_angle(f64::from(quarter) * FRAC_PI_2);
+            if self.angle_travelled(extreme) < self.sweep.abs() {
+                bounds = bounds.union(&BoundingBox::around(extreme, extreme));
+            }
+        }
+        bounds
+    }
+
+    fn at_angle(&self, angle: f64) -> Point2 {
+        self.centre + self.radius * unit(angle)
+    }
+
+    fn angle_at(&self, s: f64) -> f64 {
+        self.start_angle + (s / self.radius).clamp(0.0, self.sweep.abs()) * self.sweep.signum()
+    }
+
+    /// The angle in [0, 2π) from the start to the ray through `point`, in the direction of travel.
+    fn angle_travelled(&self, point: Point2) -> f64 {
+        let outward = point - self.centre;
+        let start = unit(self.start_angle);
+        // The angle between two vectors, rather than a difference of two angles, keeps its digits near the start.
+        let from_start = start.perp(&outward).atan2(start.dot(&outward)) * self.sweep.signum();
+        if from_start < 0.0 { (from_start + TAU).min(TAU.next_down()) } else { from_start }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    const QUARTER: Arc = Arc { centre: Point2::new(1.0, 0.0), radius: 2.0, start_angle: 0.0, sweep: FRAC_PI_2 };
+
+    #[test]
+    fn an_arc_beyond_its_sweep_is_nearest_at_an_end() {
+        assert!(QUARTER.nearest(Point2::new(4.0, -1.0)).abs() < f64::EPSILON);
+        assert!((QUARTER.nearest(Point2::new(-1.0, 5.0)) - PI).abs() < 1e-15);
+        assert!((QUARTER.distance(Point2::new(3.0, -1.0)) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_box_reaches_past_the_ends_where_the_arc_does() {
+        let over_the_top = Arc { start_angle: 0.25 * PI, sweep: FRAC_PI_2, ..QUARTER };
+        assert!((over_the_top.bounding_box().max.y - 2.0).abs() < 1e-15);
+        assert!((over_the_top.bounding_box().max.x - (1.0 + 2.0_f64.sqrt())).abs() < 1e-15);
+    }
+
+    #[test]
+    fn travelling_back_visits_the_same_points() {
+        for k in 0..=10 {
+            let s = f64::from(k) * 0.1 * QUARTER.length();
+            let back = QUARTER.reversed();
+            assert!((back.point_at(QUARTER.length() - s) - QUARTER.point_at(s)).norm() < 1e-15);
+            assert!((back.tangent_at(QUARTER.length() - s) + QUARTER.tangent_at(s)).norm() < 1e-15);
+        }
+    }
+}

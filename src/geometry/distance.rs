@@ -1,0 +1,137 @@
+//! Nearest points and distances, by a tree of boxes around the pieces.
+
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use super::{Contour, Piece, Point2, Vector2, joint};
+
+/// The point of a contour nearest to a given one.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Nearest {
+    /// The nearest point (m).
+    pub point: Point2,
+    /// Where it is along the contour (m); on a closed one below the contour's length.
+    pub arc_length: f64,
+    /// Its distance from the given point (m), never negative.
+    pub distance: f64,
+    /// The direction of travel there, a unit vector; at a corner, that of one of the two pieces that meet.
+    pub tangent: Vector2,
+}
+
+impl Contour {
+    /// The nearest point of the contour. If several are as near, one of them, always the same.
+    ///
+    /// ```
+    /// use vibrissa::geometry::{Point2, circle};
+    /// let disk = circle(Point2::new(0.4, 0.4), 0.3)?;
+    /// let nearest = disk.nearest(Point2::new(0.4, 0.9));
+    /// assert!((nearest.point - Point2::new(0.4, 0.7)).norm() < 1e-15);
+    /// assert!((nearest.distance - 0.2).abs() < 1e-15);
+    /// # Ok::<(), vibrissa::geometry::ShapeError>(())
+    /// ```
+    #[must_use]
+    pub fn nearest(&self, point: Point2) -> Nearest {
+        let (index, along) = self.foot(point);
+        let piece = &self.pieces[index];
+        let arc_length = self.starts[index] + along;
+        Nearest {
+            point: piece.point_at(along),
+            arc_length: if self.closed && arc_length >= self.length { 0.0 } else { arc_length },
+            distance: piece.distance(point),
+            tangent: piece.tangent_at(along),
+        }
+    }
+
+    /// Distance (m) from the contour: positive on the right of the direction of travel, which is the outside of a closed
+    /// contour, and negative on the left, the inside.
+    ///
+    /// Beyond an end of an open contour the straight line on from it tells the sides apart.
+    ///
+    /// ```
+    /// use vibrissa::geometry::{Point2, polygon};
+    /// let triangle = polygon(&[Point2::new(0.0, 0.0), Point2::new(2.0, 0.0), Point2::new(0.0, 2.0)])?;
+    /// assert!((triangle.signed_distance(Point2::new(0.5, 0.1)) + 0.1).abs() < 1e-15);
+    /// assert!((triangle.signed_distance(Point2::new(5.0, -4.0)) - 5.0).abs() < 1e-15);
+    /// # Ok::<(), vibrissa::geometry::ShapeError>(())
+    /// ```
+    #[must_use]
+    pub fn signed_distance(&self, point: Point2) -> f64 {
+        let (index, along) = self.foot(point);
+        let distance = self.pieces[index].distance(point);
+        if distance > 0.0 { distance * self.side(index, along, point) } else { distance }
+    }
+
+    /// Whether a point is strictly inside a closed contour; nothing is inside an open one.
+    #[must_use]
+    pub fn contains(&self, point: Point2) -> bool {
+        self.closed && self.signed_distance(point) < 0.0
+    }
+
+    /// The piece nearest to a point and the arc length along it of its nearest point.
+    fn foot(&self, point: Point2) -> (usize, f64) {
+        // Only coordinates that are no numbers have no nearest piece; they give distances that are none either.
+        let index = self.tree.nearest_neighbor([point.x, point.y]).map_or(0, |leaf| leaf.index);
+        (index, self.pieces[index].nearest(point))
+    }
+
+    /// The side of the contour, +1 right or −1 left, of a point whose nearest point is `along` the piece `index`.
+    fn side(&self, index: usize, along: f64, point: Point2) -> f64 {
+        let piece = &self.pieces[index];
+        let from_foot = point - piece.point_at(along);
+        let joint = if along <= 0.0 {
+            self.before(index).map(|before| (before, index))
+        } else if along >= piece.length() {
+            self.after(index).map(|after| (index, after))
+        } else {
+            None
+        };
+        match joint {
+            None => joint::right_of(piece.tangent_at(along), from_foot),
+            Some((before, after)) => {
+                let incoming = self.pieces[before].tangent_at(self.pieces[before].length());
+                let outgoing = self.pieces[after].tangent_at(0.0);
+                joint::side(self.turns[after], incoming, outgoing, from_foot)
+            }
+        }
+    }
+
+    fn before(&self, index: usize) -> Option<usize> {
+        if index > 0 { Some(index - 1) } else { self.closed.then(|| self.pieces.len() - 1) }
+    }
+
+    fn after(&self, index: usize) -> Option<usize> {
+        if index + 1 < self.pieces.len() { Some(index + 1) } else { self.closed.then_some(0) }
+    }
+}
+
+/// A piece in the tree.
+#[derive(Clone, Debug)]
+pub(super) struct Leaf {
+    pub(super) index: usize,
+    pub(super) piece: Piece,
+    envelope: AABB<[f64; 2]>,
+}
+
+impl Leaf {
+    pub(super) fn tree(pieces: &[Piece]) -> RTree<Self> {
+        let leaf = |(index, piece): (usize, &Piece)| {
+            let bounds = piece.bounding_box();
+            let envelope = AABB::from_corners(bounds.min.into(), bounds.max.into());
+            Self { index, piece: *piece, envelope }
+        };
+        RTree::bulk_load(pieces.iter().enumerate().map(leaf).collect())
+    }
+}
+
+impl RTreeObject for Leaf {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        self.envelope
+    }
+}
+
+impl PointDistance for Leaf {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        self.piece.distance(Point2::from(*point)).powi(2)
+    }
+}

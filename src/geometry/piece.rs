@@ -1,0 +1,149 @@
+//! What contours are made of.
+
+use super::{Arc, BoundingBox, Point2, Pose, Segment, Vector2};
+
+/// One piece of a contour, travelled from its start to its end.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum Piece {
+    /// A straight piece.
+    Segment(Segment),
+    /// A circular piece.
+    Arc(Arc),
+}
+
+impl Piece {
+    /// A straight piece between two points (m).
+    #[must_use]
+    pub fn segment(start: Point2, end: Point2) -> Self {
+        Self::Segment(Segment { start, end })
+    }
+
+    /// A circular piece: centre and radius (m), direction from the centre to the start (rad), angle travelled (rad,
+    /// positive counter-clockwise).
+    #[must_use]
+    pub fn arc(centre: Point2, radius: f64, start_angle: f64, sweep: f64) -> Self {
+        Self::Arc(Arc { centre, radius, start_angle, sweep })
+    }
+
+    /// Length (m).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.length(),
+            Self::Arc(arc) => arc.length(),
+        }
+    }
+
+    /// Where it starts (m).
+    #[must_use]
+    pub fn start(&self) -> Point2 {
+        match self {
+            Self::Segment(segment) => segment.start,
+            Self::Arc(arc) => arc.start(),
+        }
+    }
+
+    /// Where it ends (m).
+    #[must_use]
+    pub fn end(&self) -> Point2 {
+        match self {
+            Self::Segment(segment) => segment.end,
+            Self::Arc(arc) => arc.end(),
+        }
+    }
+
+    /// The point at arc length `s` (m) from the start, `s` held to the piece.
+    #[must_use]
+    pub fn point_at(&self, s: f64) -> Point2 {
+        match self {
+            Self::Segment(segment) => segment.point_at(s),
+            Self::Arc(arc) => arc.point_at(s),
+        }
+    }
+
+    /// The direction of travel at arc length `s` (m), a unit vector.
+    #[must_use]
+    pub fn tangent_at(&self, s: f64) -> Vector2 {
+        match self {
+            Self::Segment(segment) => segment.tangent(),
+            Self::Arc(arc) => arc.tangent_at(s),
+        }
+    }
+
+    /// Curvature (1/m), positive where the piece bends to the left.
+    #[must_use]
+    pub fn curvature(&self) -> f64 {
+        match self {
+            Self::Segment(_) => 0.0,
+            Self::Arc(arc) => arc.sweep.signum() / arc.radius,
+        }
+    }
+
+    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    #[must_use]
+    pub fn nearest(&self, point: Point2) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.nearest(point),
+            Self::Arc(arc) => arc.nearest(point),
+        }
+    }
+
+    /// Distance (m) from a point to the nearest point of the piece.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.distance(point),
+            Self::Arc(arc) => arc.distance(point),
+        }
+    }
+
+    /// The same piece travelled the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        match self {
+            Self::Segment(segment) => Self::Segment(segment.reversed()),
+            Self::Arc(arc) => Self::Arc(arc.reversed()),
+        }
+    }
+
+    /// The piece, given in the frame of `pose`, in world coordinates.
+    #[must_use]
+    pub fn transformed(&self, pose: &Pose) -> Self {
+        match self {
+            Self::Segment(segment) => Self::Segment(segment.transformed(pose)),
+            Self::Arc(arc) => Self::Arc(arc.transformed(pose)),
+        }
+    }
+
+    /// The box around it.
+    #[must_use]
+    pub fn bounding_box(&self) -> BoundingBox {
+        match self {
+            Self::Segment(segment) => segment.bounding_box(),
+            Self::Arc(arc) => arc.bounding_box(),
+        }
+    }
+
+    /// The signed area (m²) that the ray from `origin` to a point of the piece sweeps over as the point travels along it,
+    /// positive counter-clockwise: half the integral of x dy − y dx about `origin`.
+    #[must_use]
+    pub fn swept_area(&self, origin: Point2) -> f64 {
+        let chord = self.end() - self.start();
+        match self {
+            Self::Segment(segment) => 0.5 * (segment.start - origin).perp(&chord),
+            Self::Arc(arc) => 0.5 * (arc.radius * arc.radius * arc.sweep + (arc.centre - origin).perp(&chord)),
+        }
+    }
+}
+
+impl From<Segment> for Piece {
+    fn from(segment: Segment) -> Self {
+        Self::Segment(segment)
+    }
+}
+
+impl From<Arc> for Piece {
+    fn from(arc: Arc) -> Self {
+        Self::Arc(arc)
+    }
+}

@@ -1,0 +1,77 @@
+//! Straight pieces.
+
+use super::{BoundingBox, Point2, Pose, Vector2};
+
+/// A straight piece of a contour.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it starts (m).
+    pub start: Point2,
+    /// Where it ends (m).
+    pub end: Point2,
+}
+
+impl Segment {
+    /// Length (m).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.end - self.start).norm()
+    }
+
+    /// The direction of travel, a unit vector.
+    #[must_use]
+    pub fn tangent(&self) -> Vector2 {
+        (self.end - self.start).normalize()
+    }
+
+    /// The point at arc length `s` (m) from the start, `s` held to the segment.
+    #[must_use]
+    pub fn point_at(&self, s: f64) -> Point2 {
+        let length = self.length();
+        // Both ends come out exactly, so that neighbours meet without a gap.
+        if s <= 0.0 {
+            self.start
+        } else if s >= length {
+            self.end
+        } else {
+            self.start + (self.end - self.start) * (s / length)
+        }
+    }
+
+    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    #[must_use]
+    pub fn nearest(&self, point: Point2) -> f64 {
+        (point - self.start).dot(&self.tangent()).clamp(0.0, self.length())
+    }
+
+    /// Distance (m) from a point to the nearest point of the segment.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        let along = (point - self.start).dot(&self.tangent());
+        if along <= 0.0 {
+            (point - self.start).norm()
+        } else if along >= self.length() {
+            (point - self.end).norm()
+        } else {
+            (point - self.start).perp(&self.tangent()).abs()
+        }
+    }
+
+    /// The same segment travelled the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self { start: self.end, end: self.start }
+    }
+
+    /// The segment, given in the frame of `pose`, in world coordinates.
+    #[must_use]
+    pub fn transformed(&self, pose: &Pose) -> Self {
+        Self { start: pose.point_to_world(self.start), end: pose.point_to_world(self.end) }
+    }
+
+    /// The box around it.
+    #[must_use]
+    pub fn bounding_box(&self) -> BoundingBox {
+        BoundingBox::around(self.start, self.end)
+    }
+}

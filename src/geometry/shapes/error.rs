@@ -1,0 +1,85 @@
+//! Why a shape cannot be made.
+
+use crate::geometry::{ContourError, SHORTEST_PIECE};
+
+/// Why a shape cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ShapeError {
+    /// A number is infinite or not a number.
+    #[error("the {what} is {value}: it must be a finite number")]
+    NotFinite {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A length is zero or negative.
+    #[error("the {what} is {value} m: it must be positive")]
+    NotPositive {
+        /// Which length.
+        what: &'static str,
+        /// Its value (m).
+        value: f64,
+    },
+    /// A polygon has too few sides.
+    #[error("a polygon needs at least 3 sides, not {sides}")]
+    TooFewSides {
+        /// How many it has.
+        sides: usize,
+    },
+    /// Two consecutive points of a polygon are the same.
+    #[error(
+        "points {from} and {to} of the polygon are the same: leave one out (the first point is not repeated at the end)"
+    )]
+    ZeroEdge {
+        /// The point before the edge, counted from 0.
+        from: usize,
+        /// The point after it.
+        to: usize,
+    },
+    /// The rounding of the corners does not fit into the sides.
+    #[error("the corner radius is {radius} m: it must be between 0 and half the shorter side, {limit} m")]
+    CornerRadius {
+        /// The radius (m).
+        radius: f64,
+        /// The largest that fits (m).
+        limit: f64,
+    },
+    /// A path comes back nearly to its start.
+    #[error(
+        "the path ends {gap} m from its start, too far off to close it and too near for a side: give its lengths and \
+         angles more digits, or leave out the last length"
+    )]
+    NearlyClosed {
+        /// The distance from its end to its start (m).
+        gap: f64,
+    },
+    /// A piece of a path has no length.
+    #[error("step {step} of the path is {length} m long: leave it out, or make it longer than {SHORTEST_PIECE} m")]
+    ShortStep {
+        /// The straight or arc, counted from 0 among all straights and arcs.
+        step: usize,
+        /// Its length (m).
+        length: f64,
+    },
+    /// The pieces do not make a contour.
+    #[error(transparent)]
+    Contour(#[from] ContourError),
+}
+
+/// Refuses a number that is not finite.
+pub(super) fn finite(what: &'static str, value: f64) -> Result<(), ShapeError> {
+    if value.is_finite() { Ok(()) } else { Err(ShapeError::NotFinite { what, value }) }
+}
+
+/// Refuses a length that is not finite and positive.
+pub(super) fn positive(what: &'static str, value: f64) -> Result<(), ShapeError> {
+    finite(what, value)?;
+    if value > 0.0 { Ok(()) } else { Err(ShapeError::NotPositive { what, value }) }
+}
+
+/// Refuses a point whose coordinates are not finite.
+pub(super) fn finite_point(what: &'static str, point: crate::geometry::Point2) -> Result<(), ShapeError> {
+    finite(what, point.x)?;
+    finite(what, point.y)
+}

@@ -1,0 +1,15 @@
+//! Makers of common contours.
+
+mod circle;
+mod error;
+mod path;
+mod polygon;
+mod regular_polygon;
+mod rounded_rectangle;
+
+pub use circle::circle;
+pub use error::ShapeError;
+pub use path::Path;
+pub use polygon::polygon;
+pub use regular_polygon::regular_polygon;
+pub use rounded_rectangle::rounded_rectangle;

@@ -1,0 +1,187 @@
+//! Whether a contour meets itself.
+
+use rstar::{AABB, RTree};
+
+use super::distance::Leaf;
+use super::{Arc, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendicular};
+
+/// Checks that the pieces of a chain meet nowhere but at their joints. Neighbours that go back over each other from a
+/// joint are for [`turn`](super::joint::turn) to find.
+pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
+    for (first, piece) in pieces.iter().enumerate() {
+        let bounds = piece.bounding_box();
+        let around = AABB::from_corners(
+            [bounds.min.x - JOIN_TOLERANCE, bounds.min.y - JOIN_TOLERANCE],
+            [bounds.max.x + JOIN_TOLERANCE, bounds.max.y + JOIN_TOLERANCE],
+        );
+        for second in tree.locate_in_envelope_intersecting(around).map(|leaf| leaf.index).filter(|&i| i > first) {
+            let joints = shared_joints(pieces, closed, first, second);
+            if let Some(at) = meeting(piece, &pieces[second], &joints) {
+                return Err(ContourError::SelfIntersection { first, second, at });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The joints that two pieces of a chain share.
+fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) -> Vec<Point2> {
+    let mut joints = Vec::new();
+    if second == first + 1 {
+        joints.push(pieces[first].end());
+    }
+    if closed && first == 0 && second + 1 == pieces.len() {
+        joints.push(pieces[second].end());
+    }
+    joints
+}
+
+/// A point that two pieces share apart from their joints.
+///
+/// Pieces that meet cross, or touch, or an end of one lies on the other; where they cover each other, an end of one does.
+fn meeting(a: &Piece, b: &Piece, joints: &[Point2]) -> Option<Point2> {
+    let ends = [a.start(), a.end(), b.start(), b.end()];
+    let crossings = match joints.first() {
+        Some(&joint) => [second_crossing(a, b, joint), None],
+        None => crossings(a, b),
+    };
+    let shared = |point: &Point2| a.distance(*point) <= JOIN_TOLERANCE && b.distance(*point) <= JOIN_TOLERANCE;
+    let at_joint = |point: &Point2| joints.iter().any(|joint| (point - joint).norm() <= 2.0 * JOIN_TOLERANCE);
+    ends.into_iter().chain(crossings.into_iter().flatten()).find(|point| shared(point) && !at_joint(point))
+}
+
+/// Where else the lines or circles that carry two pieces cross, given one crossing: the mirror image of that one in the
+/// axis of symmetry of the two.
+///
+/// Unlike a general solution, which finds a double root only to the square root of rounding, this stays exact for pieces
+/// that join smoothly, where the two crossings fall into one.
+fn second_crossing(a: &Piece, b: &Piece, crossing: Point2) -> Option<Point2> {
+    let (on_axis, along_axis) = match (a, b) {
+        (Piece::Segment(_), Piece::Segment(_)) => return None,
+        (Piece::Segment(line), Piece::Arc(arc)) | (Piece::Arc(arc), Piece::Segment(line)) => {
+            (arc.centre, perpendicular(line.tangent()))
+        }
+        (Piece::Arc(a), Piece::Arc(b)) => (a.centre, (b.centre - a.centre).try_normalize(0.0)?),
+    };
+    let from_axis = crossing - on_axis;
+    Some(on_axis + 2.0 * along_axis * along_axis.dot(&from_axis) - from_axis)
+}
+
+/// Where the lines or circles that carry two pieces cross or come within the tolerance of touching.
+fn crossings(a: &Piece, b: &Piece) -> [Option<Point2>; 2] {
+    match (a, b) {
+        (Piece::Segment(a), Piece::Segment(b)) => [line_line(a, b), None],
+        (Piece::Segment(line), Piece::Arc(arc)) | (Piece::Arc(arc), Piece::Segment(line)) => line_circle(line, arc),
+        (Piece::Arc(a), Piece::Arc(b)) => circle_circle(a, b),
+    }
+}
+
+fn line_line(a: &Segment, b: &Segment) -> Option<Point2> {
+    let along = a.tangent();
+    let sine = along.perp(&b.tangent());
+    let crossing = a.start + along * ((b.start - a.start).perp(&b.tangent()) / sine);
+    (sine != 0.0).then_some(crossing)
+}
+
+fn line_circle(line: &Segment, circle: &Arc) -> [Option<Point2>; 2] {
+    let along = line.tangent();
+    let foot = line.start + along * (circle.centre - line.start).dot(&along);
+    let distance = (foot - circle.centre).norm();
+    if distance > circle.radius + JOIN_TOLERANCE {
+        return [None; 2];
+    }
+    let half_chord = along * ((circle.radius - distance) * (circle.radius + distance)).max(0.0).sqrt();
+    [Some(foot - half_chord), Some(foot + half_chord)]
+}
+
+fn circle_circle(a: &Arc, b: &Arc) -> [Option<Point2>; 2] {
+    let between = b.centre - a.centre;
+    let distance = between.norm();
+    let apart = distance > a.radius + b.radius + JOIN_TOLERANCE;
+    let nested = distance < (a.radius - b.radius).abs() - JOIN_TOLERANCE;
+    if apart || nested || distance == 0.0 {
+        return [None; 2];
+    }
+    let towards = between / distance;
+    let to_chord = 0.5 * (distance + (a.radius - b.radius) * (a.radius + b.radius) / distance);
+    let half_chord = perpendicular(towards) * ((a.radius - to_chord) * (a.radius + to_chord)).max(0.0).sqrt();
+    let middle = a.centre + towards * to_chord;
+    [Some(middle - half_chord), Some(middle + half_chord)]
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+    use crate::geometry::Contour;
+
+    fn chain(points: &[(f64, f64)]) -> Vec<Piece> {
+        points.windows(2).map(|w| Piece::segment(Point2::new(w[0].0, w[0].1), Point2::new(w[1].0, w[1].1))).collect()
+    }
+
+    fn met(result: Result<Contour, ContourError>) -> Option<(usize, usize)> {
+        match result {
+            Ok(_) => None,
+            Err(ContourError::SelfIntersection { first, second, .. }) => Some((first, second)),
+            Err(other) => panic!("{other}"),
+        }
+    }
+
+    #[test]
+    fn a_bow_tie_names_the_two_sides_that_cross() {
+        let bow_tie = chain(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)]);
+        let error = Contour::closed(bow_tie).unwrap_err();
+        let ContourError::SelfIntersection { first: 0, second: 2, at } = error else { panic!("{error}") };
+        assert!((at - Point2::new(0.5, 0.5)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn touching_is_meeting() {
+        let corner_on_side = chain(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)]);
+        assert!(met(Contour::closed(corner_on_side)).is_some());
+        // A circle's top, tangent to a line above it.
+        let mut line_on_circle = chain(&[(-1.0, 1.0), (1.0, 1.0), (2.0, 0.0), (1.0, -1.0), (0.5, -1.0), (1.0, 0.0)]);
+        line_on_circle.push(Piece::arc(Point2::origin(), 1.0, 0.0, PI));
+        assert_eq!(met(Contour::open(line_on_circle)), Some((0, 5)));
+    }
+
+    #[test]
+    fn going_back_over_a_piece_is_meeting() {
+        assert_eq!(met(Contour::open(chain(&[(0.0, 0.0), (1.0, 0.0), (0.3, 0.0)]))), Some((0, 1)));
+        assert_eq!(met(Contour::closed(chain(&[(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)]))), Some((0, 1)));
+    }
+
+    #[test]
+    fn smooth_joints_and_cusps_are_no_meetings() {
+        let hook = vec![
+            Piece::segment(Point2::new(-1.0, 0.0), Point2::origin()),
+            Piece::arc(Point2::new(0.0, 0.3), 0.3, -FRAC_PI_2, 1.9 * PI),
+        ];
+        assert_eq!(met(Contour::open(hook)), None);
+        let cusp = vec![
+            Piece::segment(Point2::new(-1.0, 0.0), Point2::origin()),
+            Piece::arc(Point2::new(0.0, 0.3), 0.3, -FRAC_PI_2, -1.5 * PI),
+        ];
+        assert_eq!(met(Contour::open(cusp)), None);
+    }
+
+    #[test]
+    fn an_arc_that_comes_back_through_its_neighbour_is_meeting() {
+        let tangle = vec![
+            Piece::segment(Point2::new(-2.0, 0.5), Point2::origin()),
+            Piece::arc(Point2::new(0.0, 1.0), 1.0, -FRAC_PI_2, 1.9 * PI),
+        ];
+        assert_eq!(met(Contour::open(tangle)), Some((0, 1)));
+        let rings = vec![
+            Piece::arc(Point2::new(-0.5, 0.0), 1.0, -PI, 1.9 * PI),
+            Piece::segment(
+                Point2::new(-0.5 + (0.9 * PI).cos(), (0.9 * PI).sin()),
+                Point2::new(-0.5 + 2.0 * (0.9 * PI).cos(), 2.0 * (0.9 * PI).sin()),
+            ),
+        ];
+        assert_eq!(met(Contour::open(rings)), None);
+    }
+}
