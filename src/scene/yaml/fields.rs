@@ -77,7 +77,7 @@ impl<'n> Fields<'n> {
             reader.report(diagnostic.hint(format!("the keys are {}", list(&self.known, "and"))));
         }
         for (name, example) in self.missing {
-            let message = format!("{} needs a `{name}`", self.what);
+            let message = format!("{} needs `{name}`", self.what);
             let diagnostic =
                 Diagnostic::error(fault::MISSING_KEY, message, self.place, format!("`{name}` is missing here"));
             reader.report(diagnostic.hint(format!("add it, such as `{example}`")));

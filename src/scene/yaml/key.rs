@@ -28,6 +28,10 @@ impl Key {
     /// The range in words.
     pub(super) fn range_text(&self) -> String {
         let (least, greatest) = self.range;
-        format!("from {} to {}", format_si(least, self.dimension), format_si(greatest, self.dimension))
+        let text = |value| match self.example.strip_suffix('%') {
+            Some(_) => format!("{} %", format_si(100.0 * value, self.dimension)),
+            None => format_si(value, self.dimension),
+        };
+        format!("from {} to {}", text(least), text(greatest))
     }
 }

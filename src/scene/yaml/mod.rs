@@ -8,6 +8,7 @@ mod fault;
 mod fields;
 mod key;
 mod node;
+mod number;
 mod object;
 mod path;
 mod reader;

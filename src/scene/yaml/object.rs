@@ -11,7 +11,8 @@ use crate::geometry::{Contour, ContourError, Point2, ShapeError, circle, polygon
 use crate::units::{Dimension, format_si};
 
 const CENTRE: Key = Key { name: "centre", example: "[40 cm, 40 cm]", ..POSITION };
-const VERTEX: Key = Key { name: "vertices", ..POSITION };
+const VERTICES: &str = "[[0 cm, 30 cm], [20 cm, 30 cm], [10 cm, 50 cm]]";
+const VERTEX: Key = Key { name: "vertices", example: VERTICES, ..POSITION };
 const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-4, 100.0), "30 cm");
 const CIRCUMRADIUS: Key = Key { name: "circumradius", ..RADIUS };
 const WIDTH: Key = Key { name: "width", ..RADIUS };
@@ -66,11 +67,10 @@ fn read_rounded_rectangle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Cont
 
 fn read_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     let mut fields = Fields::of(reader, &entry.value, "a polygon", entry.key.span)?;
-    let example = "[[0 cm, 30 cm], [20 cm, 30 cm], [10 cm, 50 cm]]";
-    let vertices = fields.required(VERTEX.name, example);
+    let vertices = fields.required(VERTEX.name, VERTICES);
     fields.finish(reader);
     let vertices = vertices?;
-    let items = reader.items(&vertices.value, "a list of points", example)?;
+    let items = reader.items(&vertices.value, "a list of points", VERTICES)?;
     let points: Vec<_> = items.iter().map(|item| reader.point(item, &VERTEX)).collect();
     let points: Vec<Placed<Point2>> = points.into_iter().collect::<Option<_>>()?;
     let corners: Vec<Point2> = points.iter().map(|point| point.value).collect();
@@ -83,7 +83,7 @@ fn read_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
                 vertices.key.span,
                 format!("{sides} here"),
             );
-            reader.report(fault.hint(format!("add vertices: `vertices: {example}`")));
+            reader.report(fault.hint(format!("add vertices: `vertices: {VERTICES}`")));
             None
         }
         Err(ShapeError::ZeroEdge { from, to }) if let (Some(from), Some(to)) = (points.get(from), points.get(to)) => {
@@ -106,10 +106,10 @@ fn read_regular_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contou
     let mut fields = Fields::of(reader, &entry.value, "a regular polygon", entry.key.span)?;
     let centre = centre(reader, &mut fields);
     let circumradius = fields.number(reader, &CIRCUMRADIUS);
-    let sides = fields.required("sides", "6").and_then(|entry| reader.count(&entry.value, "sides", 3_usize..=1000));
+    let sides = fields.required("sides", "6").and_then(|entry| reader.count(&entry.value, "sides", 3_usize..=1000, 6));
     let heading = heading(reader, &mut fields);
     fields.finish(reader);
-    made(reader, regular_polygon(centre?, circumradius?.value, sides?.value, heading), entry.key.span, &[])
+    made(reader, regular_polygon(centre?, circumradius?.value, sides?, heading), entry.key.span, &[])
 }
 
 fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option<Point2> {
@@ -141,15 +141,19 @@ pub(super) fn made(
             let meeting = format!("at ({}, {})", millimetres(at.x), millimetres(at.y));
             let (first, second) = (pieces.get(*first).copied(), pieces.get(*second).copied());
             let message = "the outline crosses or touches itself";
-            let label = format!("the side from here meets another {meeting}");
+            let label = format!("the side that begins here meets another {meeting}");
             let fault = Diagnostic::error(fault::SHAPE, message, second.or(first).unwrap_or(place), label);
-            let fault =
-                if let (Some(first), Some(_)) = (first, second) { fault.note(first, "the other one") } else { fault };
+            let fault = if let (Some(first), Some(_)) = (first, second) {
+                fault.note(first, "which begins here")
+            } else {
+                fault
+            };
             fault.hint("go round the object once, without crossing an earlier side")
         }
-        ShapeError::ShortStep { step, .. } => {
+        ShapeError::ShortStep { step, length } => {
             let place = pieces.get(*step).copied().unwrap_or(place);
-            Diagnostic::error(fault::SHAPE, "a step of the path has no length", place, error.to_string())
+            let label = format!("{} long", format_si(*length, Dimension::LENGTH));
+            Diagnostic::error(fault::SHAPE, "a step of the path has no length", place, label)
                 .hint("leave it out, or use `turn` to turn on the spot")
         }
         _ => Diagnostic::error(fault::SHAPE, "there is no such shape", place, error.to_string())

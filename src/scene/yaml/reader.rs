@@ -2,11 +2,8 @@
 
 use super::fault;
 use super::fields::list;
-use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use crate::diagnostic::{Diagnostic, Source, Span, suggest};
-use crate::geometry::Point2;
-use crate::units::{Dimension, Quantity, QuantityError, UnitError, parse_quantity, suggest_unit, units_of};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
@@ -27,6 +24,11 @@ impl<'s> Reader<'s> {
         self.faults.len()
     }
 
+    /// The text that is read.
+    pub(super) fn source(&self) -> &'s Source {
+        self.source
+    }
+
     /// Puts a fault on the list.
     pub(super) fn report(&mut self, fault: Diagnostic) {
         self.faults.push(fault);
@@ -45,78 +47,27 @@ impl<'s> Reader<'s> {
         self.report(Diagnostic::error(fault::TYPE, message, self.extent(node), label).hint(hint));
     }
 
-    /// A number in the dimension and range of its key, in SI units.
-    pub(super) fn number(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<f64>> {
-        let span = self.extent(node);
-        let quantity = match &node.value {
-            Node::Text(text) => match parse_quantity(text) {
-                Ok(quantity) => quantity,
-                Err(error) => {
-                    self.report(self.bad_quantity(node, text, key, &error));
-                    return None;
-                }
-            },
-            Node::Integer(integer) => plain(*integer as f64),
-            Node::Float(float) => plain(*float),
-            other => {
-                let expected = key.dimension.phrase();
-                let message = format!("expected {expected} for `{}`, found {}", key.name, other.kind());
-                let fault = Diagnostic::error(fault::TYPE, message, span, format!("must be {expected}"));
-                self.report(fault.hint(example(key)));
-                return None;
-            }
-        };
-        if quantity.dimension != key.dimension {
-            self.report(self.wrong_dimension(span, &quantity, key));
-            return None;
-        }
-        let (least, greatest) = key.range;
-        if !(least..=greatest).contains(&quantity.value_si) {
-            let message = format!("`{}` cannot be {}", key.name, self.source.slice(span));
-            let label = format!("must be {}", key.range_text());
-            self.report(Diagnostic::error(fault::RANGE, message, span, label).hint(example(key)));
-            return None;
-        }
-        Some(Placed { value: quantity.value_si, span })
-    }
-
-    /// A point: two numbers, each in the dimension and range of the key.
-    pub(super) fn point(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<Point2>> {
-        let span = self.extent(node);
-        match &node.value {
-            Node::List(items) if let [x, y] = items.as_slice() => {
-                let (x, y) = (self.number(x, key), self.number(y, key));
-                Some(Placed { value: Point2::new(x?.value, y?.value), span })
-            }
-            other => {
-                let found = match other {
-                    Node::List(items) => format!("{} numbers", items.len()),
-                    other => other.kind().to_owned(),
-                };
-                let message = format!("`{}` is two lengths, found {found}", key.name);
-                let fault = Diagnostic::error(fault::TYPE, message, span, "must be two lengths in brackets");
-                self.report(fault.hint(format!("for example `{}: [0 mm, 72 mm]`", key.name)));
-                None
-            }
-        }
-    }
-
     /// A whole number in a range.
-    pub(super) fn count<N>(&mut self, node: &Placed<Node>, name: &str, range: RangeInclusive<N>) -> Option<Placed<N>>
+    pub(super) fn count<N>(
+        &mut self,
+        node: &Placed<Node>,
+        name: &str,
+        range: RangeInclusive<N>,
+        example: N,
+    ) -> Option<N>
     where
-        N: TryFrom<i128> + PartialOrd + Display,
+        N: TryFrom<i128> + PartialOrd + Display + Copy,
     {
-        let span = self.extent(node);
         if let Node::Integer(integer) = node.value
             && let Ok(value) = N::try_from(integer)
             && range.contains(&value)
         {
-            return Some(Placed { value, span });
+            return Some(value);
         }
-        let message = format!("`{name}` cannot be {}", self.describe(node));
+        let message = format!("`{name}` cannot be {}", written(&node.value));
         let label = format!("must be a whole number from {} to {}", range.start(), range.end());
-        let hint = format!("write a number such as `{name}: {}`", range.start());
-        self.report(Diagnostic::error(fault::RANGE, message, span, label).hint(hint));
+        let fault = Diagnostic::error(fault::RANGE, message, self.extent(node), label);
+        self.report(fault.hint(format!("for example `{name}: {example}`")));
         None
     }
 
@@ -160,7 +111,12 @@ impl<'s> Reader<'s> {
         if let Node::Text(text) = &node.value {
             return Some(Placed { value: text.clone(), span: self.extent(node) });
         }
-        self.wrong_type(node, "a text", "put it into quotes if it looks like something else");
+        let hint = match &node.value {
+            Node::Null => "write a text, or leave the key out if it may be".to_owned(),
+            Node::List(_) | Node::Mapping(_) => "write a text on the line of its key".to_owned(),
+            scalar => format!("put it into quotes: \"{}\"", written(scalar)),
+        };
+        self.wrong_type(node, "a text", hint);
         None
     }
 
@@ -182,13 +138,15 @@ impl<'s> Reader<'s> {
         kinds: &[&'static str],
         example: &str,
     ) -> Option<(&'static str, &'n Entry)> {
-        let entries = match &node.value {
-            Node::Mapping(entries) => entries.as_slice(),
-            _ => &[],
+        let Node::Mapping(entries) = &node.value else {
+            self.wrong_type(node, what, format!("write it as `{example}`, without a dash in front"));
+            return None;
         };
-        let [entry] = entries else {
-            let span = entries.get(1).map_or(self.extent(node), |second| second.key.span);
-            let label = if entries.is_empty() { "one of the kinds is due here" } else { "this would be a second one" };
+        let [entry] = entries.as_slice() else {
+            let (span, label) = match entries.get(1) {
+                Some(second) => (second.key.span, "this would be a second one"),
+                None => (self.extent(node), "none here"),
+            };
             let message = format!("{what} is exactly one of {}", list(kinds, "or"));
             self.report(Diagnostic::error(fault::TYPE, message, span, label).hint(format!("for example `{example}`")));
             return None;
@@ -219,85 +177,6 @@ impl<'s> Reader<'s> {
         let line = self.source.slice(whole).lines().next().unwrap_or_default();
         Span::new(whole.start, whole.start + line.trim_end().len())
     }
-
-    /// A value in a message: scalars as written, others by kind.
-    fn describe(&self, node: &Placed<Node>) -> String {
-        match &node.value {
-            Node::Integer(_) | Node::Float(_) => self.source.slice(node.span).to_owned(),
-            Node::Text(text) => format!("`{text}`"),
-            other => other.kind().to_owned(),
-        }
-    }
-
-    fn wrong_dimension(&self, span: Span, quantity: &Quantity, key: &Key) -> Diagnostic {
-        let written = self.source.slice(span);
-        let due = key.dimension.phrase();
-        if key.dimension == Dimension::NUMBER {
-            let message = format!("`{}` is a plain number, found {}", key.name, quantity.dimension.phrase());
-            return Diagnostic::error(fault::DIMENSION, message, span, "no unit is due here").hint(example(key));
-        }
-        if quantity.unit.is_none() {
-            let number = written.trim_matches(['"', '\'']);
-            let readings: Vec<String> = units_of(key.dimension).iter().map(|unit| format!("{number} {unit}")).collect();
-            let message = format!("`{}` is {due} and needs its unit", key.name);
-            return Diagnostic::error(fault::BARE_NUMBER, message, span, "a number without a unit")
-                .hint(format!("write {}", list(&readings, "or")));
-        }
-        let message = format!("`{}` is {due}, found {}", key.name, quantity.dimension.phrase());
-        let label = format!("this is {}", quantity.dimension.phrase());
-        Diagnostic::error(fault::DIMENSION, message, span, label).hint(units_hint(key.dimension)).hint(example(key))
-    }
-
-    fn bad_quantity(&self, node: &Placed<Node>, text: &str, key: &Key, error: &QuantityError) -> Diagnostic {
-        let place = self.within(node, text, error);
-        match error {
-            QuantityError::Unit(UnitError::Unknown { name, .. }) => {
-                let message = format!("there is no unit `{name}`");
-                let fault = Diagnostic::error(fault::UNIT, message, place, "unknown unit");
-                match suggest_unit(name, key.dimension) {
-                    Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
-                    None => fault,
-                }
-                .hint(units_hint(key.dimension))
-            }
-            QuantityError::Unit(unit) => {
-                Diagnostic::error(fault::UNIT, unit.to_string(), place, "in this unit").hint(unit.hint())
-            }
-            QuantityError::Number { .. } => {
-                let message = format!("`{}` is {}, found `{text}`", key.name, key.dimension.phrase());
-                Diagnostic::error(fault::QUANTITY, message, place, "not a finite number").hint(example(key))
-            }
-            QuantityError::TooLarge { .. } => {
-                let message = format!("`{}` is too large to be a number", key.name);
-                Diagnostic::error(fault::QUANTITY, message, place, format!("must be {}", key.range_text()))
-                    .hint(example(key))
-            }
-        }
-    }
-
-    /// The place of an error within a scalar, if the scalar stands in the source letter for letter; else the whole scalar.
-    fn within(&self, node: &Placed<Node>, text: &str, error: &QuantityError) -> Span {
-        let written = self.source.slice(node.span);
-        let quote = usize::from(written.starts_with(['"', '\'']));
-        if written.get(quote..quote + text.len()) == Some(text) {
-            let start = node.span.start + quote;
-            Span::new(start + error.range().start, start + error.range().end)
-        } else {
-            node.span
-        }
-    }
-}
-
-fn plain(value_si: f64) -> Quantity {
-    Quantity { value_si, dimension: Dimension::NUMBER, unit: None }
-}
-
-fn example(key: &Key) -> String {
-    format!("for example `{}: {}`", key.name, key.example)
-}
-
-fn units_hint(dimension: Dimension) -> String {
-    format!("{} is written in {}", dimension.phrase(), list(&units_of(dimension), "or"))
 }
 
 fn unknown_choice(word: &Placed<String>, what: &str, words: &[&str]) -> Diagnostic {
@@ -307,5 +186,16 @@ fn unknown_choice(word: &Placed<String>, what: &str, words: &[&str]) -> Diagnost
     match suggest(&word.value, words.iter().copied()) {
         Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
         None => fault.hint("write one of these"),
+    }
+}
+
+/// A value in a message: a scalar as it could be written, a list or mapping by its kind.
+pub(super) fn written(node: &Node) -> String {
+    match node {
+        Node::Bool(flag) => flag.to_string(),
+        Node::Integer(integer) => integer.to_string(),
+        Node::Float(float) => float.to_string(),
+        Node::Text(text) => text.clone(),
+        other => other.kind().to_owned(),
     }
 }

@@ -35,10 +35,17 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Rig> {
     if let Some(entry) = fields.entry("whiskers") {
         rig.whiskers = whisker::read_all(reader, entry).unwrap_or_default();
     }
-    let step = fields.entry("physics").and_then(|entry| physics(reader, entry, &mut rig.physics));
-    let sensing = fields.entry("sensing");
-    timing::read(reader, sensing, &mut rig, step);
+    let mut places = timing::Places::default();
+    if let Some(entry) = fields.entry("physics") {
+        places.step = physics(reader, entry, &mut rig.physics);
+    }
+    if let Some(entry) = fields.entry("sensing") {
+        timing::read_sensing(reader, entry, &mut rig.sensing, &mut places);
+    }
     fields.finish(reader);
+    if reader.fault_count() == fault_count {
+        timing::check(reader, &mut rig, places);
+    }
     // A rig that could only be read in part would make the checks of the whole scene report what is not there.
     (reader.fault_count() == fault_count).then_some(rig)
 }

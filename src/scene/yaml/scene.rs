@@ -56,7 +56,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         None => Some(None),
     };
     let seed = match fields.entry("seed") {
-        Some(entry) => reader.count(&entry.value, "seed", 0..=u64::MAX).map(|seed| seed.value),
+        Some(entry) => reader.count(&entry.value, "seed", 0..=u64::MAX, 1),
         None => Some(0),
     };
     fields.finish(reader);

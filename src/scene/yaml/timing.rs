@@ -19,28 +19,19 @@ const ANGLE_RESOLUTION: Key = Key::new("angle_resolution", Dimension::ANGLE, (0.
 /// A step that is off a whole part of the sample period by less than this share is taken for that part: 3.33 ms for 1/300 s.
 const ROUNDED: f64 = 2e-3;
 
-/// Reads `sensing`, if it is there, and fits the step, which stands at `step` if it was given, into the sample period.
-pub(super) fn read(reader: &mut Reader<'_>, entry: Option<&Entry>, rig: &mut Rig, step: Option<Span>) {
-    let (sample_rate, control_rate) = match entry {
-        Some(entry) => sensing(reader, entry, &mut rig.sensing),
-        None => (None, None),
-    };
-    // Without a place, rates and step are the reference's, and those go together.
-    if let Some(place) = control_rate.or(sample_rate) {
-        check_rates(reader, &rig.sensing, place);
-    }
-    if let Some(place) = step.or(sample_rate) {
-        fit_step(reader, &mut rig.physics, rig.sensing.sample_rate, place);
-    }
+/// Where the keys that must go together stand, as far as they are given.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Places {
+    pub(super) step: Option<Span>,
+    pub(super) sample_rate: Option<Span>,
+    pub(super) control_rate: Option<Span>,
 }
 
-/// Reads `sensing`, and gives the places of the sample and the control rate.
-fn sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing) -> (Option<Span>, Option<Span>) {
-    let Some(mut fields) = Fields::of(reader, &entry.value, "the sensing", entry.key.span) else {
-        return (None, None);
-    };
-    let sample_rate = fields.set(reader, &SAMPLE_RATE, &mut sensing.sample_rate);
-    let control_rate = fields.set(reader, &CONTROL_RATE, &mut sensing.control_rate);
+/// Reads `sensing`, and notes the places of its rates.
+pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing, places: &mut Places) {
+    let Some(mut fields) = Fields::of(reader, &entry.value, "the sensing", entry.key.span) else { return };
+    places.sample_rate = fields.set(reader, &SAMPLE_RATE, &mut sensing.sample_rate);
+    places.control_rate = fields.set(reader, &CONTROL_RATE, &mut sensing.control_rate);
     fields.set(reader, &ANGLE_NOISE, &mut sensing.angle_noise);
     fields.set(reader, &ANGLE_RESOLUTION, &mut sensing.angle_resolution);
     if let Some(entry) = fields.entry("forces")
@@ -49,7 +40,17 @@ fn sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing) -> (Op
         sensing.forces = forces;
     }
     fields.finish(reader);
-    (sample_rate, control_rate)
+}
+
+/// Checks that a tick is a whole number of samples, and fits the step into the sample period. What no key was given for
+/// is the reference's, and needs no check.
+pub(super) fn check(reader: &mut Reader<'_>, rig: &mut Rig, places: Places) {
+    if let Some(place) = places.control_rate.or(places.sample_rate) {
+        check_rates(reader, &rig.sensing, place);
+    }
+    if let Some(place) = places.step.or(places.sample_rate) {
+        fit_step(reader, &mut rig.physics, rig.sensing.sample_rate, place);
+    }
 }
 
 fn check_rates(reader: &mut Reader<'_>, sensing: &Sensing, place: Span) {

@@ -101,9 +101,9 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Shaft {
     fields.set(reader, &YOUNG_MODULUS, &mut shaft.young_modulus);
     fields.set(reader, &DAMPING, &mut shaft.damping);
     if let Some(entry) = fields.entry("links")
-        && let Some(links) = reader.count(&entry.value, "links", LINKS)
+        && let Some(links) = reader.count(&entry.value, "links", LINKS, 16)
     {
-        shaft.links = links.value;
+        shaft.links = links;
     }
     shaft
 }
