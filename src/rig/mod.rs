@@ -128,6 +128,21 @@ pub struct Sensing {
     pub forces: bool,
 }
 
+impl Platform {
+    /// The corners in the body frame (m), counter-clockwise from the right end of the tail.
+    #[must_use]
+    pub fn outline_body(&self) -> [Point2<f64>; 4] {
+        let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
+        let (tail_side, nose_side) = (0.5 * self.tail_width, 0.5 * self.nose_width);
+        [
+            Point2::new(tail, -tail_side),
+            Point2::new(nose, -nose_side),
+            Point2::new(nose, nose_side),
+            Point2::new(tail, tail_side),
+        ]
+    }
+}
+
 impl Shaft {
     /// Bending stiffness `E I` (N m²) of the round wire, `I = π r⁴ / 4`.
     #[must_use]
@@ -186,20 +201,6 @@ impl Default for Platform {
 impl Default for YawController {
     fn default() -> Self {
         Self { proportional: 1.0, integral: 0.3, limit: std::f64::consts::FRAC_PI_2 }
-    }
-}
-
-impl Platform {
-    /// The corners of the platform's outline in the body frame (m), counter-clockwise from the right end of the tail.
-    #[must_use]
-    pub fn outline_body(&self) -> [Point2<f64>; 4] {
-        let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
-        [
-            Point2::new(tail, -self.tail_width / 2.0),
-            Point2::new(nose, -self.nose_width / 2.0),
-            Point2::new(nose, self.nose_width / 2.0),
-            Point2::new(tail, self.tail_width / 2.0),
-        ]
     }
 }
 

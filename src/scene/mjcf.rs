@@ -17,7 +17,7 @@ const HALF_HEIGHT: f64 = 0.01;
 
 /// Writes the MuJoCo model of `rig` at `start` before `object`, whose inside is solid.
 ///
-/// Names in the model: the body `platform` with the joints `x`, `y` and `yaw` and an actuator of the same
+/// Names in the model: the body and the geom `platform/body`, the joints `platform/x`, `platform/y` and `platform/yaw`, and an actuator of the same
 /// name each; for a whisker `w` the joints `w`, its sensor, and `w.0`, `w.1`, … along the shaft; the geom `object`; the
 /// keyframe `start`.
 ///
@@ -99,12 +99,12 @@ fn write_object(xml: &mut String, solid: Option<&Solid>) -> fmt::Result {
 
 fn write_platform(xml: &mut String, rig: &Rig) -> fmt::Result {
     let Platform { mass, inertia, .. } = rig.platform;
-    writeln!(xml, r#"    <body name="platform">"#)?;
+    writeln!(xml, r#"    <body name="platform/body">"#)?;
     writeln!(xml, r#"      <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#)?;
-    writeln!(xml, r#"      <joint name="x" type="slide" axis="1 0 0"/>"#)?;
-    writeln!(xml, r#"      <joint name="y" type="slide" axis="0 1 0"/>"#)?;
-    writeln!(xml, r#"      <joint name="yaw" type="hinge" axis="0 0 1"/>"#)?;
-    writeln!(xml, r#"      <geom name="platform" type="mesh" mesh="platform" contype="0" conaffinity="1"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/x" type="slide" axis="1 0 0"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/y" type="slide" axis="0 1 0"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/yaw" type="hinge" axis="0 0 1"/>"#)?;
+    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" contype="0" conaffinity="1"/>"#)?;
     for whisker in &rig.whiskers {
         write_whisker(xml, whisker)?;
     }
@@ -155,7 +155,7 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
     writeln!(xml, r"  <actuator>")?;
     for (joint, inertia) in
-        [("x", platform.mass), ("y", platform.mass), ("yaw", platform.inertia)]
+        [("platform/x", platform.mass), ("platform/y", platform.mass), ("platform/yaw", platform.inertia)]
     {
         // A velocity servo of gain k on an inertia J follows with the time constant J / k.
         writeln!(xml, r#"    <velocity name="{joint}" joint="{joint}" kv="{}"/>"#, inertia / platform.servo)?;

@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn the_unit_suits_the_size() {
         assert_eq!(format_si(1.25e-4, Dimension::LENGTH), "125 um");
-        assert_eq!(format_si(2.5, Dimension::LENGTH), "250 cm");
+        assert_eq!(format_si(2.5, Dimension::LENGTH), "2.5 m");
         assert_eq!(format_si(3e-4, Dimension::ANGLE), "300 urad");
         assert_eq!(format_si(1e11, Dimension::PRESSURE), "100 GPa");
         assert_eq!(format_si(0.0, Dimension::TIME), "0 s");

@@ -19,8 +19,8 @@ pub struct Unit {
 /// Every simple unit, the most usual of a dimension first.
 const SIMPLE: &[(&str, Unit)] = &[
     ("mm", Unit::new(Dimension::LENGTH, 1.0, 1e3)),
-    ("cm", Unit::new(Dimension::LENGTH, 1.0, 1e2)),
     ("m", Unit::new(Dimension::LENGTH, 1.0, 1.0)),
+    ("cm", Unit::new(Dimension::LENGTH, 1.0, 1e2)),
     ("um", Unit::new(Dimension::LENGTH, 1.0, 1e6)),
     ("deg", Unit::new(Dimension::ANGLE, std::f64::consts::PI / 180.0, 1.0)),
     ("rad", Unit::new(Dimension::ANGLE, 1.0, 1.0)),
@@ -237,7 +237,7 @@ pub fn units_of(dimension: Dimension) -> Vec<String> {
     let simple: Vec<String> = simple.collect();
     match dimension {
         _ if !simple.is_empty() => simple,
-        Dimension::SPEED => ["mm/s", "cm/s", "m/s"].map(str::to_owned).to_vec(),
+        Dimension::SPEED => ["mm/s", "m/s", "cm/s"].map(str::to_owned).to_vec(),
         Dimension::ANGULAR_SPEED => ["deg/s", "rad/s"].map(str::to_owned).to_vec(),
         _ => vec![dimension.si_unit()],
     }

@@ -63,7 +63,7 @@ impl MujocoWorld {
         route_engine_messages();
         let xml = mjcf(rig, object, start)?;
         let model = MjModel::from_xml_string(&xml).map_err(|error| MujocoError::Model(error.to_string()))?;
-        let geom = model.name_to_id(mujoco_rs::wrappers::mj_model::MjtObjBase::mjOBJ_GEOM, "platform");
+        let geom = model.name_to_id(mujoco_rs::wrappers::mj_model::MjtObjBase::mjOBJ_GEOM, "platform/body");
         let mut data =
             MjData::try_new(Arc::new(model)).map_err(|error| MujocoError::Model(error.to_string()))?;
         data.reset_keyframe(0).map_err(|error| MujocoError::Model(error.to_string()))?;

@@ -1,0 +1,94 @@
+//! Whether a rig stands clear of an object.
+
+use crate::rig::Rig;
+use crate::geometry::{Contour, Point2, Pose, unit};
+
+/// Parts nearer to the object than this (m) touch it.
+const TOUCHING: f64 = 1e-5;
+
+/// A part of a rig that overlaps an object.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Overlap {
+    /// The platform.
+    Platform,
+    /// The undeflected whisker with this index.
+    Whisker(usize),
+}
+
+/// The first part of the rig that overlaps or touches the object when the rig stands at `pose`, its whiskers straight.
+pub(super) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
+    let outline = rig.platform.outline_body().map(|corner| pose.point_to_world(corner));
+    let sides = (0..4).map(|side| (outline[side], outline[(side + 1) % 4]));
+    let swallowed = is_within(&outline, object.point_at(0.0));
+    if swallowed || sides.into_iter().any(|(from, to)| !is_clear(object, from, to, TOUCHING)) {
+        return Some(Overlap::Platform);
+    }
+    let hits = rig.whiskers.iter().position(|whisker| {
+        let tip_body = whisker.base_body + whisker.shaft.length * unit(whisker.direction_body);
+        let (base, tip) = (pose.point_to_world(whisker.base_body), pose.point_to_world(tip_body));
+        !is_clear(object, base, tip, whisker.shaft.radius + TOUCHING)
+    });
+    hits.map(Overlap::Whisker)
+}
+
+/// Whether every point of a segment is outside the object and farther than `margin` (m) from its outline.
+///
+/// No point of a segment is farther from its middle than half its length, so a middle that is farther from the outline
+/// than that clears the whole segment; otherwise each half is looked at.
+fn is_clear(object: &Contour, from: Point2, to: Point2, margin: f64) -> bool {
+    let middle = nalgebra::center(&from, &to);
+    let distance = if object.is_closed() { object.signed_distance(middle) } else { object.nearest(middle).distance };
+    if distance > 0.5 * (to - from).norm() + margin {
+        return true;
+    }
+    distance > margin && is_clear(object, from, middle, margin) && is_clear(object, middle, to, margin)
+}
+
+/// Whether a point is inside a convex polygon given counter-clockwise.
+fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
+    (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::geometry::circle;
+    use proptest::prelude::*;
+
+    fn disk(x: f64, y: f64, radius: f64) -> Contour {
+        circle(Point2::new(x, y), radius).unwrap()
+    }
+
+    #[test]
+    fn the_reference_start_is_clear_of_the_reference_disk() {
+        let start = Pose { position: Point2::new(0.0, 0.072), heading: std::f64::consts::FRAC_PI_2 };
+        assert_eq!(overlap(&Rig::default(), &start, &disk(0.4, 0.4, 0.3)), None);
+    }
+
+    #[test]
+    fn a_platform_inside_an_object_and_an_object_inside_a_platform_overlap() {
+        assert_eq!(overlap(&Rig::default(), &Pose::default(), &disk(0.0, 0.0, 1.0)), Some(Overlap::Platform));
+        assert_eq!(overlap(&Rig::default(), &Pose::default(), &disk(0.0, 0.0, 0.001)), Some(Overlap::Platform));
+    }
+
+    #[test]
+    fn a_whisker_that_sticks_into_an_object_is_named() {
+        assert_eq!(overlap(&Rig::default(), &Pose::default(), &disk(0.03, 0.13, 0.02)), Some(Overlap::Whisker(1)));
+    }
+
+    proptest! {
+        #[test]
+        fn a_segment_is_clear_of_a_disk_if_its_nearest_point_is(
+            x in -1.0_f64..1.0, y in -1.0_f64..1.0, u in -1.0_f64..1.0, v in -1.0_f64..1.0, radius in 0.05_f64..1.0,
+        ) {
+            let (from, to) = (Point2::new(x, y), Point2::new(u, v));
+            let along = to - from;
+            prop_assume!(along.norm() > 1e-3);
+            let share = (-from.coords.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            let gap = (from + share * along).coords.norm() - radius;
+            prop_assume!((gap - TOUCHING).abs() > 1e-9);
+            prop_assert_eq!(is_clear(&disk(0.0, 0.0, radius), from, to, TOUCHING), gap > TOUCHING);
+        }
+    }
+}

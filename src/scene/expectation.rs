@@ -1,0 +1,197 @@
+//! What must hold at the end of a run.
+
+use crate::units::{Dimension, format_si};
+use std::fmt;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// As it should: the loop closed, or the time of a scenario without a loop was up.
+    Completed,
+    /// The time was up before the loop closed.
+    Timeout,
+    /// The policy gave up.
+    Failed,
+    /// The simulation can no longer be trusted.
+    Diverged,
+}
+
+/// A figure of a run that an expectation can bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Metric {
+    /// Mean distance of the tip estimates to the object (m).
+    ErrorMean,
+    /// Its 95th percentile (m).
+    ErrorP95,
+    /// Its maximum (m).
+    ErrorMax,
+    /// Hausdorff distance between the object and the estimated contour (m).
+    Hausdorff,
+    /// Share of the object's outline that was traced (0 to 1).
+    Coverage,
+}
+
+/// One thing that must hold at the end of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Expectation {
+    /// The run ends so.
+    Outcome(Outcome),
+    /// A figure is at most the bound, or at least, for a [figure that is better the larger](Metric::is_lower_bounded).
+    Bound {
+        /// The figure.
+        metric: Metric,
+        /// Its bound, in SI units.
+        bound: f64,
+    },
+}
+
+/// An expectation that does not hold, with what was measured. Its text says both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Violation {
+    /// The run ended otherwise.
+    Outcome {
+        /// How it should have ended.
+        expected: Outcome,
+        /// How it ended.
+        found: Outcome,
+    },
+    /// A figure is beyond its bound.
+    Bound {
+        /// The figure.
+        metric: Metric,
+        /// Its bound, in SI units.
+        bound: f64,
+        /// Its value, in SI units; `None` if the run gave none.
+        found: Option<f64>,
+    },
+}
+
+impl Outcome {
+    /// Every outcome.
+    pub const ALL: [Self; 4] = [Self::Completed, Self::Timeout, Self::Failed, Self::Diverged];
+
+    /// The name in scenarios and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Timeout => "timeout",
+            Self::Failed => "failed",
+            Self::Diverged => "diverged",
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Metric {
+    /// Every metric.
+    pub const ALL: [Self; 5] = [Self::ErrorMean, Self::ErrorP95, Self::ErrorMax, Self::Hausdorff, Self::Coverage];
+
+    /// The name in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ErrorMean => "error_mean",
+            Self::ErrorP95 => "error_p95",
+            Self::ErrorMax => "error_max",
+            Self::Hausdorff => "hausdorff",
+            Self::Coverage => "coverage",
+        }
+    }
+
+    /// What it measures.
+    #[must_use]
+    pub fn dimension(self) -> Dimension {
+        if self == Self::Coverage { Dimension::NUMBER } else { Dimension::LENGTH }
+    }
+
+    /// Whether it is better the larger it is, so that its bound is one from below.
+    #[must_use]
+    pub fn is_lower_bounded(self) -> bool {
+        self == Self::Coverage
+    }
+
+    fn format(self, value: f64) -> String {
+        if self == Self::Coverage {
+            format!("{} %", format_si(value * 100.0, Dimension::NUMBER))
+        } else {
+            format_si(value, Dimension::LENGTH)
+        }
+    }
+}
+
+impl Expectation {
+    /// What is wrong with a run that ended with this outcome and these figures; `None` if the expectation holds. A figure
+    /// that was not measured, or is not a number, violates its bound.
+    pub fn violation(&self, outcome: Outcome, figure: impl Fn(Metric) -> Option<f64>) -> Option<Violation> {
+        match *self {
+            Self::Outcome(expected) => (expected != outcome).then_some(Violation::Outcome { expected, found: outcome }),
+            Self::Bound { metric, bound } => {
+                let found = figure(metric);
+                let holds =
+                    found.is_some_and(|value| if metric.is_lower_bounded() { value >= bound } else { value <= bound });
+                (!holds).then_some(Violation::Bound { metric, bound, found })
+            }
+        }
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Outcome { expected, found } => write!(f, "the outcome is {found}, expected {expected}"),
+            Self::Bound { metric, bound, found } => {
+                let found = found.map_or("not known".to_owned(), |value| metric.format(value));
+                let side = if metric.is_lower_bounded() { "at least" } else { "at most" };
+                write!(f, "{} is {found}, expected {side} {}", metric.name(), metric.format(bound))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn violation(metric: Metric, bound: f64, found: Option<f64>) -> Option<String> {
+        let expectation = Expectation::Bound { metric, bound };
+        expectation.violation(Outcome::Completed, |_| found).map(|violation| violation.to_string())
+    }
+
+    #[test]
+    fn errors_are_bounded_from_above_and_coverage_from_below() {
+        assert_eq!(violation(Metric::ErrorMean, 8e-4, Some(8e-4)), None);
+        assert_eq!(
+            violation(Metric::ErrorMean, 8e-4, Some(1.2e-3)).as_deref(),
+            Some("error_mean is 1.2 mm, expected at most 800 um")
+        );
+        assert_eq!(violation(Metric::Coverage, 0.95, Some(0.95)), None);
+        assert_eq!(
+            violation(Metric::Coverage, 0.95, Some(0.5)).as_deref(),
+            Some("coverage is 50 %, expected at least 95 %")
+        );
+    }
+
+    #[test]
+    fn a_figure_that_is_not_there_or_not_a_number_violates_its_bound() {
+        assert!(violation(Metric::ErrorMax, 1.0, Some(f64::NAN)).is_some());
+        assert_eq!(
+            violation(Metric::ErrorMax, 0.001, None).as_deref(),
+            Some("error_max is not known, expected at most 1 mm")
+        );
+    }
+
+    #[test]
+    fn another_outcome_is_a_violation() {
+        let violation = Expectation::Outcome(Outcome::Completed).violation(Outcome::Timeout, |_| None);
+        assert_eq!(
+            violation.map(|violation| violation.to_string()).as_deref(),
+            Some("the outcome is timeout, expected completed")
+        );
+    }
+}

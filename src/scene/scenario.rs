@@ -1,0 +1,185 @@
+//! A scenario as a whole.
+
+use super::{Expectation, Stop, yaml};
+use crate::rig::Rig;
+use crate::diagnostic::{Diagnostic, Source};
+use crate::geometry::{Contour, Pose};
+use std::path::PathBuf;
+
+/// One scenario, read and checked.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The name under which results are reported; fit to be a file's name.
+    pub name: String,
+    /// What it is about, for people; may be empty.
+    pub description: String,
+    /// The platform, its whiskers, and how they are simulated.
+    pub rig: Rig,
+    /// The outline of the object, in world coordinates. The exact reference that estimates are measured against.
+    pub object: Contour,
+    /// Where the platform starts, at rest: its centre of mass and its heading, in the world.
+    pub start: Pose,
+    /// When a run ends.
+    pub stop: Stop,
+    /// What must hold at the end of a run.
+    pub expect: Vec<Expectation>,
+    /// The policy to run unless another is asked for, relative to the scenario's file.
+    pub policy: Option<PathBuf>,
+    /// Seed of the sensor noise.
+    pub seed: u64,
+}
+
+impl Scene {
+    /// Reads a scenario.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in the order of the text: at least one diagnostic, all of them errors. A text
+    /// that is no YAML is reported alone.
+    ///
+    /// ```
+    /// use vibrissa::diagnostic::Source;
+    /// use vibrissa::scene::Scene;
+    /// let text = "
+    /// name: disk
+    /// object: {circle: {centre: [40 cm, 40 cm], radius: 30 cm}}
+    /// start: {position: [0 mm, 72 mm], heading: 90 deg}
+    /// stop: {time: 120 s}
+    /// ";
+    /// let scene = Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap();
+    /// assert!((scene.object.length() - 0.6 * std::f64::consts::PI).abs() < 1e-12);
+    /// ```
+    pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
+        yaml::read(source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::diagnostic::{Colour, terminal};
+    use crate::geometry::Point2;
+    use crate::scene::{LoopClosed, Metric, Outcome};
+use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn read(text: &str) -> Scene {
+        let source = Source::new("scenario.yaml", text);
+        Scene::from_yaml(&source).map_err(|faults| terminal(&source, &faults, Colour::Plain)).unwrap()
+    }
+
+    fn with_object(object: &str) -> Contour {
+        let start = "start: {position: [-1 m, 0 m], heading: 180 deg}";
+        read(&format!("name: x\n{start}\nstop: {{time: 1 s}}\nobject: {object}\n")).object
+    }
+
+    fn with_rig(rig: &str) -> Rig {
+        let object = "object: {circle: {centre: [4 m, 4 m], radius: 3 cm}}";
+        let start = "start: {position: [0 m, 0 m], heading: 0 deg}";
+        read(&format!("name: x\n{start}\nstop: {{time: 1 s}}\n{object}\nrig: {rig}\n")).rig
+    }
+
+    #[test]
+    fn the_disk_of_the_thesis_reads_as_its_figures() {
+        let scene = read(include_str!("../../scenarios/disk.yaml"));
+        assert_eq!(scene.name, "disk");
+        assert_eq!(scene.rig, Rig::default());
+        assert!((scene.object.length() - 0.6 * PI).abs() < 1e-12);
+        assert!(scene.object.signed_distance(Point2::new(0.1, 0.4)).abs() < 1e-15);
+        assert_eq!(scene.start, Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 });
+        assert_eq!(scene.stop, Stop { time: 120.0, loop_closed: Some(LoopClosed { within: 0.005, after: 5.0 }) });
+        assert_eq!(
+            scene.expect,
+            [
+                Expectation::Outcome(Outcome::Completed),
+                Expectation::Bound { metric: Metric::ErrorMean, bound: 0.0008 },
+                Expectation::Bound { metric: Metric::Coverage, bound: 0.95 },
+            ]
+        );
+        assert_eq!(scene.policy, Some("../policies/thesis.fsm".into()));
+        assert_eq!(scene.seed, 0);
+    }
+
+    #[test]
+    fn every_kind_of_object_is_the_contour_of_its_name() {
+        let centre = "centre: [40 cm, 40 cm]";
+        let area = |object: &str| with_object(object).area();
+        let square = "[[0 cm, 0 cm], [20 cm, 0 cm], [20 cm, 20 cm], [0 cm, 20 cm]]";
+        assert!((area(&format!("{{circle: {{{centre}, radius: 10 cm}}}}")) - 0.01 * PI).abs() < 1e-12);
+        assert!((area(&format!("{{polygon: {{vertices: {square}}}}}")) - 0.04).abs() < 1e-12);
+        let rounded = format!("{{rounded_rectangle: {{{centre}, width: 20 cm, height: 20 cm, corner_radius: 10 cm}}}}");
+        assert!((area(&rounded) - 0.01 * PI).abs() < 1e-12);
+        let regular = format!("{{regular_polygon: {{{centre}, circumradius: 1 m, sides: 4, heading: 45 deg}}}}");
+        assert!((area(&regular.replace("1 m", "10 cm")) - 0.02).abs() < 1e-12);
+        let start = "start: {position: [0 m, 0 m], heading: 0 deg}";
+        let side = "{straight: 20 cm}, {arc: {radius: 10 cm, angle: 180 deg}}";
+        let stadium = format!("{{path: {{{start}, moves: [{side}, {side}]}}}}");
+        assert!((area(&stadium) - (0.04 + 0.01 * PI)).abs() < 1e-12);
+        let corner = format!("{{path: {{{start}, moves: [{{straight: 20 cm}}, {{turn: 90 deg}}, {{straight: 10 cm}}]");
+        assert!((area(&format!("{corner}}}}}")) - 0.01).abs() < 1e-12);
+        assert!(!with_object(&format!("{corner}, closed: false}}}}")).is_closed());
+    }
+
+    #[test]
+    fn what_a_rig_leaves_out_is_as_in_the_reference_rig() {
+        let rig = with_rig("{whiskers: {l0: {length: 75 mm}, front: {base: [108 mm, 0 mm], direction: 0 deg}}}");
+        let [left, front] = rig.whiskers.as_slice() else { panic!("two whiskers, found {:?}", rig.whiskers) };
+        let reference = &Rig::default().whiskers[1];
+        assert_eq!((left.name.as_str(), left.base_body), ("l0", reference.base_body));
+        assert!((left.shaft.length - 0.075).abs() < 1e-15);
+        assert_eq!(front.shaft, reference.shaft);
+        assert_eq!(with_rig("{}"), Rig::default());
+    }
+
+    #[test]
+    fn every_key_of_a_rig_can_be_set() {
+        let text = "
+  platform:
+    {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms}
+  whiskers:
+    a:
+      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 mm, radius: 5 um, density: 6 kg/m^3, young_modulus: 7 GPa,
+       damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
+  physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
+  sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
+        let expected = Rig {
+            platform: Platform {
+                tail_width: 0.01,
+                nose_width: 0.02,
+                length: 0.03,
+                centre_of_mass: 0.01,
+                mass: 2.0,
+                inertia: 3.0,
+                servo: 0.004,
+            },
+            whiskers: vec![Whisker {
+                name: "a".to_owned(),
+                base_body: Point2::new(0.001, 0.002),
+                direction_body: 3.0,
+                shaft: Shaft { length: 4e-3, radius: 5e-6, density: 6.0, young_modulus: 7e9, damping: 8e-3, links: 9 },
+                hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
+            }],
+            physics: Physics {
+                step: 1e-3,
+                contact_time: 2e-3,
+                contact_impedance: [0.3, 0.4, 5e-3],
+                friction: 6.0,
+                penetration_limit: 7e-3,
+            },
+            sensing: Sensing {
+                sample_rate: 1e3,
+                control_rate: 50.0,
+                angle_noise: 3e-6,
+                angle_resolution: 4e-3,
+                forces: true,
+            },
+        };
+        assert_eq!(with_rig(text), expected);
+    }
+
+    #[test]
+    fn a_step_that_is_rounded_is_fitted_into_the_sample_period() {
+        assert_eq!(with_rig("{physics: {step: 3.33 ms}}").physics.step.to_bits(), (1.0_f64 / 300.0).to_bits());
+        assert_eq!(with_rig("{physics: {step: 1.667 ms}}").physics.step.to_bits(), (1.0_f64 / 600.0).to_bits());
+    }
+}

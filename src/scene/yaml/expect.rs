@@ -1,0 +1,31 @@
+//! `expect`: what must hold at the end of a run.
+
+use super::fields::Fields;
+use super::key::Key;
+use super::node::Entry;
+use super::reader::Reader;
+use crate::scene::{Expectation, Metric, Outcome};
+use crate::units::Dimension;
+
+/// Reads `expect`.
+pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {
+    let mut fields = Fields::of(reader, &entry.value, "an expectation", entry.key.span)?;
+    let mut expectations = Vec::new();
+    if let Some(entry) = fields.entry("outcome") {
+        let index = reader.choice(&entry.value, "an outcome", &Outcome::ALL.map(Outcome::name));
+        expectations.extend(index.and_then(|index| Outcome::ALL.get(index)).copied().map(Expectation::Outcome));
+    }
+    for metric in Metric::ALL {
+        let key = if metric.dimension() == Dimension::NUMBER {
+            Key::new(metric.name(), metric.dimension(), (0.0, 1.0), "95 %")
+        } else {
+            Key::new(metric.name(), metric.dimension(), (1e-9, 1.0), "0.8 mm")
+        };
+        let mut bound = f64::NAN;
+        if fields.set(reader, &key, &mut bound).is_some() {
+            expectations.push(Expectation::Bound { metric, bound });
+        }
+    }
+    fields.finish(reader);
+    Some(expectations)
+}

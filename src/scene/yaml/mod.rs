@@ -1,0 +1,22 @@
+//! The YAML format of a scenario: from text to a checked [`Scene`](super::Scene).
+//!
+//! The parser gives a tree in which every node knows its place; reading walks the tree, and puts what is wrong on a list
+//! instead of stopping at it. Checks that take several values together come last and run on what could be read.
+
+mod expect;
+mod fault;
+mod fields;
+mod key;
+mod node;
+mod number;
+mod object;
+mod path;
+mod reader;
+mod rig;
+mod scene;
+mod start;
+mod stop;
+mod timing;
+mod whisker;
+
+pub(super) use scene::read;

@@ -1,0 +1,164 @@
+//! `object`: the shape of the object.
+
+use super::fields::Fields;
+use super::key::Key;
+use super::node::{Entry, Placed};
+use super::reader::Reader;
+use super::start::{HEADING, POSITION};
+use super::{fault, path};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::{Contour, ContourError, Point2, ShapeError, circle, polygon, regular_polygon, rounded_rectangle};
+use crate::units::{Dimension, format_si};
+
+const CENTRE: Key = Key { name: "centre", example: "[40 cm, 40 cm]", ..POSITION };
+const VERTICES: &str = "[[0 cm, 30 cm], [20 cm, 30 cm], [10 cm, 50 cm]]";
+const VERTEX: Key = Key { name: "vertices", example: VERTICES, ..POSITION };
+const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-4, 100.0), "30 cm");
+const CIRCUMRADIUS: Key = Key { name: "circumradius", ..RADIUS };
+const WIDTH: Key = Key { name: "width", ..RADIUS };
+const HEIGHT: Key = Key { name: "height", ..RADIUS };
+const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
+
+const KINDS: [&str; 5] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "path"];
+
+/// Reads `object`. The contour comes with the place of the key of its kind.
+pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Contour>> {
+    let example = "circle: {centre: [40 cm, 40 cm], radius: 30 cm}";
+    let (kind, entry) = reader.variant(&entry.value, "an object", &KINDS, example)?;
+    let contour = match kind {
+        "circle" => read_circle(reader, entry),
+        "rounded_rectangle" => read_rounded_rectangle(reader, entry),
+        "polygon" => read_polygon(reader, entry),
+        "regular_polygon" => read_regular_polygon(reader, entry),
+        _ => path::read(reader, entry),
+    };
+    Some(Placed { value: contour?, span: entry.key.span })
+}
+
+fn read_circle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
+    let mut fields = Fields::of(reader, &entry.value, "a circle", entry.key.span)?;
+    let centre = centre(reader, &mut fields);
+    let radius = fields.number(reader, &RADIUS);
+    fields.finish(reader);
+    made(reader, circle(centre?, radius?.value), entry.key.span, &[])
+}
+
+fn read_rounded_rectangle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
+    let mut fields = Fields::of(reader, &entry.value, "a rounded rectangle", entry.key.span)?;
+    let centre = centre(reader, &mut fields);
+    let width = fields.number(reader, &WIDTH);
+    let height = fields.number(reader, &HEIGHT);
+    let corner_radius = fields.number(reader, &CORNER_RADIUS);
+    let heading = heading(reader, &mut fields);
+    fields.finish(reader);
+    let (width, height, corner_radius) = (width?, height?, corner_radius?);
+    let shape = rounded_rectangle(centre?, width.value, height.value, corner_radius.value, heading);
+    if let Err(ShapeError::CornerRadius { limit, .. }) = shape {
+        let shorter = if width.value <= height.value { width.span } else { height.span };
+        let label = format!("must be at most {}", format_si(limit, Dimension::LENGTH));
+        let fault = Diagnostic::error(fault::SHAPE, "the rounded corners do not fit", corner_radius.span, label);
+        reader.report(
+            fault.note(shorter, "two of them share this side").hint("make the corners smaller or the side longer"),
+        );
+        return None;
+    }
+    made(reader, shape, entry.key.span, &[])
+}
+
+fn read_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
+    let mut fields = Fields::of(reader, &entry.value, "a polygon", entry.key.span)?;
+    let vertices = fields.required(VERTEX.name, VERTICES);
+    fields.finish(reader);
+    let vertices = vertices?;
+    let items = reader.items(&vertices.value, "a list of points", VERTICES)?;
+    let points: Vec<_> = items.iter().map(|item| reader.point(item, &VERTEX)).collect();
+    let points: Vec<Placed<Point2>> = points.into_iter().collect::<Option<_>>()?;
+    let corners: Vec<Point2> = points.iter().map(|point| point.value).collect();
+    let shape = polygon(&corners);
+    match shape {
+        Err(ShapeError::TooFewSides { sides }) => {
+            let fault = Diagnostic::error(
+                fault::SHAPE,
+                "a polygon has at least 3 vertices",
+                vertices.key.span,
+                format!("{sides} here"),
+            );
+            reader.report(fault.hint(format!("add vertices: `vertices: {VERTICES}`")));
+            None
+        }
+        Err(ShapeError::ZeroEdge { from, to }) if let (Some(from), Some(to)) = (points.get(from), points.get(to)) => {
+            let (first, second) = if from.span.start < to.span.start { (from, to) } else { (to, from) };
+            let fault =
+                Diagnostic::error(fault::SHAPE, "two neighbouring vertices are the same", second.span, "this one");
+            reader.report(
+                fault.note(first.span, "and this one").hint("take one out: the first is not repeated at the end"),
+            );
+            None
+        }
+        shape => {
+            let places: Vec<Span> = points.iter().map(|point| point.span).collect();
+            made(reader, shape, entry.key.span, &places)
+        }
+    }
+}
+
+fn read_regular_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
+    let mut fields = Fields::of(reader, &entry.value, "a regular polygon", entry.key.span)?;
+    let centre = centre(reader, &mut fields);
+    let circumradius = fields.number(reader, &CIRCUMRADIUS);
+    let sides = fields.required("sides", "6").and_then(|entry| reader.count(&entry.value, "sides", 3_usize..=1000, 6));
+    let heading = heading(reader, &mut fields);
+    fields.finish(reader);
+    made(reader, regular_polygon(centre?, circumradius?.value, sides?, heading), entry.key.span, &[])
+}
+
+fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option<Point2> {
+    let entry = fields.required(CENTRE.name, CENTRE.example)?;
+    Some(reader.point(&entry.value, &CENTRE)?.value)
+}
+
+/// The heading of an object, 0 if it is left out.
+fn heading(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> f64 {
+    let mut heading = 0.0;
+    fields.set(reader, &HEADING, &mut heading);
+    heading
+}
+
+/// The contour, or the report of why there is none. `pieces` are the places of its pieces, where they have one each.
+pub(super) fn made(
+    reader: &mut Reader<'_>,
+    shape: Result<Contour, ShapeError>,
+    place: Span,
+    pieces: &[Span],
+) -> Option<Contour> {
+    let error = match shape {
+        Ok(contour) => return Some(contour),
+        Err(error) => error,
+    };
+    let fault = match &error {
+        ShapeError::Contour(ContourError::SelfIntersection { first, second, at }) => {
+            let millimetres = |value: f64| format!("{} mm", format_si(value * 1e3, Dimension::NUMBER));
+            let meeting = format!("at ({}, {})", millimetres(at.x), millimetres(at.y));
+            let (first, second) = (pieces.get(*first).copied(), pieces.get(*second).copied());
+            let message = "the outline crosses or touches itself";
+            let label = format!("the side that begins here meets another {meeting}");
+            let fault = Diagnostic::error(fault::SHAPE, message, second.or(first).unwrap_or(place), label);
+            let fault = if let (Some(first), Some(_)) = (first, second) {
+                fault.note(first, "which begins here")
+            } else {
+                fault
+            };
+            fault.hint("go round the object once, without crossing an earlier side")
+        }
+        ShapeError::ShortStep { step, length } => {
+            let place = pieces.get(*step).copied().unwrap_or(place);
+            let label = format!("{} long", format_si(*length, Dimension::LENGTH));
+            Diagnostic::error(fault::SHAPE, "a step of the path has no length", place, label)
+                .hint("leave it out, or use `turn` to turn on the spot")
+        }
+        _ => Diagnostic::error(fault::SHAPE, "there is no such shape", place, error.to_string())
+            .hint("change the numbers of the shape"),
+    };
+    reader.report(fault);
+    None
+}

@@ -1,0 +1,125 @@
+//! `rig.whiskers`: the whiskers by name.
+
+use super::fault;
+use super::fields::Fields;
+use super::key::Key;
+use super::node::{Entry, Node};
+use super::reader::Reader;
+use crate::diagnostic::Diagnostic;
+use crate::rig::{Hinge, Rig, Shaft, Whisker};
+use crate::signal::MAX_WHISKERS;
+use crate::units::Dimension;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+const BASE: Key = Key::new("base", Dimension::LENGTH, (-2.0, 2.0), "[53 mm, 30 mm]");
+const DIRECTION: Key = Key::new("direction", Dimension::ANGLE, (-PI, PI), "105 deg");
+
+const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 1.0), "100 mm");
+const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-6, 1e-2), "0.125 mm");
+const DENSITY: Key = Key::new("density", Dimension::DENSITY, (1.0, 1e5), "6450 kg/m^3");
+const YOUNG_MODULUS: Key = Key::new("young_modulus", Dimension::PRESSURE, (1e3, 1e13), "100 GPa");
+const DAMPING: Key = Key::new("damping", Dimension::TIME, (0.0, 1.0), "1 ms");
+const LINKS: RangeInclusive<usize> = 4..=64;
+
+const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS, (1e-6, 1e6), "1 N m/rad");
+const HINGE_DAMPING: Key = Key::new("damping", Dimension::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad");
+const HINGE_ARMATURE: Key = Key::new("armature", Dimension::INERTIA, (0.0, 1.0), "1e-5 kg m^2");
+
+/// Reads the whiskers. What one leaves out is as in the whisker of that name of the reference rig; a whisker of another
+/// name must tell where it sits and where it points.
+pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Whisker>> {
+    let entries = match &entry.value.value {
+        Node::Mapping(entries) if !entries.is_empty() => entries,
+        Node::Mapping(_) => {
+            let fault = Diagnostic::error(fault::RIG, "the rig has no whisker", entry.key.span, "empty");
+            reader
+                .report(fault.hint("add a whisker, such as `r0: {}`, or leave `whiskers` out for the reference pair"));
+            return None;
+        }
+        _ => {
+            reader.wrong_type(
+                &entry.value,
+                "a mapping",
+                "write each whisker under its name, such as `r0: {length: 75 mm}`",
+            );
+            return None;
+        }
+    };
+    if let Some(extra) = entries.get(MAX_WHISKERS) {
+        let message = format!("a rig can have {MAX_WHISKERS} whiskers at most");
+        reader.report(Diagnostic::error(fault::RIG, message, extra.key.span, "one too many").hint("leave some out"));
+        return None;
+    }
+    let whiskers: Vec<Option<Whisker>> = entries.iter().map(|entry| read(reader, entry)).collect();
+    whiskers.into_iter().collect()
+}
+
+fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
+    let name = &entry.key;
+    let is_identifier = name.value.starts_with(|first: char| first.is_ascii_alphabetic())
+        && name.value.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if !is_identifier {
+        let message = format!("a whisker cannot be called `{}`", name.value);
+        let label = "must be letters, digits and _, a letter first";
+        let fault = Diagnostic::error(fault::NAME, message, name.span, label);
+        reader.report(fault.hint("policies bind to whiskers by name, such as r0 for the first on the right"));
+    }
+
+    let reference = Rig::default().whiskers.into_iter().find(|whisker| whisker.name == name.value);
+    let mut fields = Fields::of(reader, &entry.value, "a whisker", name.span)?;
+    let base = match reference {
+        Some(_) => fields.entry(BASE.name),
+        None => fields.required(BASE.name, BASE.example),
+    };
+    let base_body = match (base, &reference) {
+        (Some(entry), _) => reader.point(&entry.value, &BASE).map(|point| point.value),
+        (None, reference) => reference.as_ref().map(|whisker| whisker.base_body),
+    };
+    let direction_body = match &reference {
+        Some(whisker) => {
+            let mut direction = whisker.direction_body;
+            fields.set(reader, &DIRECTION, &mut direction);
+            Some(direction)
+        }
+        None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
+    };
+    let shaft = shaft(reader, &mut fields);
+    let hinge = match fields.entry("hinge") {
+        Some(entry) => hinge(reader, entry),
+        None => Some(Hinge::default()),
+    };
+    fields.finish(reader);
+    Some(Whisker {
+        name: name.value.clone(),
+        base_body: base_body?,
+        direction_body: direction_body?,
+        shaft,
+        hinge: hinge?,
+    })
+}
+
+fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Shaft {
+    let mut shaft = Shaft::default();
+    fields.set(reader, &LENGTH, &mut shaft.length);
+    fields.set(reader, &RADIUS, &mut shaft.radius);
+    fields.set(reader, &DENSITY, &mut shaft.density);
+    fields.set(reader, &YOUNG_MODULUS, &mut shaft.young_modulus);
+    fields.set(reader, &DAMPING, &mut shaft.damping);
+    if let Some(entry) = fields.entry("links")
+        && let Some(links) = reader.count(&entry.value, "links", LINKS, 16)
+    {
+        shaft.links = links;
+    }
+    shaft
+}
+
+fn hinge(reader: &mut Reader<'_>, entry: &Entry) -> Option<Hinge> {
+    let mut fields = Fields::of(reader, &entry.value, "a hinge", entry.key.span)?;
+    let mut hinge = Hinge::default();
+    fields.set(reader, &HINGE_STIFFNESS, &mut hinge.stiffness);
+    fields.set(reader, &HINGE_DAMPING, &mut hinge.damping);
+    fields.set(reader, &HINGE_ARMATURE, &mut hinge.armature);
+    fields.finish(reader);
+    Some(hinge)
+}
