@@ -98,7 +98,6 @@ fn prepare(platform: &Platform, options: &Options, staging: &Path) -> Result<Pat
     let wheel = if let Some(wheel) = &options.wheel {
         wheel.clone()
     } else {
-        println!("Fetching MuJoCo {MUJOCO_VERSION} (about 26 MB) with pip.");
         let requirements = staging.join("requirements.txt");
         fs::write(&requirements, platform.requirement()).map_err(disk("write", &requirements))?;
         wheel::fetch(platform, &requirements, staging)?

@@ -21,14 +21,14 @@ pub(crate) enum WheelError {
     NoPython,
     #[error(
         "`python3` has no working pip, and MuJoCo is fetched with it.\n\
-         Install pip (Debian, Ubuntu: `apt install python3-pip`; elsewhere: `python3 -m ensurepip --user`), or fetch \
-         the wheel elsewhere and give it: `cargo x setup --wheel FILE`. It said:\n{0}"
+         Install pip (Debian, Ubuntu: `apt install python3-pip`; elsewhere: `python3 -m ensurepip --user`).\n\
+         Or fetch the wheel on another machine and give it: `cargo x setup --wheel FILE`.\nIt said:\n{0}"
     )]
     NoPip(String),
     #[error(
         "pip did not fetch MuJoCo {MUJOCO_VERSION} (wheel for {tag}).\n\
-         Look at the network, the proxy, and pip's own settings (`python3 -m pip config list`), then try again. \
-         Without a network: fetch the wheel on another machine and give it: `cargo x setup --wheel FILE`. \
+         Look at the network, the proxy, pip's own settings (`python3 -m pip config list`) and the free space, then try \
+         again.\nWithout a network: fetch the wheel on another machine and give it: `cargo x setup --wheel FILE`.\n\
          pip's last lines:\n{said}"
     )]
     NotFetched { tag: &'static str, said: String },
@@ -36,12 +36,12 @@ pub(crate) enum WheelError {
         "the wheel is not the published one, and nothing of it is used.\n  file     {file}\n  expected {expected}\n  \
          found    {found}\n\
          It may be cut short, or for another platform or Python: it must be mujoco {MUJOCO_VERSION} for CPython 3.11 \
-         on {tag}. If your package index hands it out so, its copy is damaged or was exchanged: do not use it."
+         on {tag}.\nIf your package index hands it out so, its copy is damaged or was exchanged: do not use it."
     )]
     WrongHash { file: String, expected: &'static str, found: String, tag: &'static str },
     #[error("the wheel {path} cannot be read: {source}.\nGive the path of a wheel that exists: `--wheel FILE`.")]
     Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("the library cannot be taken out of the wheel. Look at the free space. python3 said:\n{0}")]
+    #[error("the library cannot be taken out of the wheel.\nLook at the free space. python3 said:\n{0}")]
     NotUnpacked(String),
     #[error("`python3` cannot be run: {0}.\nLook at what `python3 --version` says.")]
     PythonFailed(std::io::Error),
@@ -53,6 +53,7 @@ pub(crate) fn fetch(platform: &Platform, requirements: &Path, directory: &Path) 
     if !probe.status.success() {
         return Err(WheelError::NoPip(last_lines(&probe.stderr)));
     }
+    println!("Fetching MuJoCo {MUJOCO_VERSION} (about 26 MB) with pip.");
     let fetched = python(
         &[
             "-m".as_ref(),
@@ -132,7 +133,7 @@ fn wheel_in(directory: &Path) -> Option<PathBuf> {
 
 /// The end of what a program said, indented.
 fn last_lines(said: &[u8]) -> String {
-    const SHOWN: usize = 6;
+    const SHOWN: usize = 4;
     let text = String::from_utf8_lossy(said);
     let lines: Vec<_> = text.lines().filter(|line| !line.trim().is_empty()).collect();
     let shown: Vec<_> = lines.iter().skip(lines.len().saturating_sub(SHOWN)).map(|line| format!("  {line}")).collect();
@@ -146,7 +147,7 @@ mod tests {
     #[test]
     fn the_last_lines_are_the_last_ones() {
         let said = "1\n\n2\n3\n\n4\n5\n6\n7\n8\n9\n";
-        assert_eq!(last_lines(said.as_bytes()), "  4\n  5\n  6\n  7\n  8\n  9");
+        assert_eq!(last_lines(said.as_bytes()), "  6\n  7\n  8\n  9");
     }
 
     #[test]
