@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn the_version_is_the_one_that_mujoco_rs_is_bound_to() {
-        let lock = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock")).unwrap();
+        let lock = fs::read_to_string("../Cargo.lock").unwrap();
         let mujoco_rs = lock.split("[[package]]").find(|entry| entry.contains("name = \"mujoco-rs\"")).unwrap();
         assert!(mujoco_rs.contains(&format!("+mj-{MUJOCO_VERSION}\"")));
     }
