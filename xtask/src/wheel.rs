@@ -28,7 +28,9 @@ pub(crate) enum WheelError {
     #[error(
         "pip did not fetch MuJoCo {MUJOCO_VERSION} (wheel for {tag}).\n\
          Look at the network, the proxy, pip's own settings (`python3 -m pip config list`) and the free space, then try \
-         again.\nWithout a network: fetch the wheel on another machine and give it: `cargo x setup --wheel FILE`.\n\
+         again.\nWithout a network, fetch the wheel on another machine:\n  \
+         python3 -m pip download --no-deps --only-binary=:all: --python-version=3.11 --implementation=cp --abi=cp311 \
+         --platform={tag} mujoco=={MUJOCO_VERSION}\nand give it here: `cargo x setup --wheel FILE`.\n\
          pip's last lines:\n{said}"
     )]
     NotFetched { tag: &'static str, said: String },
