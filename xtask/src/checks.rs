@@ -49,8 +49,8 @@ pub(crate) enum CheckError {
 
 /// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
 ///
-/// All of it is the `dev` profile. Dependencies are compiled once, for the tests, and checked once, for clippy and the
-/// documentation; only the package itself is compiled for either set of features.
+/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and the documentation;
+/// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
 const CHECKS: [Check; 10] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
