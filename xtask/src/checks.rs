@@ -49,7 +49,7 @@ pub(crate) enum CheckError {
 
 /// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
 ///
-/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and the documentation;
+/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
 const CHECKS: [Check; 10] = [
     check("formatting", &["fmt", "--all", "--check"]),

@@ -27,8 +27,8 @@ pub(crate) enum WheelError {
     NoPip(String),
     #[error(
         "pip did not fetch MuJoCo {MUJOCO_VERSION} (wheel for {tag}).\n\
-         Look at the network, the proxy, pip's own settings (`python3 -m pip config list`) and the free space, then try \
-         again.\nWithout a network, fetch the wheel on another machine:\n  \
+         Look at the network, the proxy, pip's own settings (`python3 -m pip config list`) and the free space, then \
+         try again.\nWithout a network, fetch the wheel on another machine:\n  \
          python3 -m pip download --no-deps --only-binary=:all: --python-version=3.11 --implementation=cp --abi=cp311 \
          --platform={tag} mujoco=={MUJOCO_VERSION}\nand give it here: `cargo x setup --wheel FILE`.\n\
          pip's last lines:\n{said}"
