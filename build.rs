@@ -1,8 +1,31 @@
-//! Lets binaries and tests find MuJoCo's library where `cargo x setup` put it.
+//! Lets programs find MuJoCo's library where set-up put it, with no environment variable.
+
+use std::env;
+use std::path::Path;
+use std::process::exit;
+
+/// The directory that mujoco-rs links against; `.cargo/config.toml` sets it.
+const LINK_DIR: &str = "MUJOCO_DYNAMIC_LINK_DIR";
 
 fn main() {
-    println!("cargo::rerun-if-env-changed=MUJOCO_DYNAMIC_LINK_DIR");
-    if std::env::var_os("CARGO_FEATURE_SIM").is_some() && let Ok(directory) = std::env::var("MUJOCO_DYNAMIC_LINK_DIR") {
-        println!("cargo::rustc-link-arg=-Wl,-rpath,{directory}");
+    println!("cargo::rerun-if-changed=build.rs");
+    if env::var_os("CARGO_FEATURE_SIM").is_none() {
+        return;
     }
+    println!("cargo::rerun-if-env-changed={LINK_DIR}");
+    // Without the variable, mujoco-rs looks for a MuJoCo of the system, which the loader finds by itself.
+    let Ok(directory) = env::var(LINK_DIR) else { return };
+
+    let link_name = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
+        Ok("macos") => "libmujoco.dylib",
+        _ => "libmujoco.so",
+    };
+    let library = Path::new(&directory).join(link_name);
+    println!("cargo::rerun-if-changed={}", library.display());
+    if !library.is_file() {
+        println!("cargo::error=MuJoCo is not set up: run `cargo x setup` ({} is missing)", library.display());
+        exit(1);
+    }
+    // For binaries, tests, benches and examples alike.
+    println!("cargo::rustc-link-arg=-Wl,-rpath,{directory}");
 }

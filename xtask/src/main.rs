@@ -1,3 +1,58 @@
 //! Set-up, demonstration and checks of Vibrissa, one command each.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 
-fn main() {}
+mod arguments;
+mod cargo;
+mod checkout;
+mod checks;
+mod demo;
+mod hash;
+mod platform;
+mod setup;
+mod stamp;
+mod wheel;
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use arguments::{Command, USAGE};
+
+fn main() -> ExitCode {
+    let command = match Command::parse(env::args_os().skip(1)) {
+        Ok(command) => command,
+        Err(error) => {
+            eprintln!("error: {error}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    let Some(root) = checkout_root() else {
+        eprintln!("error: this program knows its checkout only through Cargo: run it as `cargo x`");
+        return ExitCode::from(2);
+    };
+    match command {
+        Command::Help => {
+            println!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        Command::Setup(options) => status(setup::setup(&root, &options)),
+        Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
+        Command::Test => status(checks::run(&root)),
+    }
+}
+
+/// The workspace's directory. Read at run time, not compiled in: several checkouts may share a target directory.
+fn checkout_root() -> Option<PathBuf> {
+    let xtask = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR")?);
+    xtask.parent().map(Path::to_path_buf)
+}
+
+fn status<E: std::error::Error>(result: Result<(), E>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

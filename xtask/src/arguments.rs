@@ -1,0 +1,109 @@
+//! What the user asks for.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::setup::Options;
+
+/// The help text.
+pub(crate) const USAGE: &str = "\
+Usage: cargo x COMMAND
+
+Commands:
+  setup   fetch MuJoCo's library into .mujoco, unless it is there already
+            --force        fetch it again
+            --wheel FILE   take it from this wheel, on a machine without network
+  demo    set up, build in release, run the disk scenario and print where its report is
+  test    set up, then every test and every lint
+  help    print this";
+
+/// One command of `cargo x`.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Command {
+    Help,
+    Setup(Options),
+    Demo,
+    Test,
+}
+
+/// Why a command line was not understood.
+#[derive(Debug, PartialEq, Eq, Error)]
+pub(crate) enum ArgumentError {
+    #[error("there is no command `{0}`")]
+    UnknownCommand(String),
+    #[error("`{command}` does not take `{argument}`")]
+    UnexpectedArgument { command: String, argument: String },
+    #[error("`--wheel` needs the file that it is to take")]
+    NoWheelFile,
+}
+
+impl Command {
+    /// Reads the arguments that follow the program's name.
+    pub(crate) fn parse(mut arguments: impl Iterator<Item = OsString>) -> Result<Self, ArgumentError> {
+        let Some(name) = arguments.next() else { return Ok(Self::Help) };
+        let name = name.to_string_lossy().into_owned();
+        let command = match name.as_str() {
+            "help" | "--help" | "-h" => Self::Help,
+            "setup" => return parse_setup(arguments),
+            "demo" => Self::Demo,
+            "test" => Self::Test,
+            _ => return Err(ArgumentError::UnknownCommand(name)),
+        };
+        match arguments.next() {
+            None => Ok(command),
+            Some(argument) => Err(unexpected(&name, &argument)),
+        }
+    }
+}
+
+fn parse_setup(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut options = Options::default();
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--force") => options.force = true,
+            Some("--wheel") => {
+                options.wheel = Some(arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoWheelFile)?);
+            }
+            Some("--help" | "-h") => return Ok(Command::Help),
+            _ => return Err(unexpected("setup", &argument)),
+        }
+    }
+    Ok(Command::Setup(options))
+}
+
+fn unexpected(command: &str, argument: &OsString) -> ArgumentError {
+    ArgumentError::UnexpectedArgument { command: command.to_owned(), argument: argument.to_string_lossy().into_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(arguments: &[&str]) -> Result<Command, ArgumentError> {
+        Command::parse(arguments.iter().map(OsString::from))
+    }
+
+    #[test]
+    fn nothing_asks_for_help() {
+        assert_eq!(parse(&[]), Ok(Command::Help));
+    }
+
+    #[test]
+    fn setup_takes_a_wheel_and_force_in_any_order() {
+        let options = Options { force: true, wheel: Some(PathBuf::from("a.whl")) };
+        assert_eq!(parse(&["setup", "--wheel", "a.whl", "--force"]), Ok(Command::Setup(options.clone())));
+        assert_eq!(parse(&["setup", "--force", "--wheel", "a.whl"]), Ok(Command::Setup(options)));
+    }
+
+    #[test]
+    fn what_is_not_understood_is_named() {
+        assert_eq!(parse(&["tset"]), Err(ArgumentError::UnknownCommand("tset".to_owned())));
+        assert_eq!(
+            parse(&["demo", "box"]),
+            Err(ArgumentError::UnexpectedArgument { command: "demo".to_owned(), argument: "box".to_owned() })
+        );
+        assert_eq!(parse(&["setup", "--wheel"]), Err(ArgumentError::NoWheelFile));
+    }
+}

@@ -1,0 +1,209 @@
+//! Every test and every lint.
+
+use std::path::Path;
+use std::process::{ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use thiserror::Error;
+
+use crate::cargo::{NotStarted, cargo};
+use crate::checkout::Checkout;
+use crate::setup::{self, Options, SetupError};
+
+/// One thing that must hold.
+struct Check {
+    title: &'static str,
+    work: Work,
+}
+
+enum Work {
+    Cargo(CargoRun),
+    CoreIsFreeOfMujoco,
+    Setup,
+    CheckoutIsUntouched,
+}
+
+/// A Cargo command that must succeed.
+struct CargoRun {
+    environment: &'static [(&'static str, &'static str)],
+    arguments: &'static [&'static str],
+}
+
+/// Why the checks stopped, and what to do.
+#[derive(Debug, Error)]
+pub(crate) enum CheckError {
+    #[error("{title}: it failed ({status}); what it found is above. Run it alone:\n  {rerun}")]
+    Failed { title: &'static str, status: ExitStatus, rerun: String },
+    #[error(
+        "mujoco-rs is among the core's dependencies: keep it behind the feature `sim`. What brings it in:\n  \
+         cargo tree --no-default-features --invert mujoco-rs"
+    )]
+    CoreNeedsMujoco,
+    #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
+    LeftBehind(String),
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error(transparent)]
+    Cargo(#[from] NotStarted),
+}
+
+/// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
+///
+/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
+/// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
+const CHECKS: [Check; 10] = [
+    check("formatting", &["fmt", "--all", "--check"]),
+    Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
+    check_in(
+        // mujoco-rs's build script would stop at a directory that does not exist.
+        &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent")],
+        "tests of the core, without MuJoCo",
+        &["test", "--package", "vibrissa", "--no-default-features"],
+    ),
+    Check { title: "set-up", work: Work::Setup },
+    check("lints", &["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]),
+    check(
+        "lints of the core",
+        &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
+    ),
+    check("tests", &["test", "--workspace"]),
+    check_in(&[("RUSTDOCFLAGS", "--deny=warnings")], "documentation", &["doc", "--package", "vibrissa", "--no-deps"]),
+    // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
+    check("benches, each run once", &["test", "--package", "vibrissa", "--benches"]),
+    Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
+];
+
+const fn check(title: &'static str, arguments: &'static [&'static str]) -> Check {
+    check_in(&[], title, arguments)
+}
+
+const fn check_in(
+    environment: &'static [(&'static str, &'static str)],
+    title: &'static str,
+    arguments: &'static [&'static str],
+) -> Check {
+    Check { title, work: Work::Cargo(CargoRun { environment, arguments }) }
+}
+
+/// Runs every check in the checkout at `root` until one fails, and sums up.
+pub(crate) fn run(root: &Path) -> Result<(), CheckError> {
+    let before = Checkout::look(root);
+    let start = Instant::now();
+    let mut times = Vec::with_capacity(CHECKS.len());
+    let mut result = Ok(());
+    for (number, check) in (1..).zip(&CHECKS) {
+        println!("\n[{number}/{}] {}", CHECKS.len(), check.title);
+        let check_start = Instant::now();
+        result = check.run(root, before.as_ref());
+        times.push(check_start.elapsed());
+        if result.is_err() {
+            break;
+        }
+    }
+    println!("\n{}", summary(&times, result.is_ok(), start.elapsed()));
+    result
+}
+
+impl Check {
+    fn run(&self, root: &Path, before: Option<&Checkout>) -> Result<(), CheckError> {
+        match &self.work {
+            Work::Cargo(run) => run.succeed(self.title, root),
+            Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
+            Work::Setup => Ok(setup::setup(root, &Options::default())?),
+            Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
+        }
+    }
+}
+
+impl CargoRun {
+    fn succeed(&self, title: &'static str, root: &Path) -> Result<(), CheckError> {
+        println!("      {self}");
+        let mut command = cargo(root, self.arguments);
+        command.envs(self.environment.iter().copied());
+        let status = command.status().map_err(|source| NotStarted { program: "cargo", source })?;
+        if status.success() { Ok(()) } else { Err(CheckError::Failed { title, status, rerun: self.to_string() }) }
+    }
+}
+
+/// The line that does the same in a shell.
+impl std::fmt::Display for CargoRun {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (name, value) in self.environment {
+            write!(f, "{name}={value} ")?;
+        }
+        write!(f, "cargo {}", self.arguments.join(" "))
+    }
+}
+
+fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckError> {
+    const TREE: CargoRun = CargoRun {
+        environment: &[],
+        arguments: &["tree", "--package", "vibrissa", "--no-default-features", "--edges", "normal,build"],
+    };
+    let mut command = cargo(root, TREE.arguments);
+    let output = command.stderr(Stdio::inherit()).output().map_err(|source| NotStarted { program: "cargo", source })?;
+    if !output.status.success() {
+        return Err(CheckError::Failed { title, status: output.status, rerun: TREE.to_string() });
+    }
+    let tree = String::from_utf8_lossy(&output.stdout);
+    if tree.contains("mujoco-rs") { Err(CheckError::CoreNeedsMujoco) } else { Ok(()) }
+}
+
+fn checkout_is_untouched(root: &Path, before: Option<&Checkout>) -> Result<(), CheckError> {
+    let (Some(before), Some(now)) = (before, Checkout::look(root)) else {
+        println!("      left out: this is not a Git checkout");
+        return Ok(());
+    };
+    let left_behind = now.since(before);
+    if left_behind.is_empty() { Ok(()) } else { Err(CheckError::LeftBehind(left_behind.join("\n  "))) }
+}
+
+/// A line for each check that ran, and one for all.
+fn summary(times: &[Duration], passed: bool, total: Duration) -> String {
+    let last = times.len().saturating_sub(1);
+    let mut lines: Vec<_> = CHECKS
+        .iter()
+        .zip(times)
+        .enumerate()
+        .map(|(index, (check, time))| {
+            let word = if passed || index < last { "ok" } else { "FAILED" };
+            format!("{word:>6} {:>7.1} s  {}", time.as_secs_f64(), check.title)
+        })
+        .collect();
+    let left = CHECKS.len() - times.len();
+    let outcome = if passed { "all checks passed".to_owned() } else { format!("stopped, {left} checks left") };
+    lines.push(format!("       {:>7.1} s  {outcome}", total.as_secs_f64()));
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn position(title: &str) -> Option<usize> {
+        CHECKS.iter().position(|check| check.title == title)
+    }
+
+    #[test]
+    fn the_core_is_tested_before_mujoco_is_fetched_and_the_rest_after() {
+        assert!(position("tests of the core, without MuJoCo") < position("set-up"));
+        assert!(position("set-up") < position("lints"));
+        assert!(position("set-up") < position("tests"));
+    }
+
+    #[test]
+    fn a_check_is_shown_as_a_line_for_the_shell() {
+        let run = CargoRun { environment: &[("RUSTDOCFLAGS", "--deny=warnings")], arguments: &["doc", "--no-deps"] };
+        assert_eq!(run.to_string(), "RUSTDOCFLAGS=--deny=warnings cargo doc --no-deps");
+    }
+
+    #[test]
+    fn the_summary_says_which_check_failed_and_how_many_did_not_run() {
+        let second = Duration::from_secs(1);
+        let text = summary(&[second, second], false, second * 2);
+        let lines: Vec<_> = text.lines().map(str::trim).collect();
+        assert_eq!(lines.len(), 3);
+        assert!(lines[0].starts_with("ok") && lines[1].starts_with("FAILED"), "{text}");
+        assert!(lines[2].ends_with("stopped, 8 checks left"), "{text}");
+    }
+}
