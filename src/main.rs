@@ -1,3 +1,13 @@
 //! The `vibrissa` command.
 
-fn main() {}
+use std::panic::catch_unwind;
+use std::process::ExitCode;
+
+use clap::Parser;
+use vibrissa::cli::{Arguments, Exit};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    // A panic is a fault of the program, which has printed where by now; scripts know it by its exit status.
+    catch_unwind(|| vibrissa::cli::main(&arguments)).unwrap_or(Exit::Internal).into()
+}

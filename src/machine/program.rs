@@ -147,7 +147,24 @@ fn article(noun: &str) -> &'static str {
     if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
+impl Guard {
+    fn code(&self) -> &Block {
+        match self {
+            Self::When { code, .. } | Self::After { code, .. } => code,
+        }
+    }
+}
+
 impl Program {
+    /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the state
+    /// does. Jumps only lead forward, so that a block never does more operations than it has.
+    #[must_use]
+    pub fn operations(&self, state: usize) -> usize {
+        let state = &self.states[state];
+        let guards = self.always.iter().chain(&state.transitions).map(|transition| transition.guard.code().len());
+        guards.sum::<usize>() + state.body.len()
+    }
+
     /// Sets the parameter `name` to `value` (SI), which has the dimension `dimension`.
     ///
     /// # Errors

@@ -1,0 +1,100 @@
+//! The arguments of every command.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::study::WorldKind;
+use crate::units::{Quantity, parse_quantity};
+
+/// Scenarios, benchmarks and a policy language for whisker-based active touch.
+#[derive(Debug, Parser)]
+#[command(name = "vibrissa", version, about, max_term_width = 100, after_help = EXIT_STATUS)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; \
+                           3 internal error.";
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run scenarios under a policy, and score what was felt against the exact contour
+    Run(RunArguments),
+    /// Check policies, and say what they consist of
+    Check(CheckArguments),
+    /// Print the MuJoCo model of a scenario
+    Mjcf(MjcfArguments),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct RunArguments {
+    /// Scenario files, one run each
+    #[arg(value_name = "SCENARIO", required = true)]
+    pub(super) scenarios: Vec<PathBuf>,
+    /// Policy to run instead of the one that a scenario names
+    #[arg(long, value_name = "FILE")]
+    pub(super) policy: Option<PathBuf>,
+    /// Set a parameter of the policy, with its unit: --set "speed=20 mm/s"
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
+    pub(super) settings: Vec<Setting>,
+    /// World to run in
+    #[arg(long, value_enum, default_value_t = World::Mujoco)]
+    pub(super) world: World,
+    /// Seed of the sensors' noise instead of the scenario's
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
+    /// Write a picture and the result of every run into this directory
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: an array of results
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArguments {
+    /// Policy files
+    #[arg(value_name = "POLICY", required = true)]
+    pub(super) policies: Vec<PathBuf>,
+    /// Print only JSON: an array of policies with their diagnostics
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct MjcfArguments {
+    /// Scenario file
+    #[arg(value_name = "SCENARIO")]
+    pub(super) scenario: PathBuf,
+}
+
+/// The worlds, as the command line names them.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum World {
+    /// The simulation by MuJoCo
+    Mujoco,
+}
+
+impl From<World> for WorldKind {
+    fn from(world: World) -> Self {
+        match world {
+            World::Mujoco => Self::Mujoco,
+        }
+    }
+}
+
+/// A parameter and the value to give it.
+#[derive(Debug, Clone)]
+pub(super) struct Setting {
+    pub(super) name: String,
+    pub(super) value: Quantity,
+}
+
+fn parse_setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=20 mm/s\"")?;
+    let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    Ok(Setting { name: name.trim().to_owned(), value })
+}

@@ -1,0 +1,122 @@
+//! `vibrissa check`
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::diagnostic::{Record, records};
+use crate::machine::{Program, State};
+use crate::policy::compile;
+use crate::units::format_si;
+
+use super::arguments::CheckArguments;
+use super::exit::{Exit, Failure};
+use super::{input, output};
+
+/// What is known of one policy.
+#[derive(Debug, Serialize)]
+struct Checked {
+    file: String,
+    /// `null` if the policy is at fault.
+    machine: Option<Summary>,
+    diagnostics: Vec<Record>,
+}
+
+#[derive(Debug, Serialize)]
+struct Summary {
+    name: String,
+    whiskers: Vec<String>,
+    parameters: Vec<ParameterSummary>,
+    states: Vec<StateSummary>,
+    /// Bytes of a running machine's registers.
+    memory_bytes: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct ParameterSummary {
+    name: String,
+    value: String,
+    range: Option<[String; 2]>,
+}
+
+#[derive(Debug, Serialize)]
+struct StateSummary {
+    name: String,
+    initial: bool,
+    transitions: usize,
+    /// The most operations that a tick in this state does without leaving it.
+    operations: usize,
+}
+
+pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
+    let checked = arguments.policies.iter().map(|path| check_one(path, arguments.json));
+    let checked = checked.collect::<Result<Vec<_>, _>>()?;
+    if arguments.json {
+        output::json(&checked)?;
+    }
+    Ok(if checked.iter().any(|policy| policy.machine.is_none()) { Exit::Unusable } else { Exit::Done })
+}
+
+fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
+    let source = input::read(path)?;
+    let (machine, faults) = match compile(&source) {
+        Ok(program) => (Some(summary(&program)), Vec::new()),
+        Err(faults) => (None, faults),
+    };
+    if !json {
+        output::faults(&source, &faults);
+        if let Some(machine) = &machine {
+            output::result(describe(&source.name, machine));
+        }
+    }
+    Ok(Checked { file: source.name.clone(), machine, diagnostics: records(&source, &faults) })
+}
+
+fn summary(program: &Program) -> Summary {
+    let parameter = |parameter: &crate::machine::Parameter| ParameterSummary {
+        name: parameter.name.clone(),
+        value: format_si(parameter.default, parameter.dimension),
+        range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
+    };
+    let state = |(index, state): (usize, &State)| StateSummary {
+        name: state.name.to_string(),
+        initial: index == program.initial,
+        transitions: state.transitions.len(),
+        operations: program.operations(index),
+    };
+    Summary {
+        name: program.name.clone(),
+        whiskers: program.whiskers.clone(),
+        parameters: program.parameters.iter().map(parameter).collect(),
+        states: program.states.iter().enumerate().map(state).collect(),
+        memory_bytes: std::mem::size_of_val(program.image.as_slice()),
+    }
+}
+
+fn describe(file: &str, machine: &Summary) -> String {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::NOTHING);
+    table.set_header(["state", "transitions", "operations a tick, at most"]);
+    for state in &machine.states {
+        let initial = if state.initial { " (initial)" } else { "" };
+        table.add_row([
+            format!("{}{initial}", state.name),
+            state.transitions.to_string(),
+            state.operations.to_string(),
+        ]);
+    }
+    let mut text = format!(
+        "{file}: machine {}, whiskers {}, {} bytes of memory\n",
+        machine.name,
+        machine.whiskers.join(", "),
+        machine.memory_bytes
+    );
+    for parameter in &machine.parameters {
+        text += &format!("  {} = {}", parameter.name, parameter.value);
+        if let Some([low, high]) = &parameter.range {
+            text += &format!(" in {low} .. {high}");
+        }
+        text += "\n";
+    }
+    text + &table.trim_fmt()
+}

@@ -1,0 +1,85 @@
+//! How a command ends.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::diagnostic::{Diagnostic, Source};
+use crate::machine::SetError;
+use crate::scene::SolidError;
+use crate::study::ExecuteError;
+
+use super::output;
+
+/// The exit status of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// Done, and all expectations held.
+    Done,
+    /// An expectation failed.
+    Unexpected,
+    /// The input cannot be used.
+    Unusable,
+    /// The program is at fault.
+    Internal,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(match exit {
+            Exit::Done => 0,
+            Exit::Unexpected => 1,
+            Exit::Unusable => 2,
+            Exit::Internal => 3,
+        })
+    }
+}
+
+/// Why a command could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error("cannot read {}: {cause}", path.display())]
+    Read { path: PathBuf, cause: std::io::Error },
+    #[error("cannot write {}: {cause}; choose another directory with --out", path.display())]
+    Write { path: PathBuf, cause: std::io::Error },
+    #[error("{}", faults.len())]
+    Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
+    #[error("{} names no policy; give one with --policy", scenario.display())]
+    NoPolicy { scenario: PathBuf },
+    #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
+    SameName { first: PathBuf, second: PathBuf, name: String },
+    #[error("--set: {0}")]
+    Set(#[from] SetError),
+    #[error("{}: {cause}", scenario.display())]
+    Execute { scenario: PathBuf, cause: ExecuteError },
+    #[error("{}: {cause}", scenario.display())]
+    Solid { scenario: PathBuf, cause: SolidError },
+    #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
+    Json(#[from] serde_json::Error),
+}
+
+impl Failure {
+    pub(super) fn read(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Read { path, cause }
+    }
+
+    pub(super) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Write { path, cause }
+    }
+
+    pub(super) fn exit(&self) -> Exit {
+        match self {
+            Self::Json(_) => Exit::Internal,
+            _ => Exit::Unusable,
+        }
+    }
+
+    /// Prints what went wrong to standard error.
+    pub(super) fn report(&self) {
+        match self {
+            Self::Faults { source_text, faults } => output::faults(source_text, faults),
+            other => output::error(other),
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The command line: arguments, printing, exit codes. The only room that prints.
+
+mod arguments;
+mod check;
+mod exit;
+mod input;
+mod mjcf;
+mod output;
+mod run;
+
+pub use arguments::Arguments;
+pub use exit::Exit;
+
+use arguments::Command;
+
+/// Carries out a command line.
+#[must_use]
+pub fn main(arguments: &Arguments) -> Exit {
+    let done = match &arguments.command {
+        Command::Run(arguments) => run::run(arguments),
+        Command::Check(arguments) => check::check(arguments),
+        Command::Mjcf(arguments) => mjcf::mjcf(arguments),
+    };
+    done.unwrap_or_else(|failure| {
+        failure.report();
+        failure.exit()
+    })
+}

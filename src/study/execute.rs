@@ -1,0 +1,93 @@
+//! One run: build the world, drive it, give what happened.
+
+use std::fmt;
+use std::sync::Arc;
+
+use sha2::{Digest, Sha256};
+
+use crate::machine::Program;
+use crate::percept::BindError;
+use crate::run::{Control, Run, drive};
+use crate::scene::{Scene, SolidError, mjcf};
+
+/// The worlds that a run can take place in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WorldKind {
+    /// The simulation by MuJoCo.
+    Mujoco,
+}
+
+impl fmt::Display for WorldKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mujoco => f.write_str("mujoco"),
+        }
+    }
+}
+
+/// Why a run could not begin.
+#[derive(Debug, thiserror::Error)]
+pub enum ExecuteError {
+    /// The scenario's rig does not have what the policy needs.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// The world could not be built.
+    #[cfg(feature = "sim")]
+    #[error(transparent)]
+    Mujoco(#[from] crate::world::MujocoError),
+    /// The program was built without the world.
+    #[cfg(not(feature = "sim"))]
+    #[error("this build has no world `{0}`; build it with the feature `sim`")]
+    NoWorld(WorldKind),
+}
+
+/// Runs `program` in `scene`; `seed` fixes the sensors' noise, and `progress` hears the simulated time (s) every tick.
+///
+/// # Errors
+/// [`ExecuteError`] when the run cannot begin. How it ends is in the [`Run`].
+pub fn execute(
+    scene: &Scene,
+    program: Arc<Program>,
+    world: WorldKind,
+    seed: u64,
+    progress: impl FnMut(f64),
+) -> Result<Run, ExecuteError> {
+    let control = Control::new(&scene.rig, program)?;
+    let mut world = build(scene, world, seed)?;
+    let period = 1.0 / scene.rig.sensing.control_rate;
+    Ok(drive(world.as_mut(), control, &scene.stop, period, progress))
+}
+
+#[cfg(feature = "sim")]
+fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+    match kind {
+        WorldKind::Mujoco => {
+            let world = crate::world::MujocoWorld::new(&scene.rig, Some(&scene.object), scene.start, seed)?;
+            Ok(Box::new(world))
+        }
+    }
+}
+
+#[cfg(not(feature = "sim"))]
+fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+    Err(ExecuteError::NoWorld(kind))
+}
+
+/// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the
+/// model that it is given.
+///
+/// # Errors
+/// [`SolidError`] when the scene has no model.
+pub fn engine_hash(scene: &Scene) -> Result<[u8; 32], SolidError> {
+    #[cfg(feature = "sim")]
+    let engine = crate::world::engine_version();
+    #[cfg(not(feature = "sim"))]
+    let engine = "none";
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update([0]);
+    hash.update(engine);
+    hash.update([0]);
+    hash.update(mjcf(&scene.rig, Some(&scene.object), scene.start)?);
+    Ok(hash.finalize().into())
+}
