@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 
-use crate::{oracle, random};
+use crate::oracle::{self, ROUNDING};
+use crate::random;
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
@@ -17,18 +18,18 @@ proptest! {
     ) {
         let s = share * contour.length();
         let chord = (contour.point_at(s + step) - contour.point_at(s)).norm();
-        prop_assert!(chord <= step + 1e-15);
+        prop_assert!(chord <= step + ROUNDING);
     }
 
     #[test]
     fn a_contour_is_as_long_as_its_pieces_and_goes_through_their_ends(contour in random::any_contour()) {
         let mut s = 0.0;
         for piece in contour.pieces() {
-            prop_assert!((contour.point_at(s) - piece.start()).norm() < 1e-14);
+            prop_assert!((contour.point_at(s) - piece.start()).norm() < ROUNDING);
             s += piece.length();
             prop_assert!((contour.point_at(s) - piece.end()).norm() < 1e-9);
         }
-        prop_assert!((s - contour.length()).abs() < 1e-14);
+        prop_assert!((s - contour.length()).abs() < ROUNDING);
     }
 
     #[test]
@@ -44,7 +45,7 @@ proptest! {
         let bounds = contour.bounding_box();
         let points = contour.sample(contour.length() / 500.0);
         for sample in &points {
-            prop_assert!((sample.point - bounds.min).min() > -1e-15 && (bounds.max - sample.point).min() > -1e-15);
+            prop_assert!((sample.point - bounds.min).min() > -ROUNDING && (bounds.max - sample.point).min() > -ROUNDING);
         }
         let slack = contour.length() / 500.0;
         let gaps = |axis: usize| {
@@ -70,7 +71,7 @@ proptest! {
     ) {
         if contour.is_convex() {
             let [a, b] = [from, to].map(|share| contour.point_at(share * contour.length()));
-            prop_assert!(contour.signed_distance(nalgebra::center(&a, &b)) < 1e-14);
+            prop_assert!(contour.signed_distance(nalgebra::center(&a, &b)) < ROUNDING);
         }
     }
 }
@@ -97,7 +98,7 @@ proptest! {
             .sum();
         // Each chord cuts off κ s³ / 12.
         let cut: f64 = contour.pieces().iter().map(|piece| piece.curvature().abs() * piece.length()).sum();
-        prop_assert!((contour.area() - polygon).abs() <= cut * spacing * spacing / 12.0 + 1e-13);
+        prop_assert!((contour.area() - polygon).abs() <= cut * spacing * spacing / 12.0 + ROUNDING);
         prop_assert!(contour.area() > 0.0);
     }
 
@@ -109,7 +110,7 @@ proptest! {
         for (k, sample) in points.iter().enumerate() {
             prop_assert!((sample.arc_length - step * k as f64).abs() < 1e-12);
             prop_assert!((contour.point_at(sample.arc_length) - sample.point).norm() < 1e-12);
-            prop_assert!(oracle::distance(&contour, sample.point) < 1e-14);
+            prop_assert!(oracle::distance(&contour, sample.point) < ROUNDING);
         }
     }
 }

@@ -36,7 +36,9 @@ fn check(contour: &Contour, distance: f64, points: &[Point2]) -> Result<(), Test
         prop_assert!(parallel.is_closed() || !contour.is_closed());
         for sample in parallel.sample(parallel.length() / 200.0) {
             prop_assert!((oracle::distance(contour, sample.point) - distance.abs()).abs() < EXACT);
-            if !at_free_end(contour, sample.point) {
+            // Where an open parallel ends it may be as near to the other side of another part.
+            let end = sample.arc_length <= 0.0 || sample.arc_length >= parallel.length();
+            if parallel.is_closed() || !end {
                 prop_assert!(contour.signed_distance(sample.point) * distance > 0.0);
             }
         }

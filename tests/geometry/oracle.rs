@@ -4,6 +4,9 @@ use std::f64::consts::TAU;
 
 use vibrissa::geometry::{Contour, Piece, Point2, rotate, unit};
 
+/// What rounding does to lengths (m) of contours and arcs of a few metres.
+pub(crate) const ROUNDING: f64 = 1e-13;
+
 /// Whether a point is inside a closed contour, by the parity of the crossings of a ray in a direction (rad).
 pub(crate) fn inside(contour: &Contour, point: Point2, direction: f64) -> bool {
     let crossings: usize = contour.pieces().iter().map(|piece| crossings(piece, point, direction)).sum();

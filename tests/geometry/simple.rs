@@ -1,5 +1,7 @@
 //! Contours may not meet themselves.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, ContourError, Piece, Point2, ShapeError, circle, polygon};
 
@@ -50,7 +52,8 @@ proptest! {
     fn an_arc_over_a_line_is_refused_exactly_where_it_reaches_it(
         radius in 0.1..1.0_f64,
         height in 0.0..2.0_f64,
-        sweep in 0.1..std::f64::consts::TAU,
+        // Short of coming back to where it started.
+        sweep in 0.1..TAU - 1e-3,
     ) {
         // A line along the x axis, a way up, and an arc that starts at its top going left and down.
         prop_assume!((height - 2.0 * radius).abs() > 1e-6 && height > 1e-3);
@@ -61,11 +64,9 @@ proptest! {
             Piece::segment(Point2::new(-3.0, 0.0), Point2::new(3.0, 0.0)),
             Piece::segment(Point2::new(3.0, 0.0), Point2::new(3.0, height)),
             Piece::segment(Point2::new(3.0, height), top),
-            Piece::arc(top - Point2::new(0.0, radius).coords, radius, std::f64::consts::FRAC_PI_2, sweep),
+            Piece::arc(top - Point2::new(0.0, radius).coords, radius, FRAC_PI_2, sweep),
         ];
-        let lowest = if sweep >= std::f64::consts::PI { height - 2.0 * radius } else { reached };
-        let back_at_the_top = sweep > std::f64::consts::TAU - 1e-6;
-        prop_assume!(!back_at_the_top);
+        let lowest = if sweep >= PI { height - 2.0 * radius } else { reached };
         prop_assert_eq!(Contour::open(pieces).is_err(), lowest < 0.0);
     }
 }
@@ -76,7 +77,7 @@ fn a_contour_of_many_pieces_is_checked_in_no_time() {
     let gear: Vec<_> = (0..teeth)
         .map(|k| {
             let radius = if k % 2 == 0 { 0.3 } else { 0.29 };
-            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(teeth);
+            let angle = TAU * f64::from(k) / f64::from(teeth);
             Point2::new(radius * angle.cos(), radius * angle.sin())
         })
         .collect();
