@@ -68,8 +68,11 @@ impl Contour {
 
     /// The piece nearest to a point and the arc length along it of its nearest point.
     fn foot(&self, point: Point2) -> (usize, f64) {
+        // The tree's `nearest_neighbor` prunes by a bound that holds only for boxes without rounding, and so misses the
+        // nearest piece now and then where that is nearest at a corner of its box. Its iterator does not.
+        let nearest = self.tree.nearest_neighbor_iter([point.x, point.y]).next();
         // Only coordinates that are no numbers have no nearest piece; they give distances that are none either.
-        let index = self.tree.nearest_neighbor([point.x, point.y]).map_or(0, |leaf| leaf.index);
+        let index = nearest.map_or(0, |leaf| leaf.index);
         (index, self.pieces[index].nearest(point))
     }
 
@@ -77,20 +80,20 @@ impl Contour {
     fn side(&self, index: usize, along: f64, point: Point2) -> f64 {
         let piece = &self.pieces[index];
         let from_foot = point - piece.point_at(along);
-        let joint = if along <= 0.0 {
-            self.before(index).map(|before| (before, index))
-        } else if along >= piece.length() {
-            self.after(index).map(|after| (index, after))
+        let to_end = piece.length() - along;
+        let (to_joint, joint) = if along < to_end {
+            (along, self.before(index).map(|before| (before, index)))
         } else {
-            None
+            (to_end, self.after(index).map(|after| (index, after)))
         };
         match joint {
-            None => joint::right_of(piece.tangent_at(along), from_foot),
-            Some((before, after)) => {
+            Some((_, after)) if joint::hides(self.turns[after], to_joint, from_foot) => self.turns[after].signum(),
+            Some((before, after)) if to_joint <= 0.0 => {
                 let incoming = self.pieces[before].tangent_at(self.pieces[before].length());
                 let outgoing = self.pieces[after].tangent_at(0.0);
                 joint::side(self.turns[after], incoming, outgoing, from_foot)
             }
+            _ => joint::right_of(piece.tangent_at(along), from_foot),
         }
     }
 

@@ -68,6 +68,15 @@ pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
     if opening.abs() > CUSP_TOLERANCE * (kappa_1.abs() + kappa_2.abs()) { Some(-PI * opening.signum()) } else { None }
 }
 
+/// Whether a joint is a cusp so near, `to_joint` (m), to the nearest point of a point at `from_foot` that rounding decides
+/// which of the two pieces was found to be nearest; they are on opposite sides of the point.
+pub(super) fn hides(turn: f64, to_joint: f64, from_foot: Vector2) -> bool {
+    // The distances to the two pieces differ by the square of this times their curvatures.
+    const REACH: f64 = 1e-6;
+    // Within a spike, points are much nearer to its sides than its sides are to its tip.
+    PI - turn.abs() <= CUSP_TOLERANCE && to_joint < REACH && from_foot.norm() > to_joint
+}
+
 /// The side, +1 right or −1 left, of a joint on which the point at `from_joint` lies, given that the joint is its nearest
 /// point.
 pub(super) fn side(turn: f64, incoming: Vector2, outgoing: Vector2, from_joint: Vector2) -> f64 {

@@ -27,7 +27,8 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn sample(&self, spacing: f64) -> Vec<ContourPoint> {
-        let steps = if spacing > 0.0 { (self.length / spacing).ceil().max(1.0) } else { 1.0 };
+        // A length that is a whole number of spacings up to rounding has just as many steps.
+        let steps = if spacing > 0.0 { (self.length / spacing * (1.0 - 1e-12)).ceil().max(1.0) } else { 1.0 };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of at least 1")]
         let count = steps as usize + usize::from(!self.closed);
         let mut index = 0;
@@ -56,6 +57,7 @@ mod tests {
         let points = stick.sample(0.3);
         assert_eq!(points.len(), 5);
         assert_eq!(points[4].point, Point2::new(1.0, 0.0));
+        assert_eq!(stick.sample(1.0 / 49.0).len(), 50);
         assert_eq!(stick.sample(f64::NAN).len(), 2);
         assert_eq!(stick.sample(0.0).len(), 2);
     }

@@ -1,0 +1,205 @@
+//! Parallel contours.
+
+use std::f64::consts::TAU;
+
+use cavalier_contours::polyline::{
+    PlineOffsetOptions, PlineSource, PlineSourceMut, PlineVertex, Polyline, TouchingLoopBehavior,
+};
+
+use super::{
+    Arc, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, Vector2, perpendicular, rotate,
+};
+
+/// How far (m) a parallel contour may be off. Its corners are crossings, so they are less exact than its pieces.
+const TOLERANCE: f64 = 2e-8;
+
+/// A change of the distance (m) that leaves a parallel contour within the tolerance.
+const NUDGE: f64 = 0.5 * TOLERANCE;
+
+/// The offset library compares squares of lengths with a built-in 1e-8, so it is given millimetres: what it takes for zero
+/// is then far below what a contour can resolve.
+const PER_METRE: f64 = 1e3;
+
+/// Why there is no parallel contour.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OffsetError {
+    /// The distance is infinite or not a number.
+    #[error("the offset distance is {distance}: it must be a finite number")]
+    NotFinite {
+        /// The distance.
+        distance: f64,
+    },
+    /// What was computed does not stand its check.
+    #[error(
+        "no sound parallel contour was found at {distance} m: the contour is about to touch itself, split or vanish there, \
+         so try a distance that differs by a micrometre"
+    )]
+    Unsound {
+        /// The distance (m).
+        distance: f64,
+    },
+}
+
+impl Contour {
+    /// The contours parallel to this one at a signed `distance` (m): positive on the right of the direction of travel,
+    /// which is outwards of a closed contour, negative on the left.
+    ///
+    /// They are the points at that distance from the whole contour, on that side of it: corners that turn away are
+    /// rounded, those that turn towards it are trimmed. There may be several contours, or none where there is no room.
+    /// Those of a closed contour are closed, and each is counter-clockwise: one around a gap that has closed up at its
+    /// mouth has that gap inside. Those of an open contour leave out the caps around its ends and go its way, but one that
+    /// runs into its own start is closed.
+    ///
+    /// They are exact to 20 nm; a distance below that gives the contour itself.
+    ///
+    /// ```
+    /// use std::f64::consts::PI;
+    /// use vibrissa::geometry::{Point2, rounded_rectangle};
+    /// let side = rounded_rectangle(Point2::origin(), 0.2, 0.1, 0.0, 0.0)?;
+    /// let outside = side.offset(0.01)?;
+    /// assert_eq!(outside.len(), 1);
+    /// assert!((outside[0].length() - (0.6 + 0.02 * PI)).abs() < 1e-12);
+    /// assert!(side.offset(-0.06)?.is_empty());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the distance is not finite, or it is so near to one at which the parallel contour touches itself that rounding
+    /// decides its form.
+    pub fn offset(&self, distance: f64) -> Result<Vec<Self>, OffsetError> {
+        if !distance.is_finite() {
+            return Err(OffsetError::NotFinite { distance });
+        }
+        if distance.abs() <= TOLERANCE {
+            return Ok(vec![self.clone()]);
+        }
+        // At just the distance at which a parallel touches itself, splits or vanishes, that just beyond is as good.
+        let beyond = distance + NUDGE * distance.signum();
+        let found = [distance, beyond].into_iter().find_map(|distance| self.parallel(distance));
+        found.ok_or(OffsetError::Unsound { distance })
+    }
+
+    /// The parallels at a distance, if they stand the check.
+    fn parallel(&self, distance: f64) -> Option<Vec<Self>> {
+        let bounds = self.bounding_box();
+        let origin = nalgebra::center(&bounds.min, &bounds.max);
+        let options = PlineOffsetOptions {
+            pos_equal_eps: JOIN_TOLERANCE * PER_METRE,
+            offset_dist_eps: NUDGE * PER_METRE,
+            touching_loop_behavior: TouchingLoopBehavior::Separate,
+            ..PlineOffsetOptions::default()
+        };
+        // The library counts a distance to the left as positive.
+        let found = to_polyline(self, origin).parallel_offset_opt(-distance * PER_METRE, &options);
+        let found = found.iter().map(|polyline| to_pieces(polyline, origin));
+        // At a cusp it also finds the half circle on the other side.
+        let found = found.filter(|pieces| pieces.iter().all(|piece| self.is_beside(piece, distance)));
+        let found = found.map(|pieces| self.like(pieces)).collect::<Result<Vec<_>, _>>().ok()?;
+        self.has_parallel(&found, distance).then_some(found)
+    }
+
+    /// Whether the middle of a piece is on the side of this contour that the sign of the distance says.
+    fn is_beside(&self, piece: &Piece, distance: f64) -> bool {
+        self.signed_distance(piece.point_at(0.5 * piece.length())) * distance > 0.0
+    }
+
+    /// A contour of the same kind as this one; closed too if an open one's parallel runs into its own start.
+    fn like(&self, pieces: Vec<Piece>) -> Result<Self, ContourError> {
+        let closed = self.closed
+            || pieces
+                .first()
+                .zip(pieces.last())
+                .is_some_and(|(first, last)| (first.start() - last.end()).norm() <= JOIN_TOLERANCE);
+        if closed { Self::closed(pieces) } else { Self::open(pieces) }
+    }
+
+    /// Whether the contours are at the distance, and whether they lack none of the points there.
+    fn has_parallel(&self, found: &[Self], distance: f64) -> bool {
+        const ALONG: [f64; 5] = [0.0, 0.02, 0.5, 0.98, 1.0];
+        // The sides are checked elsewhere: beyond an end of an open contour they meet.
+        let at_distance = |point| (self.nearest(point).distance - distance.abs()).abs() <= TOLERANCE;
+        let sound = found
+            .iter()
+            .flat_map(|contour| &contour.pieces)
+            .all(|piece| ALONG.iter().all(|share| at_distance(piece.point_at(share * piece.length()))));
+        let covered = |point: Point2| {
+            // Points nearer to another part of the contour are trimmed, and rightly missing.
+            (self.signed_distance(point) - distance).abs() > 0.1 * JOIN_TOLERANCE
+                || found.iter().any(|contour| contour.nearest(point).distance <= TOLERANCE)
+        };
+        let beside = |piece: &Piece| {
+            let piece = *piece;
+            ALONG.into_iter().map(move |share| {
+                let s = share * piece.length();
+                piece.point_at(s) - perpendicular(piece.tangent_at(s)) * distance
+            })
+        };
+        let round = self.corners().into_iter().filter(|corner| corner.turn * distance > 0.0).map(|corner| {
+            let outgoing = self.tangent_at(corner.arc_length);
+            let middle = rotate(outgoing, -0.5 * corner.turn);
+            corner.point - perpendicular(middle) * distance
+        });
+        sound && self.pieces.iter().flat_map(beside).chain(round).all(covered)
+    }
+}
+
+fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
+    let mut polyline = if contour.closed { Polyline::new_closed() } else { Polyline::new() };
+    let mut add = |point: Point2, bulge| {
+        let point = (point - origin) * PER_METRE;
+        polyline.add(point.x, point.y, bulge);
+    };
+    for piece in &contour.pieces {
+        match piece {
+            Piece::Segment(segment) => add(segment.start, 0.0),
+            Piece::Arc(arc) => {
+                // The library's arcs are at most half circles.
+                let parts = (arc.sweep.abs() / 3.0).ceil();
+                for part in (0..3_u8).map(f64::from).take_while(|&part| part < parts) {
+                    add(arc.point_at(arc.length() * part / parts), (0.25 * arc.sweep / parts).tan());
+                }
+            }
+        }
+    }
+    if !contour.closed {
+        add(contour.point_at(contour.length), 0.0);
+    }
+    polyline
+}
+
+fn to_pieces(polyline: &Polyline, origin: Point2) -> Vec<Piece> {
+    let cleaned = polyline.remove_repeat_pos(SHORTEST_PIECE * PER_METRE);
+    let polyline = cleaned.as_ref().unwrap_or(polyline);
+    let mut pieces: Vec<Piece> = Vec::with_capacity(polyline.vertex_count());
+    for (from, to) in polyline.iter_segments() {
+        let piece = to_piece(from, to, origin);
+        match (pieces.last_mut(), piece) {
+            (Some(Piece::Arc(last)), Piece::Arc(arc)) if continues(last, &arc) => {
+                last.sweep = (last.sweep + arc.sweep).clamp(-TAU, TAU);
+            }
+            _ => pieces.push(piece),
+        }
+    }
+    pieces
+}
+
+fn to_piece(from: PlineVertex, to: PlineVertex, origin: Point2) -> Piece {
+    let [start, end] = [from, to].map(|vertex| origin + Vector2::new(vertex.x, vertex.y) / PER_METRE);
+    if from.bulge == 0.0 {
+        return Piece::segment(start, end);
+    }
+    let chord = end - start;
+    // The bulge is the tangent of a quarter of the sweep.
+    let to_centre = perpendicular(chord) * ((1.0 - from.bulge * from.bulge) / (4.0 * from.bulge));
+    let centre = nalgebra::center(&start, &end) + to_centre;
+    let outward = start - centre;
+    Piece::arc(centre, outward.norm(), outward.y.atan2(outward.x), 4.0 * from.bulge.atan())
+}
+
+/// Whether `next` goes on along the circle of `last`.
+fn continues(last: &Arc, next: &Arc) -> bool {
+    const SAME: f64 = 1e-3 * JOIN_TOLERANCE;
+    (next.centre - last.centre).norm() <= SAME
+        && (next.radius - last.radius).abs() <= SAME
+        && next.sweep.signum() == last.sweep.signum()
+}
