@@ -1,0 +1,38 @@
+//! The latency of one control tick: perception, machine and steering, on the samples of a real run.
+
+#![allow(missing_docs, reason = "criterion's macros write undocumented items")]
+
+mod disk;
+
+use std::error::Error;
+use std::hint::black_box;
+
+use criterion::{BatchSize, Criterion};
+use disk::Disk;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let disk = Disk::load()?;
+    let (_, control, _, blocks) = disk.settled()?;
+    let samples = blocks.last().ok_or("the run has no tick")?;
+
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut group = criterion.benchmark_group("control_tick");
+    group.bench_function("swiping", |bencher| {
+        bencher.iter_batched_ref(
+            || control.clone(),
+            |control| black_box(control.tick(black_box(samples))),
+            BatchSize::SmallInput,
+        );
+    });
+    let exploring = disk.control()?;
+    group.bench_function("exploring", |bencher| {
+        bencher.iter_batched_ref(
+            || exploring.clone(),
+            |control| black_box(control.tick(black_box(&blocks[0]))),
+            BatchSize::SmallInput,
+        );
+    });
+    group.finish();
+    criterion.final_summary();
+    Ok(())
+}

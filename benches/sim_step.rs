@@ -1,0 +1,35 @@
+//! The time of one control period of simulation, in free air and in contact.
+
+#![allow(missing_docs, reason = "criterion's macros write undocumented items")]
+
+mod disk;
+
+use std::error::Error;
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput};
+use disk::Disk;
+use vibrissa::signal::Command;
+use vibrissa::world::World;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let disk = Disk::load()?;
+    let sensing = &disk.scene.rig.sensing;
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut group = criterion.benchmark_group("sim_step");
+    // One element is a simulated millisecond: the rate over a thousand is simulated seconds a second.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+    group.throughput(Throughput::Elements((1000.0 / sensing.control_rate) as u64));
+
+    let mut free = disk.world()?;
+    group.bench_function("free", |bencher| {
+        bencher.iter(|| black_box(free.advance(&Command::STOP).map(<[_]>::len)));
+    });
+    let (mut touching, ..) = disk.settled()?;
+    group.bench_function("in_contact", |bencher| {
+        bencher.iter(|| black_box(touching.advance(&Command::STOP).map(<[_]>::len)));
+    });
+    group.finish();
+    criterion.final_summary();
+    Ok(())
+}
