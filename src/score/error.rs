@@ -1,0 +1,43 @@
+//! The error of a run's tip estimates.
+
+use std::cmp::Ordering;
+
+use super::{Statistics, Tip};
+
+/// How far a run's tip estimates are from the reference contour, whiskers pooled; lengths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorFigures {
+    /// Mean: the thesis's mean absolute error.
+    pub mean: f64,
+    /// Sample standard deviation, which the thesis calls standard error; a single estimate has none.
+    pub std: Option<f64>,
+    /// 95th percentile, by [`Statistics::percentile`].
+    pub p95: f64,
+    /// Maximum.
+    pub max: f64,
+    /// Number of estimates.
+    pub count: usize,
+}
+
+impl ErrorFigures {
+    /// The figures of `tips`; `None` if there are none.
+    #[must_use]
+    pub fn of(tips: &[Tip]) -> Option<Self> {
+        let statistics = Statistics::of(tips.iter().map(|tip| tip.error).collect())?;
+        Some(Self {
+            mean: statistics.mean(),
+            std: statistics.std(),
+            p95: statistics.percentile(95.0),
+            max: statistics.max(),
+            count: statistics.count(),
+        })
+    }
+
+    /// How an error (m) compares with the mean: equal if it is within a standard deviation of it. The thesis draws estimates
+    /// that are equal to the mean in this sense in green.
+    #[must_use]
+    pub fn against_mean(&self, error: f64) -> Ordering {
+        let (from_mean, std) = (error - self.mean, self.std.unwrap_or(0.0));
+        if from_mean.abs() <= std { Ordering::Equal } else { from_mean.total_cmp(&0.0) }
+    }
+}

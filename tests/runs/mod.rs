@@ -1,0 +1,56 @@
+//! Runs made by hand, for tests of what is made of runs.
+
+use std::time::Duration;
+
+use vibrissa::geometry::{Point2, Pose, Vector2, unit};
+use vibrissa::run::{Run, TickRecord, Trace};
+use vibrissa::scene::Outcome;
+use vibrissa::signal::{Command, MAX_WHISKERS};
+
+/// Time between ticks (s).
+const PERIOD: f64 = 1.0 / 30.0;
+
+/// A completed run that recorded `tips`, one list a whisker, one entry a tick. The platform goes up the y axis at 50 mm/s,
+/// and its whiskers are bent by 300 µrad, one to each side.
+pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
+    let count = tips.iter().map(Vec::len).max().unwrap_or(0);
+    let ticks = (0..count).map(|index| {
+        let time = (index + 1) as f64 * PERIOD;
+        let mut tick = TickRecord {
+            time,
+            body: Pose { position: Point2::new(0.0, 0.05 * time), heading: std::f64::consts::FRAC_PI_2 },
+            state: usize::from(index >= count / 3),
+            deflections: [0.0; MAX_WHISKERS],
+            tips: [None; MAX_WHISKERS],
+            command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
+            body_touches: false,
+        };
+        for (whisker, tips) in tips.iter().enumerate() {
+            tick.tips[whisker] = tips.get(index).copied().flatten();
+            tick.deflections[whisker] = if whisker % 2 == 0 { 3e-4 } else { -3e-4 };
+        }
+        tick
+    });
+    Run {
+        outcome: Outcome::Completed,
+        reason: None,
+        final_state: "Swiping".to_owned(),
+        trace: Trace {
+            whiskers: (0..tips.len()).map(|whisker| format!("w{whisker}")).collect(),
+            states: vec!["Exploring".to_owned(), "Swiping".to_owned()],
+            period: PERIOD,
+            ticks: ticks.collect(),
+        },
+        wall: Duration::from_millis(8),
+        tick_times: (0..count).map(|index| Duration::from_nanos(1000 + index as u64)).collect(),
+    }
+}
+
+/// Tips every `step` (m) or a little less along the arc of `radius` (m) about the origin from `start` over `sweep` (rad),
+/// both ends among them.
+pub(crate) fn arc_of_tips(radius: f64, start: f64, sweep: f64, step: f64) -> Vec<Option<Point2>> {
+    let count = (radius * sweep.abs() / step).ceil();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+    let count_tips = count as usize + 1;
+    (0..count_tips).map(|k| Some(Point2::from(radius * unit(start + sweep * (k as f64 / count))))).collect()
+}
