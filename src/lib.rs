@@ -1,5 +1,6 @@
 //! Scenarios, benchmarks and a policy language for whisker-based active touch.
 
+pub mod cli;
 pub mod diagnostic;
 pub mod geometry;
 pub mod machine;
@@ -12,5 +13,6 @@ pub mod run;
 pub mod scene;
 pub mod score;
 pub mod signal;
+pub mod study;
 pub mod units;
 pub mod world;

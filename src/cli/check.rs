@@ -95,7 +95,7 @@ fn summary(program: &Program) -> Summary {
 
 fn describe(file: &str, machine: &Summary) -> String {
     let mut table = comfy_table::Table::new();
-    table.load_preset(comfy_table::presets::NOTHING);
+    table.load_style(comfy_table::presets::NOTHING);
     table.set_header(["state", "transitions", "operations a tick, at most"]);
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };

@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         let result = RunResult::new(job.identity, &run, &score);
         if let Some(directory) = &arguments.out {
-            write_report(directory, &job.scene, &run, &result)?;
+            write_report(directory, &job.scene, &run, &score, &result)?;
         }
         results.push(result);
     }
@@ -145,9 +145,16 @@ fn body_contact(run: &Run) -> Option<Duration> {
     (ticks > 0).then(|| Duration::from_secs_f64(ticks as f64 * run.trace.period))
 }
 
-fn write_report(directory: &Path, scene: &Scene, run: &Run, result: &RunResult) -> Result<(), Failure> {
+fn write_report(
+    directory: &Path,
+    scene: &Scene,
+    run: &Run,
+    score: &Score,
+    result: &RunResult,
+) -> Result<(), Failure> {
     let picture_path = report_path(directory, result, "svg");
-    std::fs::write(&picture_path, picture(scene, run, result)).map_err(Failure::write(&picture_path))?;
+    let drawn = picture(scene, &result.policy, run, score);
+    std::fs::write(&picture_path, drawn).map_err(Failure::write(&picture_path))?;
     let json_path = report_path(directory, result, "json");
     let json = serde_json::to_string_pretty(result)? + "\n";
     std::fs::write(&json_path, json).map_err(Failure::write(&json_path))
