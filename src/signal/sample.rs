@@ -21,8 +21,10 @@ pub struct Sample {
 pub struct Reading {
     /// Angle of the base hinge (rad), positive when the shaft has turned counter-clockwise.
     pub base_angle: f64,
-    /// Force across the shaft at the base (N), where the rig measures it.
+    /// Force across the shaft at the base (N), as the shaft passes it on to the platform, positive to the shaft's left; where
+    /// the rig measures it.
     pub shear: Option<f64>,
-    /// Force along the shaft at the base (N), where the rig measures it.
+    /// Force along the shaft at the base (N), as the shaft passes it on to the platform, positive towards the tip; where the
+    /// rig measures it.
     pub axial: Option<f64>,
 }

@@ -128,7 +128,8 @@ impl MujocoWorld {
             joint += 1 + whisker.shaft.links;
             if self.rig.sensing.forces {
                 let force = &self.data.sensordata()[3 * index..3 * index + 3];
-                (reading.axial, reading.shear) = (Some(force[0]), Some(force[1]));
+                // MuJoCo reports what the platform does to the shaft.
+                (reading.axial, reading.shear) = (Some(-force[0]), Some(-force[1]));
             }
         }
         sample

@@ -7,8 +7,9 @@ use super::{expect, fault, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::geometry::{Contour, Pose};
 use crate::scene::clearance::{Overlap, overlap};
-use crate::scene::Scene;
 use crate::rig::Rig;
+use crate::scene::Scene;
+use crate::scene::solid::{Solid, SolidError};
 use std::path::PathBuf;
 
 /// Reads a scenario. The list of faults is never empty, and in the order of the text.
@@ -62,6 +63,9 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     };
     fields.finish(reader);
 
+    if let Some(object) = &object {
+        check_solid(reader, object);
+    }
     let (rig, object, start) = (rig?, object?, start?);
     check_clearance(reader, &rig, &start, &object);
     Some(Scene {
@@ -98,6 +102,17 @@ fn policy(reader: &mut Reader<'_>, entry: &Entry) -> Option<PathBuf> {
         return None;
     }
     Some(path.value.into())
+}
+
+fn check_solid(reader: &mut Reader<'_>, object: &Placed<Contour>) {
+    let (message, label, hint) = match Solid::from_contour(&object.value) {
+        Ok(_) => return,
+        Err(SolidError::Open) => ("the object has no inside", "an open contour", "close it with `closed: true`"),
+        Err(SolidError::Concave) => {
+            ("the object is concave", "turns both ways", "one solid can only be convex yet; fill the hollows")
+        }
+    };
+    reader.report(Diagnostic::error(fault::SHAPE, message, object.span, label).hint(hint));
 }
 
 fn check_clearance(reader: &mut Reader<'_>, rig: &Rig, start: &Placed<Pose>, object: &Placed<Contour>) {

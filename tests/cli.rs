@@ -1,0 +1,180 @@
+//! The command line as its users meet it: what goes where, and with which exit status.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+fn vibrissa(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_vibrissa")).args(arguments).current_dir(ROOT).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A directory of its own for one test, emptied before.
+fn directory(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&directory);
+    std::fs::create_dir_all(&directory).unwrap();
+    directory
+}
+
+fn bad(kind: &str) -> Vec<String> {
+    let directory = Path::new(ROOT).join("tests/fixtures").join(kind).join("bad");
+    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|file| file.extension().is_some()).map(|file| file.display().to_string()).collect()
+}
+
+#[test]
+fn help_explains_every_command() {
+    let help = stdout(&vibrissa(&["--help"]));
+    for command in ["run", "check", "mjcf"] {
+        assert!(help.contains(command));
+        let output = vibrissa(&[command, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("Usage:"));
+    }
+}
+
+#[test]
+fn check_says_what_a_policy_consists_of() {
+    let output = vibrissa(&["check", "policies/thesis.fsm", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(checked[0]["machine"]["name"], "thesis");
+    assert_eq!(checked[0]["machine"]["states"][0]["name"], "Exploring");
+    assert_eq!(checked[0]["diagnostics"], serde_json::json!([]));
+    let output = vibrissa(&["check", "policies/thesis.fsm"]);
+    assert!(stdout(&output).contains("Swiping"), "{}", stdout(&output));
+}
+
+#[test]
+fn every_malformed_policy_is_refused_with_a_place_and_exit_status_2() {
+    let files = bad("policies");
+    assert!(files.len() >= 20);
+    for file in files {
+        let output = vibrissa(&["check", &file]);
+        assert_eq!(output.status.code(), Some(2), "{file}");
+        assert!(stderr(&output).contains(&format!("{file}:")), "{file}: {}", stderr(&output));
+        assert_eq!(stdout(&output), "", "{file}");
+    }
+}
+
+#[test]
+fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
+    let files = bad("scenarios");
+    assert!(files.len() >= 20);
+    for file in files {
+        let output = vibrissa(&["run", &file, "--policy", "policies/thesis.fsm"]);
+        assert_eq!(output.status.code(), Some(2), "{file}");
+        assert!(stderr(&output).contains(&format!("{file}:")), "{file}: {}", stderr(&output));
+        assert_eq!(stdout(&output), "", "{file}");
+    }
+}
+
+#[test]
+fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
+    let disk = "scenarios/disk.yaml";
+    for (arguments, expected) in [
+        (vec!["run", "scenarios/nothing.yaml"], "cannot read scenarios/nothing.yaml"),
+        (vec!["run", disk, "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["run", disk, "--set", "sped=20 mm/s"], "no parameter `sped`"),
+        (vec!["run", disk, "--set", "speed=20 deg"], "`speed` is"),
+        (vec!["run", disk, "--set", "speed=2 m/s"], "must lie between"),
+        (vec!["run", disk, "--set", "speed"], "NAME=VALUE"),
+        (vec!["run", disk, "--set", "speed=20 mn/s"], "mn"),
+        (vec!["run", disk, disk], "both called `disk`"),
+        (vec!["run"], "SCENARIO"),
+        (vec!["fly"], "fly"),
+        (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+    ] {
+        let output = vibrissa(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+        assert_eq!(stdout(&output), "", "{arguments:?}");
+    }
+}
+
+#[test]
+fn mjcf_prints_the_model() {
+    let output = vibrissa(&["mjcf", "scenarios/disk.yaml"]);
+    assert_eq!(output.status.code(), Some(0));
+    let model = stdout(&output);
+    assert!(model.starts_with("<mujoco") && model.contains(r#"type="cylinder""#));
+}
+
+#[cfg(feature = "sim")]
+mod with_simulation {
+    use super::{directory, stderr, stdout, vibrissa};
+    use serde_json::Value;
+
+    /// The keys of a JSON value, with those of objects within, sorted.
+    fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {
+        for (key, inner) in value.as_object().into_iter().flatten() {
+            into.push(format!("{prefix}{key}"));
+            keys(inner, &format!("{prefix}{key}."), into);
+        }
+        into.sort();
+    }
+
+    #[test]
+    fn run_prints_results_as_json_and_nothing_else() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let result = &results[0];
+        let mut found = Vec::new();
+        keys(result, "", &mut found);
+        let mut expected = [
+            "scenario", "policy", "world", "seed", "outcome", "reason", "final_state", "sim_s", "wall_s", "realtime",
+            "error_mm", "error_mm.mean", "error_mm.std", "error_mm.p95", "error_mm.max", "error_mm.n", "coverage",
+            "hausdorff_mm", "retrieval", "retrieval.count", "retrieval.radius_mm", "retrieval.radius_mm.mean",
+            "retrieval.radius_mm.std", "retrieval.distance_mm", "retrieval.distance_mm.mean",
+            "retrieval.distance_mm.std", "axis_mm", "tick_us", "tick_us.mean", "tick_us.p99", "tick_us.max", "hash",
+            "hash.scenario", "hash.policy", "hash.engine",
+        ]
+        .map(str::to_owned);
+        expected.sort();
+        assert_eq!(found, expected);
+        assert_eq!(result["outcome"], "completed");
+        assert!(result["error_mm"]["mean"].as_f64().unwrap() <= 0.8);
+        assert!(result["coverage"].as_f64().unwrap() >= 0.95);
+    }
+
+    #[test]
+    fn an_expectation_that_fails_has_exit_status_1_and_says_which() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "limit=300 urad"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("the outcome is failed, expected completed"), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn a_report_is_a_picture_and_the_result() {
+        let directory = directory("report");
+        let out = directory.join("new").display().to_string();
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--out", &out]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stdout(&output).contains("disk.svg"));
+        let picture = std::fs::read_to_string(directory.join("new/disk.svg")).unwrap();
+        assert!(picture.starts_with("<svg"));
+        let result = std::fs::read_to_string(directory.join("new/disk.json")).unwrap();
+        assert!(serde_json::from_str::<Value>(&result).unwrap().is_object());
+    }
+}
+
+#[cfg(not(feature = "sim"))]
+#[test]
+fn a_build_without_the_simulator_says_so() {
+    let output = vibrissa(&["run", "scenarios/disk.yaml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
+    let _ = directory("unused");
+}
