@@ -1,0 +1,34 @@
+//! Numbers for people.
+
+/// A length in mm with as many decimals as are worth reading, to a thousandth at most.
+pub(super) fn millimetres(value: f64) -> String {
+    format!("{value:.*}", decimals(value))
+}
+
+/// A mean and a standard deviation in mm, with the decimals of the mean; the mean alone if there is no deviation.
+pub(super) fn mean_std(mean: f64, std: Option<f64>) -> String {
+    let decimals = decimals(mean);
+    let mean = format!("{mean:.decimals$}");
+    std.map_or_else(|| mean.clone(), |std| format!("{mean} ± {std:.decimals$}"))
+}
+
+fn decimals(millimetres: f64) -> usize {
+    match millimetres.abs() {
+        size if size < 0.1 => 3,
+        size if size < 10.0 => 2,
+        size if size < 100.0 => 1,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smaller_the_length_the_more_decimals() {
+        assert_eq!([0.0123, 0.123, 1.234, 12.34, 123.4].map(millimetres), ["0.012", "0.12", "1.23", "12.3", "123"]);
+        assert_eq!(mean_std(0.8, Some(0.05)), "0.80 ± 0.05");
+        assert_eq!(mean_std(0.0412, None), "0.041");
+    }
+}

@@ -1,0 +1,249 @@
+//! The scene from above: object, estimate, platform.
+
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+use std::iter;
+use std::ops::Range;
+
+use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
+
+use super::outline::Outline;
+use super::scale::Scale;
+use super::style::{self, Anchor, line, px, text};
+use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
+use crate::rig::Rig;
+use crate::run::{TickRecord, Trace};
+use crate::scene::Scene;
+use crate::score::{ErrorFigures, Tip};
+
+/// Diameter of an estimate's dot (px).
+pub(super) const DOT: f64 = 5.0;
+
+/// Width of the object's outline (px).
+pub(super) const OUTLINE: f64 = 0.7;
+
+/// Width of a stretch that was not traced (px).
+pub(super) const UNTRACED: f64 = 12.0;
+
+/// Poses of the platform that are drawn between the first and the last.
+const POSES_BETWEEN: usize = 5;
+
+/// The panel of the map: where it is, and how the world is laid out on it.
+pub(super) struct Map {
+    x: Scale,
+    y: Scale,
+    /// px a metre.
+    pub(super) scale: f64,
+    /// Height of the panel (px).
+    pub(super) height: f64,
+}
+
+impl Map {
+    /// A panel of `width` (px) with its upper left corner at (`left`, `top`), on which the object and the platform's way have
+    /// room; its height is between `least` and `most`.
+    pub(super) fn new(
+        scene: &Scene,
+        trace: &Trace,
+        (left, top): (f64, f64),
+        width: f64,
+        (least, most): (f64, f64),
+    ) -> Self {
+        let shown = poses(trace).into_iter().flat_map(|pose| footprint(&scene.rig, &pose)).chain(way(trace));
+        let shown =
+            shown.fold(scene.object.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
+        let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
+        let scale = 0.94 * (width / extent.x).min(most / extent.y);
+        let height = (scale * extent.y / 0.94).clamp(least, most);
+        let half = (0.5 * width / scale, 0.5 * height / scale);
+        Self {
+            x: Scale { values: (centre.x - half.0, centre.x + half.0), places: (left, left + width) },
+            y: Scale { values: (centre.y - half.1, centre.y + half.1), places: (top + height, top) },
+            scale,
+            height,
+        }
+    }
+
+    /// The panel with all that is on it.
+    pub(super) fn draw(
+        &self,
+        scene: &Scene,
+        trace: &Trace,
+        untraced: &[Range<f64>],
+        tips: &[Tip],
+        error: Option<&ErrorFigures>,
+    ) -> Group {
+        let frame = || {
+            Rectangle::new()
+                .set("x", px(self.x.places.0))
+                .set("y", px(self.y.places.1))
+                .set("width", px(self.x.places.1 - self.x.places.0))
+                .set("height", px(self.height))
+        };
+        let mut inside = Group::new().set("clip-path", "url(#map)");
+        if scene.object.is_closed() {
+            inside = inside.add(self.object(&scene.object).filled(style::SOLID));
+        }
+        inside = inside.add(self.stretches(&scene.object, untraced).stroked(style::UNTRACED, UNTRACED));
+        inside = inside.add(self.platform(&scene.rig, trace));
+        for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
+            let mut dots = Outline::default();
+            let of_class = |tip: &&Tip| error.is_some_and(|error| error.against_mean(tip.error) == class);
+            let places = tips.iter().filter(of_class).map(|tip| self.place(tip.tip_world));
+            places.filter(|place| self.shows(*place)).for_each(|place| dots.dot(place));
+            inside = inside.add(dots.dots(style::error_colour(class), DOT));
+        }
+        inside = inside.add(self.object(&scene.object).stroked(style::INK, OUTLINE));
+        let mut touches = Outline::default();
+        for tick in trace.ticks.iter().filter(|tick| tick.body_touches && has_place(tick)) {
+            touches.cross(self.place(tick.body.position), 4.0);
+        }
+        inside = inside.add(touches.stroked(style::ALARM, 1.5));
+        Group::new()
+            .add(Definitions::new().add(ClipPath::new().set("id", "map").add(frame())))
+            .add(self.axes())
+            .add(inside)
+            .add(frame().set("fill", "none").set("stroke", style::GREY))
+    }
+
+    fn place(&self, point: Point2) -> (f64, f64) {
+        (self.x.at(point.x), self.y.at(point.y))
+    }
+
+    /// Whether a place is on the panel. Tips can be anywhere.
+    fn shows(&self, (x, y): (f64, f64)) -> bool {
+        (self.x.places.0..=self.x.places.1).contains(&x) && (self.y.places.1..=self.y.places.0).contains(&y)
+    }
+
+    /// The exact outline: segments as lines, arcs as arcs.
+    fn object(&self, contour: &Contour) -> Outline {
+        let mut outline = Outline::default();
+        outline.move_to(self.place(contour.point_at(0.0)));
+        for piece in contour.pieces() {
+            match piece {
+                Piece::Segment(segment) => outline.line_to(self.place(segment.end)),
+                Piece::Arc(arc) => {
+                    let parts = (arc.sweep.abs() / (0.75 * PI)).ceil().max(1.0);
+                    for part in iter::successors(Some(1.0), |k| Some(k + 1.0)).take_while(|k| *k <= parts) {
+                        let end = self.place(arc.point_at(arc.length() * part / parts));
+                        outline.arc_to(self.scale * arc.radius, arc.sweep > 0.0, end);
+                    }
+                }
+            }
+        }
+        if contour.is_closed() {
+            outline.close();
+        }
+        outline
+    }
+
+    /// Stretches of the outline, close enough to it for a wide line.
+    fn stretches(&self, contour: &Contour, stretches: &[Range<f64>]) -> Outline {
+        let mut outline = Outline::default();
+        for stretch in stretches {
+            let length = stretch.end - stretch.start;
+            let steps = (self.scale * length / 3.0).ceil().max(1.0);
+            let shares = iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
+            outline.polyline(shares.map(|k| self.place(contour.point_at(stretch.start + length * k / steps))));
+        }
+        outline
+    }
+
+    fn platform(&self, rig: &Rig, trace: &Trace) -> Group {
+        let poses = poses(trace);
+        let mut group = Group::new();
+        for (index, pose) in poses.iter().enumerate() {
+            let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut lines, whisker| {
+                let tip_body = whisker.base_body + whisker.shaft.length * unit(whisker.direction_body);
+                lines.polyline([whisker.base_body, tip_body].map(|point| self.place(pose.point_to_world(point))));
+                lines
+            });
+            let mut body = Outline::default();
+            body.polyline(rig.platform.outline_body().map(|corner| self.place(pose.point_to_world(corner))));
+            body.close();
+            group = group.add(pose_style(body, index, poses.len())).add(whiskers.stroked(style::PLATFORM, 0.8));
+        }
+        let mut kept: Vec<(f64, f64)> = Vec::new();
+        for place in way(trace).map(|point| self.place(point)) {
+            // What is closer than a pixel cannot be seen.
+            if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= 1.0) {
+                kept.push(place);
+            }
+        }
+        let mut way = Outline::default();
+        way.polyline(kept);
+        group.add(way.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"))
+    }
+
+    fn axes(&self) -> Group {
+        let millimetres = |scale: &Scale| Scale { values: (scale.values.0 * 1e3, scale.values.1 * 1e3), ..*scale };
+        let (x, y) = (millimetres(&self.x), millimetres(&self.y));
+        let (left, right) = x.places;
+        let (bottom, top) = y.places;
+        let mut group = Group::new();
+        for (value, label) in x.ticks((right - left) / 100.0) {
+            group = group.add(line((x.at(value), top), (x.at(value), bottom), style::GRID, 1.0)).add(text(
+                x.at(value),
+                bottom + 17.0,
+                Anchor::Middle,
+                12.0,
+                style::GREY,
+                &label,
+            ));
+        }
+        for (value, label) in y.ticks((bottom - top) / 100.0) {
+            group = group.add(line((left, y.at(value)), (right, y.at(value)), style::GRID, 1.0)).add(text(
+                left - 7.0,
+                y.at(value) + 4.0,
+                Anchor::End,
+                12.0,
+                style::GREY,
+                &label,
+            ));
+        }
+        group.add(text(0.5 * (left + right), bottom + 36.0, Anchor::Middle, 12.0, style::GREY, "x (mm)")).add(text(
+            left - 7.0,
+            top - 9.0,
+            Anchor::End,
+            12.0,
+            style::GREY,
+            "y (mm)",
+        ))
+    }
+}
+
+/// The outline of the platform at one of `count` poses: filled at the first, heavy at the last.
+pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node::element::Path {
+    if index == 0 {
+        body.stroked(style::PLATFORM, 1.2).set("fill", "#cbd2d9")
+    } else if index + 1 == count {
+        body.stroked(style::INK, 2.0)
+    } else {
+        body.stroked(style::PLATFORM, 0.8).set("stroke-opacity", "0.7")
+    }
+}
+
+/// Where the platform's centre of mass went.
+fn way(trace: &Trace) -> impl Iterator<Item = Point2> {
+    trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body.position)
+}
+
+/// The poses that are drawn: the first, the last, and some at equal times between.
+fn poses(trace: &Trace) -> Vec<Pose> {
+    let poses: Vec<_> = trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body).collect();
+    let Some(last) = poses.len().checked_sub(1) else { return poses };
+    let count = (POSES_BETWEEN + 1).min(last.max(1));
+    let mut chosen: Vec<_> = (0..=count).map(|k| last * k / count).collect();
+    chosen.dedup();
+    chosen.into_iter().map(|index| poses[index]).collect()
+}
+
+fn has_place(tick: &TickRecord) -> bool {
+    tick.body.position.x.is_finite() && tick.body.position.y.is_finite() && tick.body.heading.is_finite()
+}
+
+/// The points that bound what is drawn of a rig (world).
+fn footprint(rig: &Rig, pose: &Pose) -> Vec<Point2> {
+    let tips =
+        rig.whiskers.iter().map(|whisker| whisker.base_body + whisker.shaft.length * unit(whisker.direction_body));
+    rig.platform.outline_body().into_iter().chain(tips).map(|point| pose.point_to_world(point)).collect()
+}

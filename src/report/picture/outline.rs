@@ -1,0 +1,79 @@
+//! Paths in the making.
+
+use svg::node::element::Path;
+
+use super::style::px;
+
+/// What a path goes through, in px.
+#[derive(Default)]
+pub(super) struct Outline(String);
+
+impl Outline {
+    /// Starts anew at a point.
+    pub(super) fn move_to(&mut self, (x, y): (f64, f64)) {
+        self.push("M", &[x, y]);
+    }
+
+    /// Goes straight to a point.
+    pub(super) fn line_to(&mut self, (x, y): (f64, f64)) {
+        self.push("L", &[x, y]);
+    }
+
+    /// Goes to a point along an arc of at most half a circle, to the left or to the right as seen.
+    pub(super) fn arc_to(&mut self, radius: f64, left: bool, (x, y): (f64, f64)) {
+        self.push("A", &[radius, radius, 0.0, 0.0, f64::from(u8::from(!left)), x, y]);
+    }
+
+    /// Goes back to where it started.
+    pub(super) fn close(&mut self) {
+        self.0.push('Z');
+    }
+
+    /// Goes straight from point to point. Points that are not finite leave a gap.
+    pub(super) fn polyline(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
+        let mut drawing = false;
+        for point in points {
+            let finite = point.0.is_finite() && point.1.is_finite();
+            match (finite, drawing) {
+                (true, true) => self.line_to(point),
+                (true, false) => self.move_to(point),
+                (false, _) => {}
+            }
+            drawing = finite;
+        }
+    }
+
+    /// A dot, if the path is drawn by [`dots`](Self::dots).
+    pub(super) fn dot(&mut self, point: (f64, f64)) {
+        self.move_to(point);
+        self.0.push_str("h0");
+    }
+
+    /// A cross.
+    pub(super) fn cross(&mut self, (x, y): (f64, f64), half: f64) {
+        for slope in [half, -half] {
+            self.move_to((x - half, y - slope));
+            self.line_to((x + half, y + slope));
+        }
+    }
+
+    /// The path as a line.
+    pub(super) fn stroked(self, colour: &str, width: f64) -> Path {
+        self.filled("none").set("stroke", colour).set("stroke-width", px(width)).set("stroke-linejoin", "round")
+    }
+
+    /// The path as round dots.
+    pub(super) fn dots(self, colour: &str, diameter: f64) -> Path {
+        self.stroked(colour, diameter).set("stroke-linecap", "round")
+    }
+
+    /// The path as an area.
+    pub(super) fn filled(self, colour: &str) -> Path {
+        Path::new().set("d", self.0).set("fill", colour)
+    }
+
+    fn push(&mut self, command: &str, numbers: &[f64]) {
+        self.0.push_str(command);
+        self.0.push_str(&numbers.iter().map(|&number| px(number)).collect::<Vec<_>>().join(" "));
+    }
+}

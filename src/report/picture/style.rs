@@ -1,0 +1,95 @@
+//! Colours and type of the picture.
+
+use std::cmp::Ordering;
+
+use svg::node::element::{Line, Text};
+
+/// A font that every system has.
+pub(super) const FONT: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
+
+/// Text and outlines.
+pub(super) const INK: &str = "#1f2933";
+/// Secondary text and frames.
+pub(super) const GREY: &str = "#616e7c";
+/// Grid lines.
+pub(super) const GRID: &str = "#e4e7eb";
+/// The inside of the object.
+pub(super) const SOLID: &str = "#f1f3f5";
+/// The platform and its way.
+pub(super) const PLATFORM: &str = "#52606d";
+/// What of the object was not traced.
+pub(super) const UNTRACED: &str = "#f8c4ae";
+/// The state of failure.
+pub(super) const FAILURE: &str = "#f0846a";
+/// What has gone wrong.
+pub(super) const ALARM: &str = "#c2410c";
+
+/// One colour a whisker (Okabe and Ito's, which colour-blind people can tell apart).
+pub(super) const WHISKERS: [&str; 8] =
+    ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#009e73", "#8c510a", "#d55e00", "#666666"];
+
+/// One light colour a state, to be written on.
+pub(super) const STATES: [&str; 8] =
+    ["#d9e2ec", "#b8dcf0", "#fde3a7", "#d6c9ec", "#c7e8c9", "#f6cfd8", "#e6d5b8", "#bfe3df"];
+
+/// The colour of an estimate whose error compares with the mean like this: the thesis's green within a standard deviation
+/// and red beyond, and blue for those that are better.
+pub(super) fn error_colour(against_mean: Ordering) -> &'static str {
+    match against_mean {
+        Ordering::Less => "#0072b2",
+        Ordering::Equal => "#009e73",
+        Ordering::Greater => "#d55e00",
+    }
+}
+
+/// Where a text stands relative to its place.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A line of text in `colour` and `size` (px), its baseline at (`x`, `y`).
+pub(super) fn text(x: f64, y: f64, anchor: Anchor, size: f64, colour: &str, content: &str) -> Text {
+    let anchor = match anchor {
+        Anchor::Start => "start",
+        Anchor::Middle => "middle",
+        Anchor::End => "end",
+    };
+    Text::new(printable(content))
+        .set("x", px(x))
+        .set("y", px(y))
+        .set("text-anchor", anchor)
+        .set("font-size", px(size))
+        .set("fill", colour)
+}
+
+/// A straight line.
+pub(super) fn line(from: (f64, f64), to: (f64, f64), colour: &str, width: f64) -> Line {
+    Line::new()
+        .set("x1", px(from.0))
+        .set("y1", px(from.1))
+        .set("x2", px(to.0))
+        .set("y2", px(to.1))
+        .set("stroke", colour)
+        .set("stroke-width", px(width))
+}
+
+/// About how wide (px) a text comes out; on the wide side, for there is no font to ask.
+pub(super) fn width_of(content: &str, size: f64) -> f64 {
+    0.6 * size * content.chars().count() as f64
+}
+
+/// The text without the characters that XML cannot hold.
+pub(super) fn printable(content: &str) -> String {
+    let allowed = |c: char| !c.is_control() && c != '\u{fffe}' && c != '\u{ffff}';
+    content.chars().map(|c| if allowed(c) { c } else { ' ' }).collect()
+}
+
+/// A length (px) to a hundredth, as short as it goes.
+pub(super) fn px(length: f64) -> String {
+    let text = format!("{length:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
