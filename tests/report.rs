@@ -5,11 +5,15 @@ mod runs;
 
 use std::f64::consts::TAU;
 
+use proptest::prelude::*;
 use runs::{arc_of_tips, run_with};
+use svg::node::element::tag::Type;
+use svg::parser::Event;
+use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::report::{Hashes, Identity, RunResult};
+use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
 use vibrissa::run::Run;
-use vibrissa::scene::Outcome;
+use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
 
 fn disk() -> Contour {
@@ -72,4 +76,167 @@ fn figures_that_are_no_numbers_are_null() {
     let json = serde_json::to_value(result(&run)).unwrap();
     assert!(json["error_mm"]["mean"].is_null());
     assert_eq!(json["error_mm"]["n"], 3);
+}
+
+#[test]
+fn a_table_has_a_line_a_run() {
+    let mut lost = result(&run_with(&[]));
+    lost.scenario = "rounded rectangle".to_owned();
+    lost.outcome = Outcome::Failed;
+    lost.realtime = None;
+    snapshots(|| insta::assert_snapshot!("table", table(&[result(&half_round()), lost])));
+}
+
+/// A scene of the disk of [`half_round`].
+fn scene() -> Scene {
+    let text = "
+name: disk
+object: {circle: {centre: [0 m, 0 m], radius: 0.3 m}}
+start: {position: [0 m, -0.6 m], heading: 90 deg}
+stop: {time: 120 s}
+";
+    Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap()
+}
+
+fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
+    picture(scene, policy, run, &Score::new(run, &scene.object))
+}
+
+/// A text of a picture and the box that it takes up at most: left, top, right, bottom (px).
+type Label = (String, [f64; 4]);
+
+/// The texts of a picture, whose tags are shown to be balanced and whose numbers to be finite.
+fn labels(picture: &str) -> Vec<Label> {
+    let (mut open, mut labels, mut current) = (Vec::new(), Vec::new(), None::<(f64, f64, f64, f64, String)>);
+    for event in svg::read(picture).unwrap() {
+        match event {
+            Event::Tag(name, kind, attributes) => {
+                for value in attributes.values() {
+                    assert!(!value.contains("NaN") && !value.contains("inf"), "{name}: {value:?}");
+                }
+                match kind {
+                    Type::Start => open.push(name.to_owned()),
+                    Type::End => assert_eq!(open.pop().as_deref(), Some(name)),
+                    Type::Empty => {}
+                }
+                if name == "text" && kind == Type::Start {
+                    let number = |key: &str| attributes[key].parse::<f64>().unwrap();
+                    let before = match &*attributes["text-anchor"] {
+                        "start" => 0.0,
+                        "middle" => 0.5,
+                        _ => 1.0,
+                    };
+                    current = Some((number("x"), number("y"), number("font-size"), before, String::new()));
+                } else if name == "text"
+                    && kind == Type::End
+                    && let Some((x, y, size, before, content)) = current.take()
+                {
+                    let width = 0.6 * size * content.chars().count() as f64;
+                    let left = x - before * width;
+                    labels.push((content, [left, y - 0.8 * size, left + width, y + 0.2 * size]));
+                }
+            }
+            Event::Text(content) => {
+                if let Some((.., text)) = &mut current {
+                    text.push_str(content.trim());
+                }
+            }
+            Event::Error(error) => panic!("{error}"),
+            _ => {}
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+    labels
+}
+
+fn texts_stand_clear(picture: &str) {
+    let labels = labels(picture);
+    for (index, (a, [left, top, right, bottom])) in labels.iter().enumerate() {
+        assert!(*left >= 0.0 && *top >= 0.0 && *right <= 1200.0, "{a} is cut off");
+        for (b, other) in &labels[..index] {
+            let apart = *left >= other[2] || other[0] >= *right || *top >= other[3] || other[1] >= *bottom;
+            assert!(apart, "`{a}` and `{b}` overlap");
+        }
+    }
+}
+
+#[test]
+fn a_picture_names_scene_policy_and_outcome_and_no_text_hides_another() {
+    let picture = draw(&scene(), "thesis", &half_round());
+    let labels: Vec<_> = labels(&picture).into_iter().map(|(content, _)| content).collect();
+    for wanted in ["disk", "policy thesis ·completed", "Swiping", "Error (mm)", "w0", "w1", "not traced within 1 mm"] {
+        assert!(labels.iter().any(|label| label == wanted), "no {wanted:?} in {labels:?}");
+    }
+    texts_stand_clear(&picture);
+}
+
+#[test]
+fn the_reference_is_drawn_with_exact_arcs() {
+    let picture = draw(&scene(), "thesis", &half_round());
+    let outlines = picture.lines().filter(|line| line.matches('A').count() == 3 && line.contains("Z\""));
+    assert_eq!(outlines.count(), 2, "the area and the line of a circle in three arcs");
+}
+
+#[test]
+fn the_same_run_gives_the_same_picture_whatever_the_clock_says() {
+    let mut run = half_round();
+    let picture = draw(&scene(), "thesis", &run);
+    run.wall *= 2;
+    run.tick_times.clear();
+    assert!(picture == draw(&scene(), "thesis", &run));
+    assert_eq!(picture.matches("http").count(), 1, "the namespace alone");
+}
+
+#[test]
+fn many_states_and_whiskers_with_long_names_and_a_long_reason_have_room() {
+    let mut run = run_with(&vec![arc_of_tips(0.301, 0.0, 1.0, 0.05 / 30.0); 8]);
+    run.trace.states = (0..30).map(|k| format!("StateOfALongName{k}")).collect();
+    run.trace.whiskers = (0..8).map(|k| format!("whisker_of_a_long_name_{k}")).collect();
+    for (index, tick) in run.trace.ticks.iter_mut().enumerate() {
+        tick.state = index / 5;
+        tick.body_touches = index % 10 == 0;
+    }
+    run.outcome = Outcome::Failed;
+    run.reason = Some("the whisker was lost and ".repeat(20) + &"o".repeat(400));
+    texts_stand_clear(&draw(&scene(), "thesis", &run));
+}
+
+#[test]
+fn names_cannot_break_a_picture() {
+    let mut run = half_round();
+    run.reason = Some("\u{0}\u{1b}[31m]]> & <script>\u{ffff}".to_owned());
+    run.trace.whiskers[0] = "\"<w0>\"".to_owned();
+    let scene = Scene { name: "</text>&amp;".to_owned(), ..scene() };
+    let picture = draw(&scene, "\"><script>alert(1)</script>", &run);
+    assert!(!picture.contains("<script"));
+    assert!(!picture.contains(|c: char| c.is_control() && c != '\n'));
+    labels(&picture);
+}
+
+#[test]
+fn a_tip_far_off_is_left_out_of_the_map() {
+    let mut run = half_round();
+    run.trace.ticks[3].tips[0] = Some(Point2::new(1e308, 0.0));
+    labels(&draw(&scene(), "thesis", &run));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_picture_of_any_run_is_well_formed(
+        tips in prop::collection::vec(prop::option::of((any::<f64>(), -1.0..1.0_f64)), 0..30),
+        bodies in prop::collection::vec((prop::num::f64::ANY, -1.0..1.0_f64, prop::num::f64::ANY), 30),
+        states in prop::collection::vec(0..4_usize, 30),
+    ) {
+        let tips = tips.into_iter().map(|tip| tip.map(|(x, y)| Point2::new(x, y))).collect();
+        let mut run = run_with(&[tips]);
+        for ((tick, (x, y, deflection)), state) in run.trace.ticks.iter_mut().zip(bodies).zip(states) {
+            tick.body.position = Point2::new(x, y);
+            tick.deflections[0] = deflection;
+            tick.body_touches = state == 0;
+            tick.state = state;
+        }
+        labels(&draw(&scene(), "thesis", &run));
+    }
 }

@@ -16,7 +16,8 @@ fn decimals(millimetres: f64) -> usize {
     match millimetres.abs() {
         size if size < 0.1 => 3,
         size if size < 10.0 => 2,
-        _ => 1,
+        size if size < 100.0 => 1,
+        _ => 0,
     }
 }
 
@@ -26,7 +27,7 @@ mod tests {
 
     #[test]
     fn the_smaller_the_length_the_more_decimals() {
-        assert_eq!([0.0123, 0.123, 1.234, 12.34].map(millimetres), ["0.012", "0.12", "1.23", "12.3"]);
+        assert_eq!([0.0123, 0.123, 1.234, 12.34, 123.4].map(millimetres), ["0.012", "0.12", "1.23", "12.3", "123"]);
         assert_eq!(mean_std(0.8, Some(0.05)), "0.80 ± 0.05");
         assert_eq!(mean_std(0.0412, None), "0.041");
     }

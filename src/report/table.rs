@@ -1,7 +1,6 @@
 //! Results as a table for the terminal.
 
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
-use comfy_table::{Cell, CellAlignment, Table};
+use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
 use super::RunResult;
 use super::number::{mean_std, millimetres};
@@ -13,11 +12,22 @@ const NONE: &str = "–";
 #[must_use]
 pub fn table(results: &[RunResult]) -> String {
     let headings = [
-        "scene", "policy", "outcome", "error mm", "p95", "max", "coverage", "Hausdorff mm", "sim s", "× real time",
+        "scene",
+        "policy",
+        "outcome",
+        "error mm",
+        "p95",
+        "max",
+        "coverage",
+        "Hausdorff mm",
+        "sim s",
+        "× real time",
         "tick µs",
     ];
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_header(headings);
+    let rule = LineStyle::none().fill('─').junction('─');
+    let style = TableStyle::new().top_border(rule).header_separator(rule).bottom_border(rule);
+    table.load_style(style).set_header(headings);
     for result in results {
         table.add_row(line(result).map(Cell::new));
     }

@@ -1,7 +1,9 @@
 //! How much of the object was traced.
 
 use super::Estimate;
-use super::lipschitz::length_below;
+use std::ops::Range;
+
+use super::lipschitz::stretches_below;
 use crate::geometry::Contour;
 
 /// How near (m) the estimated contour must be for a point of the reference to count as traced.
@@ -10,15 +12,22 @@ pub const COVERAGE_TOLERANCE: f64 = 1e-3;
 /// Where a traced stretch of the reference ends is known to half of this (m).
 pub const COVERAGE_RESOLUTION: f64 = 2e-5;
 
-/// The share of the reference contour's length (0 to 1) that lies within [`COVERAGE_TOLERANCE`] of the estimate; 0 if
-/// there is no estimate.
+/// The stretches of the reference contour (arc lengths in m, ascending) that lie within [`COVERAGE_TOLERANCE`] of the
+/// estimate; none if there is no estimate. One that goes over the start of a closed contour comes in two parts.
+#[must_use]
+pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
+    stretches_below(reference.length(), COVERAGE_TOLERANCE, COVERAGE_RESOLUTION, |s| {
+        estimate.distance(reference.point_at(s)).unwrap_or(f64::INFINITY)
+    })
+}
+
+/// The share of the reference contour's length (0 to 1) that is [traced].
 ///
 /// It counts the whole contour: a rig can go all the way round a single solid. The share is exact up to half of
 /// [`COVERAGE_RESOLUTION`] over the contour's length, for every end of a traced stretch.
 #[must_use]
 pub fn coverage(estimate: &Estimate, reference: &Contour) -> f64 {
-    let traced = length_below(reference.length(), COVERAGE_TOLERANCE, COVERAGE_RESOLUTION, |s| {
-        estimate.distance(reference.point_at(s)).unwrap_or(f64::INFINITY)
-    });
-    (traced / reference.length()).min(1.0)
+    // Not `sum`, whose nothing is negative zero.
+    let length = traced(estimate, reference).iter().fold(0.0, |sum, stretch| sum + stretch.end - stretch.start);
+    (length / reference.length()).min(1.0)
 }

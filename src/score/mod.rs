@@ -14,7 +14,7 @@ mod score;
 mod statistics;
 mod tip;
 
-pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage};
+pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage, traced};
 pub use error::ErrorFigures;
 pub use estimate::{Estimate, LONGEST_BREAK, LONGEST_STEP};
 pub use hausdorff::{HAUSDORFF_TOLERANCE, hausdorff};

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use svg::Node;
 use svg::node::element::{Group, Path};
 
-use super::map::{DOT, pose_style};
+use super::map::{DOT, OUTLINE, UNTRACED, pose_style};
 use super::outline::Outline;
 use super::scale::round_step;
 use super::style::{self, Anchor, error_colour, line, text};
@@ -33,29 +33,49 @@ pub(super) struct Legend {
 
 impl Legend {
     /// The whole column, `width` (px) wide, from (`left`, `top`) down; `scale` is the map's, px a metre.
-    pub(super) fn draw((left, top): (f64, f64), width: f64, scale: f64, trace: &Trace, score: &Score) -> Group {
+    pub(super) fn draw(
+        (left, top): (f64, f64),
+        width: f64,
+        scale: f64,
+        trace: &Trace,
+        score: &Score,
+        untraced: bool,
+    ) -> Group {
         let mut legend = Self { group: Group::new(), left, width, y: top + 12.0 };
-        legend.contour(score.error.as_ref());
+        legend.contour(untraced);
+        legend.estimates(score.error.as_ref());
         legend.platform(trace);
         legend.figures(trace, score);
         legend.scale_bar(scale);
         legend.group
     }
 
-    fn contour(&mut self, error: Option<&ErrorFigures>) {
-        self.heading("Contour");
+    fn contour(&mut self, untraced: bool) {
+        self.heading("Object");
         let mut reference = Outline::default();
         reference.polyline(self.mark());
-        self.entry(reference.stroked(style::INK, 0.9), "object, exact");
+        self.entry(reference.stroked(style::INK, OUTLINE), "outline, exact");
+        if untraced {
+            let mut stretch = Outline::default();
+            stretch.polyline(self.mark());
+            self.entry(stretch.stroked(style::UNTRACED, UNTRACED), "not traced within 1 mm");
+        }
+    }
+
+    fn estimates(&mut self, error: Option<&ErrorFigures>) {
         let Some(error) = error else { return };
+        self.y += GAP;
+        self.heading("Tip estimates by error");
         let (mean, std) = (error.mean * 1e3, error.std.unwrap_or(0.0) * 1e3);
         let (low, high) = (mean - std, mean + std);
         if low > 0.0 {
-            self.error_class(Ordering::Less, &format!("error below {} mm", millimetres(low)));
+            self.error_class(Ordering::Less, &format!("below {} mm", millimetres(low)));
+            let within = format!("{} to {} mm, mean ± std", millimetres(low), millimetres(high));
+            self.error_class(Ordering::Equal, &within);
+        } else {
+            self.error_class(Ordering::Equal, &format!("up to {} mm, mean + std", millimetres(high)));
         }
-        let within = format!("error {} to {} mm (mean ± std)", millimetres(low.max(0.0)), millimetres(high));
-        self.error_class(Ordering::Equal, &within);
-        self.error_class(Ordering::Greater, &format!("error above {} mm", millimetres(high)));
+        self.error_class(Ordering::Greater, &format!("above {} mm", millimetres(high)));
     }
 
     fn error_class(&mut self, against_mean: Ordering, meaning: &str) {

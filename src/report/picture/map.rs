@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::iter;
+use std::ops::Range;
 
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
@@ -15,7 +17,13 @@ use crate::scene::Scene;
 use crate::score::{ErrorFigures, Tip};
 
 /// Diameter of an estimate's dot (px).
-pub(super) const DOT: f64 = 4.0;
+pub(super) const DOT: f64 = 5.0;
+
+/// Width of the object's outline (px).
+pub(super) const OUTLINE: f64 = 0.7;
+
+/// Width of a stretch that was not traced (px).
+pub(super) const UNTRACED: f64 = 12.0;
 
 /// Poses of the platform that are drawn between the first and the last.
 const POSES_BETWEEN: usize = 5;
@@ -31,15 +39,21 @@ pub(super) struct Map {
 }
 
 impl Map {
-    /// A panel of `width` (px), at most `height`, with its upper left corner at (`left`, `top`), on which the object and the
-    /// platform's way have room.
-    pub(super) fn new(scene: &Scene, trace: &Trace, (left, top): (f64, f64), (width, height): (f64, f64)) -> Self {
+    /// A panel of `width` (px) with its upper left corner at (`left`, `top`), on which the object and the platform's way have
+    /// room; its height is between `least` and `most`.
+    pub(super) fn new(
+        scene: &Scene,
+        trace: &Trace,
+        (left, top): (f64, f64),
+        width: f64,
+        (least, most): (f64, f64),
+    ) -> Self {
         let shown = poses(trace).into_iter().flat_map(|pose| footprint(&scene.rig, &pose)).chain(way(trace));
         let shown =
             shown.fold(scene.object.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
         let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
-        let scale = 0.94 * (width / extent.x).min(height / extent.y);
-        let height = (scale * extent.y / 0.94).clamp(0.5 * height, height);
+        let scale = 0.94 * (width / extent.x).min(most / extent.y);
+        let height = (scale * extent.y / 0.94).clamp(least, most);
         let half = (0.5 * width / scale, 0.5 * height / scale);
         Self {
             x: Scale { values: (centre.x - half.0, centre.x + half.0), places: (left, left + width) },
@@ -50,7 +64,14 @@ impl Map {
     }
 
     /// The panel with all that is on it.
-    pub(super) fn draw(&self, scene: &Scene, trace: &Trace, tips: &[Tip], error: Option<&ErrorFigures>) -> Group {
+    pub(super) fn draw(
+        &self,
+        scene: &Scene,
+        trace: &Trace,
+        untraced: &[Range<f64>],
+        tips: &[Tip],
+        error: Option<&ErrorFigures>,
+    ) -> Group {
         let frame = || {
             Rectangle::new()
                 .set("x", px(self.x.places.0))
@@ -58,22 +79,24 @@ impl Map {
                 .set("width", px(self.x.places.1 - self.x.places.0))
                 .set("height", px(self.height))
         };
-        let mut inside =
-            Group::new().set("clip-path", "url(#map)").add(self.object(&scene.object).filled(style::SOLID));
+        let mut inside = Group::new().set("clip-path", "url(#map)");
+        if scene.object.is_closed() {
+            inside = inside.add(self.object(&scene.object).filled(style::SOLID));
+        }
+        inside = inside.add(self.stretches(&scene.object, untraced).stroked(style::UNTRACED, UNTRACED));
         inside = inside.add(self.platform(&scene.rig, trace));
         for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
             let mut dots = Outline::default();
             let of_class = |tip: &&Tip| error.is_some_and(|error| error.against_mean(tip.error) == class);
-            tips.iter().filter(of_class).for_each(|tip| dots.dot(self.place(tip.tip_world)));
+            let places = tips.iter().filter(of_class).map(|tip| self.place(tip.tip_world));
+            places.filter(|place| self.shows(*place)).for_each(|place| dots.dot(place));
             inside = inside.add(dots.dots(style::error_colour(class), DOT));
         }
-        inside = inside.add(self.object(&scene.object).stroked(style::INK, 0.9));
+        inside = inside.add(self.object(&scene.object).stroked(style::INK, OUTLINE));
         let mut touches = Outline::default();
-        trace
-            .ticks
-            .iter()
-            .filter(|tick| tick.body_touches)
-            .for_each(|tick| touches.cross(self.place(tick.body.position), 4.0));
+        for tick in trace.ticks.iter().filter(|tick| tick.body_touches && has_place(tick)) {
+            touches.cross(self.place(tick.body.position), 4.0);
+        }
         inside = inside.add(touches.stroked(style::ALARM, 1.5));
         Group::new()
             .add(Definitions::new().add(ClipPath::new().set("id", "map").add(frame())))
@@ -86,6 +109,11 @@ impl Map {
         (self.x.at(point.x), self.y.at(point.y))
     }
 
+    /// Whether a place is on the panel. Tips can be anywhere.
+    fn shows(&self, (x, y): (f64, f64)) -> bool {
+        (self.x.places.0..=self.x.places.1).contains(&x) && (self.y.places.1..=self.y.places.0).contains(&y)
+    }
+
     /// The exact outline: segments as lines, arcs as arcs.
     fn object(&self, contour: &Contour) -> Outline {
         let mut outline = Outline::default();
@@ -95,17 +123,27 @@ impl Map {
                 Piece::Segment(segment) => outline.line_to(self.place(segment.end)),
                 Piece::Arc(arc) => {
                     let parts = (arc.sweep.abs() / (0.75 * PI)).ceil().max(1.0);
-                    let mut part = 1.0;
-                    while part <= parts {
+                    for part in iter::successors(Some(1.0), |k| Some(k + 1.0)).take_while(|k| *k <= parts) {
                         let end = self.place(arc.point_at(arc.length() * part / parts));
                         outline.arc_to(self.scale * arc.radius, arc.sweep > 0.0, end);
-                        part += 1.0;
                     }
                 }
             }
         }
         if contour.is_closed() {
             outline.close();
+        }
+        outline
+    }
+
+    /// Stretches of the outline, close enough to it for a wide line.
+    fn stretches(&self, contour: &Contour, stretches: &[Range<f64>]) -> Outline {
+        let mut outline = Outline::default();
+        for stretch in stretches {
+            let length = stretch.end - stretch.start;
+            let steps = (self.scale * length / 3.0).ceil().max(1.0);
+            let shares = iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
+            outline.polyline(shares.map(|k| self.place(contour.point_at(stretch.start + length * k / steps))));
         }
         outline
     }

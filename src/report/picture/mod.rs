@@ -7,28 +7,31 @@ mod scale;
 mod style;
 mod timeline;
 
+use std::iter;
+use std::ops::Range;
+
 use svg::node::element::{Rectangle, TSpan, Text, Title};
 
 use self::legend::Legend;
 use self::map::Map;
 use self::style::{Anchor, px, text};
 use self::timeline::Timeline;
-use crate::run::Run;
+use crate::run::{Run, Trace};
 use crate::scene::{Outcome, Scene};
-use crate::score::{Score, tips};
+use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};
 
 /// Width of the picture (px).
 const WIDTH: f64 = 1200.0;
-/// Width of the map and its greatest height (px).
-const MAP: (f64, f64) = (800.0, 820.0);
+/// Width of the map (px).
+const MAP_WIDTH: f64 = 800.0;
+/// Least and greatest height of the map (px); the least is what the legend beside it needs.
+const MAP_HEIGHT: (f64, f64) = (560.0, 820.0);
 /// Where the map and the strips start, and where the picture's content ends (px).
 const SIDES: (f64, f64) = (66.0, 1170.0);
 /// Where the legend starts (px).
 const LEGEND: f64 = 898.0;
-/// The least height (px) that the legend needs.
-const LEGEND_HEIGHT: f64 = 500.0;
 /// Characters in a line of the subtitle.
-const LINE: usize = 150;
+const LINE: usize = 130;
 
 /// A picture of `run`, the run of `scene` under the policy named so, that got this `score`: a self-contained SVG.
 ///
@@ -41,10 +44,11 @@ const LINE: usize = 150;
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
     let trace = &run.trace;
     let tips = tips(trace, &scene.object);
+    let untraced = untraced(scene, trace);
     let (head, map_top) = heading(scene, policy, run);
-    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP);
-    let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score);
-    let strips_top = map_top + map.height.max(LEGEND_HEIGHT) + 62.0;
+    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, MAP_HEIGHT);
+    let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score, !untraced.is_empty());
+    let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
     let height = bottom + 20.0;
     let mut document = svg::Document::new()
@@ -58,12 +62,20 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     for line in head {
         document = document.add(line);
     }
-    document.add(map.draw(scene, trace, &tips, score.error.as_ref())).add(legend).add(strips).to_string()
+    document.add(map.draw(scene, trace, &untraced, &tips, score.error.as_ref())).add(legend).add(strips).to_string()
+}
+
+/// The stretches of the object's outline (arc lengths in m) that the run did not trace.
+fn untraced(scene: &Scene, trace: &Trace) -> Vec<Range<f64>> {
+    let traced = traced(&Estimate::new(trace), &scene.object);
+    let starts = iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
+    let ends = traced.iter().map(|stretch| stretch.start).chain(iter::once(scene.object.length()));
+    starts.zip(ends).map(|(start, end)| start..end).filter(|gap| gap.end - gap.start > COVERAGE_RESOLUTION).collect()
 }
 
 /// The title and what is told of the run under it, and where the map may start.
 fn heading(scene: &Scene, policy: &str, run: &Run) -> (Vec<Text>, f64) {
-    let left = 24.0;
+    let left = SIDES.0;
     let colour = if run.outcome == Outcome::Completed { style::INK } else { style::ALARM };
     let outcome = TSpan::new(run.outcome.name()).set("fill", colour).set("font-weight", 600);
     let policy = format!("policy {policy} · ");

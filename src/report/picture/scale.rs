@@ -67,6 +67,8 @@ mod tests {
 
     #[test]
     fn a_step_is_the_next_round_one() {
-        assert_eq!([0.9, 1.0, 1.1, 3.0, 5.1].map(round_step), [1.0, 1.0, 2.0, 5.0, 10.0]);
+        for (least, step) in [(0.9, 1.0), (1.0, 1.0), (1.1, 2.0), (3.0, 5.0), (5.1, 10.0)] {
+            assert!((round_step(least) - step).abs() < 1e-12, "{least}");
+        }
     }
 }

@@ -17,6 +17,10 @@ pub(super) const GRID: &str = "#e4e7eb";
 pub(super) const SOLID: &str = "#f1f3f5";
 /// The platform and its way.
 pub(super) const PLATFORM: &str = "#52606d";
+/// What of the object was not traced.
+pub(super) const UNTRACED: &str = "#f8c4ae";
+/// The state of failure.
+pub(super) const FAILURE: &str = "#f0846a";
 /// What has gone wrong.
 pub(super) const ALARM: &str = "#c2410c";
 

@@ -1,6 +1,7 @@
 //! The run along time: states, errors, deflections.
 
 use std::cmp::Ordering;
+use std::iter;
 use std::ops::Range;
 
 use svg::node::element::{Group, Rectangle};
@@ -17,6 +18,10 @@ const HEADING: f64 = 24.0;
 const BAND: f64 = 24.0;
 /// Height of a strip (px).
 const STRIP: f64 = 120.0;
+/// Least width of a state in the band (px).
+const SHORTEST: f64 = 3.0;
+/// Decades of error that are shown at most.
+const DECADES: f64 = 4.0;
 /// Room between strips (px).
 const GAP: f64 = 16.0;
 
@@ -59,8 +64,12 @@ impl<'a> Timeline<'a> {
         for (state, ticks) in intervals {
             let ticks = &self.trace.ticks[ticks];
             let (Some(first), Some(last)) = (ticks.first(), ticks.last()) else { continue };
-            // A tick's state lasts from the tick before; what a tick says is of the period that it ends.
-            let (from, to) = (self.time.at((first.time - self.trace.period).max(0.0)), self.time.at(last.time));
+            // A tick's state lasts until the next tick; the first one's is shown from the start.
+            let from = if first.time > self.trace.period { first.time } else { 0.0 };
+            let to = (last.time + self.trace.period).min(self.time.values.1);
+            let (from, to) = (self.time.at(from), self.time.at(to));
+            // The last state may have had no time, as a failure does.
+            let from = from.min(to - SHORTEST);
             let band = Rectangle::new().set("x", px(from)).set("y", px(top)).set("width", px(to - from));
             self.add(band.set("height", px(BAND)).set("fill", colour(self.trace, state)));
             let name = name(self.trace, state);
@@ -73,21 +82,23 @@ impl<'a> Timeline<'a> {
 
     fn errors(&mut self, tips: &[Tip], error: Option<&ErrorFigures>) {
         self.heading("Error (mm)", &[], 0.0);
-        let greatest = error.map_or(0.0, |error| error.max * 1e3);
-        let scale = self.strip((0.0, greatest));
-        let Some(error) = error else { return };
+        let (values, ticks) = decades(tips);
+        let scale = self.strip(values, ticks);
+        // Errors below the scale stand on its lower edge.
+        let place = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
+        let Some(error) = error.filter(|error| error.mean.is_finite()) else { return };
         let (low, high) = (error.mean - error.std.unwrap_or(0.0), error.mean + error.std.unwrap_or(0.0));
-        let (upper, lower) = (scale.at(high * 1e3), scale.at(low.max(0.0) * 1e3));
+        let (upper, lower) = (place(high), place(low.max(0.0)));
         let (left, right) = self.time.places;
         let band = Rectangle::new().set("x", px(left)).set("y", px(upper)).set("width", px(right - left));
         let colour = error_colour(Ordering::Equal);
         self.add(band.set("height", px(lower - upper)).set("fill", colour).set("fill-opacity", "0.12"));
-        let mean = scale.at(error.mean * 1e3);
+        let mean = place(error.mean);
         self.add(line((left, mean), (right, mean), colour, 1.0));
         for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
             let mut dots = Outline::default();
             for tip in tips.iter().filter(|tip| tip.error.is_finite() && error.against_mean(tip.error) == class) {
-                dots.dot((self.time.at(self.trace.ticks[tip.tick].time), scale.at(tip.error * 1e3)));
+                dots.dot((self.time.at(self.trace.ticks[tip.tick].time), place(tip.error)));
             }
             self.add(dots.dots(error_colour(class), 2.2));
         }
@@ -97,30 +108,32 @@ impl<'a> Timeline<'a> {
         let trace = self.trace;
         let names: Vec<_> = trace.whiskers.iter().map(String::as_str).zip(style::WHISKERS).collect();
         self.heading("Deflection (µrad)", &names, 3.0);
-        let values = |whisker: usize| trace.ticks.iter().map(move |tick| tick.deflections[whisker] * 1e6);
-        let all = (0..names.len()).flat_map(values).filter(|value| value.is_finite());
+        let readings = |whisker: usize| trace.ticks.iter().map(move |tick| tick.deflections[whisker] * 1e6);
+        let all = (0..names.len()).flat_map(readings).filter(|value| value.is_finite());
         let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
-        let scale = self.strip((low, high));
+        let span = if high > low && (high - low).is_finite() { high - low } else { 1.0 };
+        let step = round_step(span / 4.0);
+        // What reaches beyond a tick by less than can be seen gets no room of its own.
+        let values = ((low / step + 0.01).floor() * step, ((low + span) / step - 0.01).ceil() * step);
+        let ticks = Scale { values, places: (0.0, 1.0) }.ticks(4.0);
+        let scale = self.strip(values, ticks);
         for (whisker, (_, colour)) in names.iter().enumerate() {
             let mut curve = Outline::default();
             let times = trace.ticks.iter().map(|tick| self.time.at(tick.time));
-            curve.polyline(times.zip(values(whisker).map(|value| scale.at(value))));
+            curve.polyline(times.zip(readings(whisker).map(|value| scale.at(value))));
             self.add(curve.stroked(colour, 1.2));
         }
     }
 
-    /// The frame of a strip on which `values` have room, its grid, and the scale of its values.
-    fn strip(&mut self, (low, high): (f64, f64)) -> Scale {
-        let span = if high > low && (high - low).is_finite() { high - low } else { 1.0 };
-        let step = round_step(span / 4.0);
-        let values = ((low / step).floor() * step, ((low + span) / step).ceil() * step);
+    /// The frame and the grid of a strip on which `values` have room, with `ticks`; gives the scale of its values.
+    fn strip(&mut self, values: (f64, f64), ticks: Vec<(f64, String)>) -> Scale {
         let (left, right) = self.time.places;
         let (top, bottom) = (self.y, self.y + STRIP);
         let scale = Scale { values, places: (bottom, top) };
         for (time, _) in self.time.ticks(12.0) {
             self.add(line((self.time.at(time), top), (self.time.at(time), bottom), style::GRID, 1.0));
         }
-        for (value, label) in scale.ticks(4.0) {
+        for (value, label) in ticks {
             self.add(line((left, scale.at(value)), (right, scale.at(value)), style::GRID, 1.0));
             self.add(text(left - 7.0, scale.at(value) + 4.0, Anchor::End, 12.0, style::GREY, &label));
         }
@@ -164,6 +177,17 @@ impl<'a> Timeline<'a> {
     }
 }
 
+/// Powers of ten (of mm) that the errors of `tips` lie between, and a tick at each.
+fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
+    let powers = tips.iter().map(|tip| (tip.error * 1e3).log10()).filter(|power| power.is_finite());
+    let (least, greatest) =
+        powers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), power| (low.min(power), high.max(power)));
+    let high = if greatest.is_finite() { greatest.ceil() } else { 0.0 };
+    let low = least.floor().clamp(high - DECADES, high - 1.0);
+    let powers = iter::successors(Some(low), |power| Some(power + 1.0)).take_while(|power| *power <= high);
+    ((low, high), powers.map(|power| (power, 10_f64.powf(power).to_string())).collect())
+}
+
 /// Runs of ticks in the same state.
 fn intervals(trace: &Trace) -> Vec<(usize, Range<usize>)> {
     let mut intervals: Vec<(usize, Range<usize>)> = Vec::new();
@@ -181,5 +205,5 @@ fn name(trace: &Trace, state: usize) -> &str {
 }
 
 fn colour(trace: &Trace, state: usize) -> &'static str {
-    if state < trace.states.len() { style::STATES[state % style::STATES.len()] } else { "#f5b7a5" }
+    if state < trace.states.len() { style::STATES[state % style::STATES.len()] } else { style::FAILURE }
 }
