@@ -1,5 +1,6 @@
 //! `vibrissa check`
 
+use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -112,9 +113,10 @@ fn describe(file: &str, machine: &Summary) -> String {
         machine.memory_bytes
     );
     for parameter in &machine.parameters {
-        text += &format!("  {} = {}", parameter.name, parameter.value);
+        // Writing to a string cannot fail.
+        let _ = write!(text, "  {} = {}", parameter.name, parameter.value);
         if let Some([low, high]) = &parameter.range {
-            text += &format!(" in {low} .. {high}");
+            let _ = write!(text, " in {low} .. {high}");
         }
         text += "\n";
     }

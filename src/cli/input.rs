@@ -42,5 +42,5 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Program>, Failure> {
 
 /// The first sixteen hexadecimal digits of a hash: enough to tell files apart.
 pub(super) fn short(hash: &[u8]) -> String {
-    hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    hash.iter().take(8).fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"))
 }

@@ -32,6 +32,7 @@ pub(super) fn error(text: impl Display) {
 
 /// Prints the faults of a text.
 pub(super) fn faults(source: &Source, faults: &[Diagnostic]) {
-    let colour = if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
+    let colour =
+        if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
     let _ = write!(stderr(), "{}", terminal(source, faults, colour));
 }

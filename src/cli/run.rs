@@ -145,13 +145,7 @@ fn body_contact(run: &Run) -> Option<Duration> {
     (ticks > 0).then(|| Duration::from_secs_f64(ticks as f64 * run.trace.period))
 }
 
-fn write_report(
-    directory: &Path,
-    scene: &Scene,
-    run: &Run,
-    score: &Score,
-    result: &RunResult,
-) -> Result<(), Failure> {
+fn write_report(directory: &Path, scene: &Scene, run: &Run, score: &Score, result: &RunResult) -> Result<(), Failure> {
     let picture_path = report_path(directory, result, "svg");
     let drawn = picture(scene, &result.policy, run, score);
     std::fs::write(&picture_path, drawn).map_err(Failure::write(&picture_path))?;

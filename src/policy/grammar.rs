@@ -18,9 +18,8 @@ const OPENING_WORDS: [&str; 18] = [
 ];
 
 /// Words behind which an expression begins.
-const WORDS_BEFORE_OPERANDS: [&str; 14] = [
-    "and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning",
-];
+const WORDS_BEFORE_OPERANDS: [&str; 14] =
+    ["and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning"];
 
 mod derived {
     // The derive writes undocumented items.

@@ -158,9 +158,7 @@ fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
             let otherwise = if reader.has(Rule::block) { block(reader.take(Rule::block)?)? } else { Vec::new() };
             Statement::If { branches, otherwise }
         }
-        Rule::apply => {
-            Statement::Do { law: reader.name()?, values: reader.values()?.unwrap_or_default(), span }
-        }
+        Rule::apply => Statement::Do { law: reader.name()?, values: reader.values()?.unwrap_or_default(), span },
         Rule::record => Statement::Record(reader.expression()?),
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);

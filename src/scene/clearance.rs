@@ -1,7 +1,7 @@
 //! Whether a rig stands clear of an object.
 
-use crate::rig::Rig;
 use crate::geometry::{Contour, Point2, Pose, unit};
+use crate::rig::Rig;
 
 /// Parts nearer to the object than this (m) touch it.
 const TOUCHING: f64 = 1e-5;

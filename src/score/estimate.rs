@@ -48,7 +48,11 @@ impl Estimate {
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
         let query = point.into();
-        self.lines.nearest_neighbor(query).map(|line| (point - Point2::from(line.nearest_point(&query))).norm())
+        // Not `nearest_neighbor`: it prunes by a bound that holds only without rounding, as `geometry` found.
+        self.lines
+            .nearest_neighbor_iter(query)
+            .next()
+            .map(|line| (point - Point2::from(line.nearest_point(&query))).norm())
     }
 
     /// The straight lines that the strokes are made of; a single tip is a line of no length.

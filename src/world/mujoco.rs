@@ -64,8 +64,7 @@ impl MujocoWorld {
         let xml = mjcf(rig, object, start)?;
         let model = MjModel::from_xml_string(&xml).map_err(|error| MujocoError::Model(error.to_string()))?;
         let geom = model.name_to_id(mujoco_rs::wrappers::mj_model::MjtObjBase::mjOBJ_GEOM, "platform/body");
-        let mut data =
-            MjData::try_new(Arc::new(model)).map_err(|error| MujocoError::Model(error.to_string()))?;
+        let mut data = MjData::try_new(Arc::new(model)).map_err(|error| MujocoError::Model(error.to_string()))?;
         data.reset_keyframe(0).map_err(|error| MujocoError::Model(error.to_string()))?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
@@ -178,7 +177,10 @@ pub fn engine_version() -> &'static str {
 /// Keeps MuJoCo from writing a log file into the working directory.
 fn route_engine_messages() {
     static ROUTED: Once = Once::new();
-    #[expect(unsafe_code, reason = "MuJoCo's log handler is global; nothing else in the process uses MuJoCo before this")]
+    #[expect(
+        unsafe_code,
+        reason = "MuJoCo's log handler is global; nothing else in the process uses MuJoCo before this"
+    )]
     // SAFETY: every use of MuJoCo in this crate comes after a call of this function, and `Once` lets one thread through.
     ROUTED.call_once(|| unsafe { set_log_handler(on_engine_message) });
 }

@@ -111,7 +111,9 @@ impl<'f> Compiler<'f> {
         };
         if values.is_some() {
             let message = format!("`{}` is {} and takes no values", name.text, value.r#type);
-            self.report(Diagnostic::error("P0304", message, span, "called like a function").hint("leave out the parentheses"));
+            self.report(
+                Diagnostic::error("P0304", message, span, "called like a function").hint("leave out the parentheses"),
+            );
             return None;
         }
         Some(value)
@@ -214,11 +216,7 @@ impl<'f> Compiler<'f> {
                 if l == r && matches!(l, Type::Truth | Type::Whisker | Type::Scalar(_)) =>
             {
                 let equal = self.code.scalar(|to| Op::Equal { to, a, b });
-                truth(if operator == Binary::Equal {
-                    equal
-                } else {
-                    self.code.scalar(|to| Op::Not { to, a: equal })
-                })
+                truth(if operator == Binary::Equal { equal } else { self.code.scalar(|to| Op::Not { to, a: equal }) })
             }
             (Binary::Add, Type::Scalar(l), Type::Scalar(r)) | (Binary::Add, Type::Vector(l), Type::Vector(r))
                 if l == r =>

@@ -144,9 +144,11 @@ impl<'f> Compiler<'f> {
             let message = format!("`{}` takes {}, not {}", name.text, count(arguments.len()), values.len());
             let names: Vec<&str> = arguments.iter().map(|argument| argument.name.text.as_str()).collect();
             self.report(
-                Diagnostic::error("P0304", message, span, "used here")
-                    .note(name.span, "made here")
-                    .hint(format!("write `{}({})`", name.text, names.join(", "))),
+                Diagnostic::error("P0304", message, span, "used here").note(name.span, "made here").hint(format!(
+                    "write `{}({})`",
+                    name.text,
+                    names.join(", ")
+                )),
             );
             return None;
         }

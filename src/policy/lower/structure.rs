@@ -66,11 +66,14 @@ impl<'f> Compiler<'f> {
                 || ["time", FAILURE].contains(&name.text.as_str());
             if reserved {
                 let message = format!("the name `{}` belongs to the language", name.text);
-                self.report(Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name"));
+                self.report(
+                    Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name"),
+                );
             } else if let Some(before) = first.insert(&name.text, name) {
                 let message = format!("the name `{}` is given twice", name.text);
                 self.report(
-                    Diagnostic::error("P0202", message, name.span, "given again here").note(before.span, "first given here"),
+                    Diagnostic::error("P0202", message, name.span, "given again here")
+                        .note(before.span, "first given here"),
                 );
             }
         }
@@ -253,8 +256,13 @@ impl<'f> Compiler<'f> {
                     Diagnostic::error("P0404", "a machine starts in one state", second.span, "a second initial state")
                         .note(first.span, "the first")
                 }
-                _ => Diagnostic::error("P0404", "the machine has no initial state", file.machine.span, "where does it start?")
-                    .hint("write `initial` and the name of a state"),
+                _ => Diagnostic::error(
+                    "P0404",
+                    "the machine has no initial state",
+                    file.machine.span,
+                    "where does it start?",
+                )
+                .hint("write `initial` and the name of a state"),
             };
             self.report(diagnostic);
             return None;

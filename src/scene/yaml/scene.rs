@@ -6,9 +6,9 @@ use super::reader::Reader;
 use super::{expect, fault, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::geometry::{Contour, Pose};
-use crate::scene::clearance::{Overlap, overlap};
 use crate::rig::Rig;
 use crate::scene::Scene;
+use crate::scene::clearance::{Overlap, overlap};
 use crate::scene::solid::{Solid, SolidError};
 use std::path::PathBuf;
 
