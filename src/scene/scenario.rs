@@ -1,9 +1,9 @@
 //! A scenario as a whole.
 
 use super::{Expectation, Stop, yaml};
-use crate::rig::Rig;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::geometry::{Contour, Pose};
+use crate::rig::Rig;
 use std::path::PathBuf;
 
 /// One scenario, read and checked.
@@ -59,8 +59,8 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Colour, terminal};
     use crate::geometry::Point2;
+    use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker, YawController};
     use crate::scene::{LoopClosed, Metric, Outcome};
-use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn read(text: &str) -> Scene {
@@ -135,13 +135,15 @@ use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker};
     fn every_key_of_a_rig_can_be_set() {
         let text = "
   platform:
-    {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms}
+    {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms,
+     yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
       {base: [1 mm, 2 mm], direction: 3 rad, length: 4 mm, radius: 5 um, density: 6 kg/m^3, young_modulus: 7 GPa,
        damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
-  sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
+  sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 9 Hz, contact_threshold: 8 urad,
+     angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
         let expected = Rig {
             platform: Platform {
                 tail_width: 0.01,
@@ -151,6 +153,7 @@ use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker};
                 mass: 2.0,
                 inertia: 3.0,
                 servo: 0.004,
+                yaw: YawController { proportional: 5.0, integral: 6.0, limit: 7.0 },
             },
             whiskers: vec![Whisker {
                 name: "a".to_owned(),
@@ -169,6 +172,8 @@ use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker};
             sensing: Sensing {
                 sample_rate: 1e3,
                 control_rate: 50.0,
+                filter_cutoff: 9.0,
+                contact_threshold: 8e-6,
                 angle_noise: 3e-6,
                 angle_resolution: 4e-3,
                 forces: true,
