@@ -118,7 +118,8 @@ impl Machine {
 
         let mut taken = self.due(&program, &program.always, now, senses);
         for _ in 0..CHAIN_LIMIT {
-            let Some(target) = taken.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses))
+            let Some(target) =
+                taken.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses))
             else {
                 return self.act(&program, senses);
             };

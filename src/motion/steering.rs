@@ -48,9 +48,7 @@ impl Steering {
             Action::Steer { mover, along_world, speed, turn } => {
                 let yaw_rate = match turn {
                     Turn::Rate(rate) => rate,
-                    Turn::Facing(heading) => {
-                        self.yaw_controller.next(turn_between(body.heading, heading), self.period)
-                    }
+                    Turn::Facing(heading) => self.yaw_controller.next(turn_between(body.heading, heading), self.period),
                 };
                 let velocity = speed * unit(along_world);
                 let velocity_world = match mover {

@@ -70,8 +70,8 @@ impl TipModel {
             // Straight on from the last two solutions; the first step is that of a cantilever under a small force.
             if index == 1 {
                 guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
-                guess.tip_angle = guess.force * force_direction.sin() * shaft.length.powi(2)
-                    / (2.0 * shaft.bending_stiffness());
+                guess.tip_angle =
+                    guess.force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.bending_stiffness());
             } else if index > 1 {
                 guess.force += solution.force - before.force;
                 guess.tip_angle += solution.tip_angle - before.tip_angle;
@@ -106,10 +106,9 @@ impl TipModel {
         let (a, b) = (&self.knots[index], &self.knots[index + 1]);
         let u = along - index as f64;
         let v = 1.0 - u;
-        let place = (1.0 + 2.0 * u) * v * v * a.contact_base
-            + u * v * v * a.slope
-            + (1.0 + 2.0 * v) * u * u * b.contact_base
-            - v * u * u * b.slope;
+        let place =
+            (1.0 + 2.0 * u) * v * v * a.contact_base + u * v * v * a.slope + (1.0 + 2.0 * v) * u * u * b.contact_base
+                - v * u * u * b.slope;
         Vector2::new(place.x, place.y * base_angle.signum())
     }
 }

@@ -109,10 +109,20 @@ pub(super) struct Target {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Statement {
-    Let { name: Name, value: Expression },
+    Let {
+        name: Name,
+        value: Expression,
+    },
     /// Conditions with their blocks, tried in order, and the block for when none holds.
-    If { branches: Vec<(Expression, Vec<Statement>)>, otherwise: Vec<Statement> },
-    Do { law: Name, values: Vec<Expression>, span: Span },
+    If {
+        branches: Vec<(Expression, Vec<Statement>)>,
+        otherwise: Vec<Statement>,
+    },
+    Do {
+        law: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
     Record(Expression),
     Steer(Box<Steer>),
     Hold,
@@ -148,13 +158,24 @@ pub(super) enum Kind {
     Quantity(Quantity),
     Truth(bool),
     /// `name`, `name(values)`, `body`
-    Root { name: Name, values: Option<Vec<Expression>> },
+    Root {
+        name: Name,
+        values: Option<Vec<Expression>>,
+    },
     /// `owner.name`, `owner.name(values)`
-    Member { owner: Box<Expression>, name: Name, values: Option<Vec<Expression>> },
+    Member {
+        owner: Box<Expression>,
+        name: Name,
+        values: Option<Vec<Expression>>,
+    },
     Norm(Box<Expression>),
     Negate(Box<Expression>),
     Not(Box<Expression>),
-    Binary { operator: Binary, left: Box<Expression>, right: Box<Expression> },
+    Binary {
+        operator: Binary,
+        left: Box<Expression>,
+        right: Box<Expression>,
+    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
