@@ -9,26 +9,28 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion};
 use disk::Disk;
+use vibrissa::signal::Command;
+use vibrissa::world::World;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let disk = Disk::load()?;
-    let (_, control, _, blocks) = disk.settled()?;
-    let samples = blocks.last().ok_or("the run has no tick")?;
+    let swiping = disk.swiping()?;
 
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("control_tick");
     group.bench_function("swiping", |bencher| {
         bencher.iter_batched_ref(
-            || control.clone(),
-            |control| black_box(control.tick(black_box(samples))),
+            || swiping.control.clone(),
+            |control| black_box(control.tick(black_box(&swiping.samples))),
             BatchSize::SmallInput,
         );
     });
-    let exploring = disk.control()?;
+    let (exploring, mut world) = (disk.control()?, disk.world()?);
+    let samples = world.advance(&Command::STOP)?;
     group.bench_function("exploring", |bencher| {
         bencher.iter_batched_ref(
             || exploring.clone(),
-            |control| black_box(control.tick(black_box(&blocks[0]))),
+            |control| black_box(control.tick(black_box(samples))),
             BatchSize::SmallInput,
         );
     });

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     group.bench_function("free", |bencher| {
         bencher.iter(|| black_box(free.advance(&Command::STOP).map(<[_]>::len)));
     });
-    let (mut touching, ..) = disk.settled()?;
+    let mut touching = disk.swiping()?.world;
     group.bench_function("in_contact", |bencher| {
         bencher.iter(|| black_box(touching.advance(&Command::STOP).map(<[_]>::len)));
     });

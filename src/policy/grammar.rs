@@ -1,21 +1,16 @@
 //! The grammar at work: from text to pest's pairs, and from its errors to diagnostics.
 
 use pest::Parser;
-use pest::error::{Error, ErrorVariant, InputLocation};
 use pest::iterators::Pairs;
 
-use crate::diagnostic::{Diagnostic, Source, Span, suggest};
+use crate::diagnostic::{Diagnostic, Source, Span};
+
+use super::syntax_error::syntax_error;
 
 /// Brackets may nest this deep; a parser that recurses must stop somewhere, and no policy comes near.
 const NESTING_LIMIT: usize = 64;
-/// Greatest length of a policy's text (bytes).
-const LENGTH_LIMIT: usize = 1 << 20;
-
-/// Words that begin an item, a statement or a transition.
-const OPENING_WORDS: [&str; 18] = [
-    "machine", "whisker", "param", "initial", "let", "law", "state", "always", "when", "after", "if", "else", "do",
-    "record", "steer", "hold", "stop", "facing",
-];
+/// Greatest length of a policy's text (bytes), a hundred times that of a long policy.
+const LENGTH_LIMIT: usize = 1 << 18;
 
 /// Words behind which an expression begins.
 const WORDS_BEFORE_OPERANDS: [&str; 14] =
@@ -38,7 +33,8 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
         let label = format!("the text goes on for {} bytes", source.text.len());
         let place = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
         return Err(Box::new(
-            Diagnostic::error("P0102", "the policy is too long", place, label).hint("a policy may have 1 MiB of text"),
+            Diagnostic::error("P0102", "the policy is too long", place, label)
+                .hint("a policy may have 256 KiB of text"),
         ));
     }
     if let Some(place) = too_deep(&source.text) {
@@ -50,11 +46,22 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))
 }
 
-/// The first bracket or bar that nests too deep; comments and texts do not count.
+/// Whether a text is a word that has a meaning of its own and so cannot be a name.
+pub(super) fn is_keyword(text: &str) -> bool {
+    derived::FsmParser::parse(Rule::keyword, text).is_ok_and(|pairs| pairs.as_str() == text)
+}
+
+/// The first bracket or bar that nests too deep.
+fn too_deep(text: &str) -> Option<Span> {
+    brackets(text).err()
+}
+
+/// The places of the brackets and bars that `text` opens and does not close, the innermost last; those in comments and
+/// texts do not count. The place of the first that nests too deep, if one does.
 ///
 /// A bar closes where an operand stands before it and opens where none does, just as the grammar takes it.
-fn too_deep(text: &str) -> Option<Span> {
-    let (mut depth, mut after_operand) = (0_usize, false);
+pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
+    let (mut opened, mut after_operand) = (Vec::new(), false);
     let mut at = 0;
     while let Some(letter) = text[at..].chars().next() {
         let rest = &text[at..];
@@ -66,129 +73,29 @@ fn too_deep(text: &str) -> Option<Span> {
                 length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
                 after_operand = !WORDS_BEFORE_OPERANDS.contains(&&rest[..length]);
             }
-            '(' | '{' | '[' => (depth, after_operand) = (depth + 1, false),
-            ')' | '}' | ']' => (depth, after_operand) = (depth.saturating_sub(1), true),
-            '|' if after_operand => depth = depth.saturating_sub(1),
-            '|' => depth += 1,
+            '(' | '{' | '[' => {
+                opened.push(at);
+                after_operand = false;
+            }
+            ')' | '}' | ']' => {
+                opened.pop();
+                after_operand = true;
+            }
+            '|' if after_operand => {
+                opened.pop();
+            }
+            '|' => opened.push(at),
             _ if letter.is_whitespace() => {}
             _ => after_operand = false,
         }
-        if depth > NESTING_LIMIT {
-            return Some(Span::new(at, at + 1));
+        if opened.len() > NESTING_LIMIT {
+            return Err(Span::new(at, at + 1));
         }
         at += length;
     }
-    None
+    Ok(opened)
 }
 
-fn is_word(letter: char) -> bool {
+pub(super) fn is_word(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
-}
-
-fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
-    let at = match error.location {
-        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
-    };
-    let span = word_at(&source.text, at);
-    let found = source.slice(span);
-    let found = if found.is_empty() { "the end of the file".to_owned() } else { format!("`{found}`") };
-    let expected = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => expectation(positives),
-        ErrorVariant::CustomError { message } => message.clone(),
-    };
-    let mut diagnostic = Diagnostic::error("P0101", format!("{found} makes no sense here"), span, expected);
-    if let Some(meant) = suggest(source.slice(span), OPENING_WORDS) {
-        diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-    }
-    diagnostic
-}
-
-/// The word, or else the character, at `at`; nothing at the end of the text.
-fn word_at(text: &str, at: usize) -> Span {
-    let rest = &text[at.min(text.len())..];
-    let word = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
-    let length = if word > 0 { word } else { rest.chars().next().map_or(0, char::len_utf8) };
-    Span::new(at, at + length)
-}
-
-fn expectation(rules: &[Rule]) -> String {
-    let mut names: Vec<&str> = rules.iter().map(|&rule| describe(rule)).collect();
-    names.sort_unstable();
-    names.dedup();
-    match names.as_slice() {
-        [] => "this is not part of a policy".to_owned(),
-        [only] => format!("expected {only}"),
-        [first @ .., last] => format!("expected {} or {last}", first.join(", ")),
-    }
-}
-
-/// What a rule is called in messages.
-fn describe(rule: Rule) -> &'static str {
-    match rule {
-        Rule::file | Rule::machine | Rule::kw_machine => "`machine` and its name",
-        Rule::whiskers | Rule::kw_whisker => "`whisker`",
-        Rule::parameter | Rule::kw_param => "`param`",
-        Rule::initial | Rule::kw_initial => "`initial`",
-        Rule::derived | Rule::binding | Rule::kw_let => "`let`",
-        Rule::law | Rule::kw_law => "`law`",
-        Rule::state | Rule::kw_state => "`state`",
-        Rule::always | Rule::kw_always => "`always`",
-        Rule::when | Rule::kw_when => "`when`",
-        Rule::after | Rule::kw_after => "`after`",
-        Rule::conditional | Rule::kw_if => "`if`",
-        Rule::kw_else => "`else`",
-        Rule::apply | Rule::kw_do => "`do`",
-        Rule::record | Rule::kw_record => "`record`",
-        Rule::steer | Rule::kw_steer => "`steer`",
-        Rule::hold | Rule::kw_hold => "`hold`",
-        Rule::stop | Rule::kw_stop => "`stop`",
-        Rule::kw_along => "`along`",
-        Rule::kw_at => "`at`",
-        Rule::facing | Rule::kw_facing => "`facing`",
-        Rule::turning | Rule::kw_turning => "`turning`",
-        Rule::kw_for => "`for` and a time",
-        Rule::kw_in => "`in` and a range",
-        Rule::kw_of => "`of` and a dimension",
-        Rule::kw_body | Rule::mover => "`body` or a whisker",
-        Rule::kw_and
-        | Rule::kw_or
-        | Rule::less
-        | Rule::less_or_equal
-        | Rule::greater
-        | Rule::greater_or_equal
-        | Rule::equal
-        | Rule::unequal
-        | Rule::plus
-        | Rule::times
-        | Rule::over => "an operator",
-        Rule::kw_not
-        | Rule::kw_true
-        | Rule::kw_false
-        | Rule::truth
-        | Rule::minus
-        | Rule::expression
-        | Rule::operand
-        | Rule::prefix
-        | Rule::primary
-        | Rule::norm
-        | Rule::group
-        | Rule::access
-        | Rule::root => "an expression",
-        Rule::bound | Rule::quantity | Rule::number => "a number",
-        Rule::unit | Rule::unit_name => "a unit",
-        Rule::member => "a member",
-        Rule::values | Rule::text_argument => "values in parentheses",
-        Rule::arguments => "arguments in parentheses",
-        Rule::argument => "an argument and its type",
-        Rule::type_name => "a type",
-        Rule::target => "a state",
-        Rule::transition => "a transition",
-        Rule::block => "a block in braces",
-        Rule::statement => "a statement",
-        Rule::item | Rule::EOI => "the end of the file",
-        Rule::name => "a name",
-        Rule::text | Rule::text_inner => "a text in quotes",
-        Rule::infix => "an operator",
-        Rule::keyword | Rule::word_part | Rule::WHITESPACE | Rule::COMMENT => "a word",
-    }
 }

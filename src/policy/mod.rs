@@ -6,8 +6,10 @@
 mod ast;
 mod builtins;
 mod grammar;
+mod hint;
 mod lower;
 mod parse;
+mod syntax_error;
 mod types;
 
 use crate::diagnostic::{Diagnostic, Source};

@@ -94,15 +94,17 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     if !reader.has(Rule::arguments) {
         return Ok(Vec::new());
     }
-    let argument = |pair| {
-        let mut reader = Reader::new(pair);
-        let name = reader.name()?;
-        let mut reader = Reader::new(reader.take(Rule::type_name)?);
-        let base = named(&reader.next()?);
-        let of = if reader.has(Rule::name) { Some(reader.name()?) } else { None };
-        Ok(Argument { name, type_name: TypeName { base, of } })
-    };
-    reader.take(Rule::arguments)?.into_inner().map(argument).collect()
+    let mut list = Reader::new(reader.take(Rule::arguments)?);
+    let mut arguments = Vec::new();
+    while list.has(Rule::argument) {
+        let mut argument = Reader::new(list.take(Rule::argument)?);
+        let name = argument.name()?;
+        let mut type_name = Reader::new(argument.take(Rule::type_name)?);
+        let base = named(&type_name.next()?);
+        let of = if type_name.has(Rule::name) { Some(type_name.name()?) } else { None };
+        arguments.push(Argument { name, type_name: TypeName { base, of } });
+    }
+    Ok(arguments)
 }
 
 fn state(reader: &mut Reader<'_>) -> Parsed<State> {
@@ -141,7 +143,12 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
 }
 
 fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
-    pair.into_inner().map(statement).collect()
+    let mut reader = Reader::new(pair);
+    let mut statements = Vec::new();
+    while let Ok(pair) = reader.next() {
+        statements.push(statement(pair)?);
+    }
+    Ok(statements)
 }
 
 fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
@@ -276,8 +283,13 @@ fn node(kind: Kind, span: Span, depth: usize) -> Parsed<Expression> {
     Ok(Expression { kind, span, depth: depth + 1 })
 }
 
+/// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it.
 fn place(pair: &Pair<'_, Rule>) -> Span {
-    Span::new(pair.as_span().start(), pair.as_span().end())
+    let mut last = pair.clone();
+    while let Some(inner) = last.clone().into_inner().next_back() {
+        last = inner;
+    }
+    Span::new(pair.as_span().start(), last.as_span().end())
 }
 
 fn named(pair: &Pair<'_, Rule>) -> Name {
@@ -299,7 +311,7 @@ impl<'i> Reader<'i> {
     fn new(pair: Pair<'i, Rule>) -> Self {
         let span = place(&pair);
         let mut pairs = pair.into_inner();
-        // Words of the grammar that only mark a place carry nothing.
+        // Words and signs that only mark a place carry nothing.
         while pairs.peek().is_some_and(|pair| is_marker(pair.as_rule())) {
             pairs.next();
         }
@@ -348,7 +360,7 @@ impl<'i> Reader<'i> {
     }
 }
 
-/// Whether a pair is a word that only marks a place.
+/// Whether a pair is a word or a sign that only marks a place.
 fn is_marker(rule: Rule) -> bool {
     matches!(
         rule,
@@ -375,6 +387,17 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_turning
             | Rule::kw_hold
             | Rule::kw_stop
+            | Rule::open
+            | Rule::close
+            | Rule::open_brace
+            | Rule::close_brace
+            | Rule::bar
+            | Rule::comma
+            | Rule::colon
+            | Rule::dot
+            | Rule::dots
+            | Rule::equals
+            | Rule::arrow
             | Rule::EOI
     )
 }

@@ -21,9 +21,28 @@ pub(super) struct Code {
     pub(super) full: bool,
 }
 
+/// An amount of code.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mark {
+    ops: usize,
+    registers: usize,
+}
+
 impl Code {
     pub(super) fn new() -> Self {
         Self { ops: Vec::new(), image: Vec::new(), constants: HashMap::new(), full: false }
+    }
+
+    /// How much there is, to [`rewind`](Self::rewind) to.
+    pub(super) fn mark(&self) -> Mark {
+        Mark { ops: self.ops.len(), registers: self.image.len() }
+    }
+
+    /// Throws away what was written since `mark`.
+    pub(super) fn rewind(&mut self, mark: Mark) {
+        self.ops.truncate(mark.ops);
+        self.image.truncate(mark.registers);
+        self.constants.retain(|_, register| usize::from(*register) < mark.registers);
     }
 
     /// A fresh place for `width` numbers.

@@ -1,9 +1,10 @@
 //! Expressions.
 
-use crate::diagnostic::{Diagnostic, Span, suggest};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::Op;
 use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
 use crate::policy::builtins::{self, Member, MemberSource};
+use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
 use crate::units::{Dimension, parse_unit, units_of};
 
@@ -13,6 +14,10 @@ use super::scope::Scope;
 impl<'f> Compiler<'f> {
     /// Writes the code of an expression. `None` when the expression is at fault, which has been reported then.
     pub(super) fn expression(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
+        self.descend(expression.span, |compiler| compiler.kind(scope, expression))
+    }
+
+    fn kind(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
         match &expression.kind {
             Kind::Quantity(quantity) => {
                 let (value, dimension) = self.quantity(quantity)?;
@@ -29,7 +34,7 @@ impl<'f> Compiler<'f> {
                 let value = self.expression(scope, inner)?;
                 match value.r#type {
                     Type::Scalar(_) | Type::Vector(_) => Some(self.each(value, |to, a| Op::Negate { to, a })),
-                    other => self.mismatch(inner.span, other, "a number or a vector can be negated"),
+                    other => self.mismatch(inner.span, other, "only a number or a vector can be negated"),
                 }
             }
             Kind::Not(inner) => {
@@ -55,8 +60,19 @@ impl<'f> Compiler<'f> {
             expression.span,
             format!("is {}", value.r#type),
         );
-        if let (Type::Scalar(wanted), Type::Scalar(Dimension::NUMBER)) = (wanted, value.r#type) {
-            diagnostic = diagnostic.hint(format!("give it a unit, such as {}", units_of(wanted).join(", ")));
+        match (wanted, value.r#type) {
+            (Type::Scalar(wanted), Type::Scalar(Dimension::NUMBER)) => {
+                diagnostic = diagnostic.hint(format!("give it a unit, such as {}", units_of(wanted).join(", ")));
+            }
+            (Type::ANGLE, Type::Vector(_)) => diagnostic = diagnostic.hint("`angle(v)` is the direction of a vector"),
+            (Type::Scalar(_), Type::Vector(_)) => diagnostic = diagnostic.hint("`|v|` is the length of a vector"),
+            (Type::Truth, Type::Scalar(_)) => {
+                diagnostic = diagnostic.hint("compare it with something, such as `x > 0`");
+            }
+            (Type::Truth, Type::Whisker) => {
+                diagnostic = diagnostic.hint("`w.touching` tells whether a whisker touches");
+            }
+            _ => {}
         }
         self.report(diagnostic);
         None
@@ -72,8 +88,17 @@ impl<'f> Compiler<'f> {
                 Ok(known) => (known.to_si(number), known.dimension()),
                 Err(error) => {
                     let message = format!("`{}` is not a unit", unit.text);
-                    let diagnostic = Diagnostic::error("P0302", message, unit.span, error.to_string());
-                    self.report(diagnostic.hint(error.hint()));
+                    let range = error.range();
+                    let place = Span::new(unit.span.start + range.start, unit.span.start + range.end);
+                    let diagnostic = Diagnostic::error("P0302", message, place, error.to_string()).hint(error.hint());
+                    // The grammar takes `50 mm/t` for a number with a unit.
+                    self.report(match unit.text.find(['/', '*']) {
+                        Some(at) if at < range.start => {
+                            let sign = &unit.text[at..=at];
+                            diagnostic.hint(format!("to calculate with a value, put a blank before `{sign}`"))
+                        }
+                        _ => diagnostic,
+                    });
                     return None;
                 }
             },
@@ -93,21 +118,25 @@ impl<'f> Compiler<'f> {
         values: Option<&'f [Expression]>,
         span: Span,
     ) -> Option<Value> {
-        if let Some(derived) = self.derived.get(name.text.as_str()).copied() {
+        let known = scope.get(&name.text).or_else(|| self.globals.get(name.text.as_str()).copied());
+        if known.is_none()
+            && let Some(derived) = self.derived.get(name.text.as_str()).copied()
+        {
             return self.derived_value(scope, derived, values.unwrap_or_default(), span);
         }
-        if let Some((function, usage)) = builtins::function(&name.text) {
+        if known.is_none()
+            && let Some((function, usage)) = builtins::function(&name.text)
+        {
             return self.function(scope, function, usage, values.unwrap_or_default(), span);
         }
-        let value = scope.get(&name.text).or_else(|| self.globals.get(name.text.as_str()).copied());
-        let value = value.or_else(|| match name.text.as_str() {
-            "body" => Some(Value { r#type: Type::Body, register: 0 }),
-            "time" => Some(Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) }),
-            _ => None,
-        });
-        let Some(value) = value else {
-            self.unknown_name(scope, name);
-            return None;
+        let value = match (known, name.text.as_str()) {
+            (Some(meaning), _) => meaning?,
+            (None, "body") => Value { r#type: Type::Body, register: 0 },
+            (None, "time") => Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) },
+            (None, _) => {
+                self.unknown_name(scope, name);
+                return None;
+            }
         };
         if values.is_some() {
             let message = format!("`{}` is {} and takes no values", name.text, value.r#type);
@@ -130,11 +159,11 @@ impl<'f> Compiler<'f> {
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
             let message = format!("{} has no `{}`", value.r#type, name.text);
-            let mut diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
-            if let Some(meant) = suggest(&name.text, members.iter().map(|member| member.name)) {
-                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-            }
-            if !members.is_empty() {
+            let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
+            let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));
+            if members.is_empty() {
+                diagnostic = diagnostic.hint("only whiskers, their contours and `body` have members");
+            } else {
                 let known: Vec<&str> = members.iter().map(|member| member.name).collect();
                 diagnostic = diagnostic.hint(format!("{} has {}", value.r#type, known.join(", ")));
             }
@@ -251,9 +280,8 @@ impl<'f> Compiler<'f> {
             }
             (_, left_type, right_type) => {
                 let message = format!("`{}` does not go with {left_type} and {right_type}", operator.symbol());
-                let mut diagnostic = Diagnostic::error("P0301", message, left_span.to(right_span), "")
-                    .note(left_span, format!("is {left_type}"))
-                    .note(right_span, format!("is {right_type}"));
+                let mut diagnostic = Diagnostic::error("P0301", message, right_span, format!("is {right_type}"))
+                    .note(left_span, format!("is {left_type}"));
                 if let Some(hint) = binary_hint(operator, left_type, right_type) {
                     diagnostic = diagnostic.hint(hint);
                 }
@@ -309,12 +337,25 @@ impl<'f> Compiler<'f> {
 /// What to do about operands that do not go together.
 fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
     match (operator, left, right) {
+        (Binary::Or | Binary::And, ..) => Some("both sides must be truths".to_owned()),
         (_, Type::Scalar(dimension), Type::Scalar(Dimension::NUMBER))
         | (_, Type::Scalar(Dimension::NUMBER), Type::Scalar(dimension)) => {
             Some(format!("give the plain number a unit, such as {}", units_of(dimension).join(", ")))
         }
         (Binary::Multiply, Type::Vector(_), Type::Vector(_)) => Some("write `dot(a, b)` or `cross(a, b)`".to_owned()),
-        (Binary::Less | Binary::Greater, Type::Vector(_), _) => Some("compare its length, `|v|`".to_owned()),
+        (Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual, Type::Truth, _) => {
+            Some("write `a < b and b < c`".to_owned())
+        }
+        (
+            Binary::Less
+            | Binary::LessOrEqual
+            | Binary::Greater
+            | Binary::GreaterOrEqual
+            | Binary::Equal
+            | Binary::Unequal,
+            Type::Vector(_),
+            _,
+        ) => Some("compare lengths: `|v|`, or of two vectors `|a - b|`".to_owned()),
         _ => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::Op;
-use crate::policy::ast::{Derived, Expression};
+use crate::policy::ast::{Argument, Derived, Expression, Name};
 use crate::policy::builtins::Function;
 use crate::policy::types::{Type, Value};
 use crate::units::Dimension;
@@ -84,8 +84,10 @@ impl<'f> Compiler<'f> {
             }
             _ => {
                 let found: Vec<String> = types.iter().map(ToString::to_string).collect();
-                let found = if found.is_empty() { "nothing".to_owned() } else { found.join(", ") };
-                let message = format!("`{usage}` does not take {found}");
+                let message = match found.as_slice() {
+                    [] => format!("`{usage}` needs its values"),
+                    _ => format!("`{usage}` does not take {}", found.join(", ")),
+                };
                 self.report(Diagnostic::error("P0304", message, span, "these values").hint(expectation(function)));
                 None
             }
@@ -126,8 +128,8 @@ impl<'f> Compiler<'f> {
     pub(super) fn arguments(
         &mut self,
         scope: &Scope<'f>,
-        name: &'f crate::policy::ast::Name,
-        arguments: &'f [crate::policy::ast::Argument],
+        name: &'f Name,
+        arguments: &'f [Argument],
         values: &'f [Expression],
         span: Span,
     ) -> Option<Scope<'f>> {
@@ -157,17 +159,22 @@ impl<'f> Compiler<'f> {
         for (argument, value) in arguments.iter().zip(values) {
             // An unknown type is reported where the law itself is checked.
             let of = argument.type_name.of.as_ref().map(|of| of.text.as_str());
-            let r#type = Type::named(&argument.type_name.base.text, of)?;
-            match self.expect(scope, value, r#type) {
-                Some(value) => inner.insert(&argument.name.text, value),
-                None => complete = false,
-            }
+            let value = match Type::named(&argument.type_name.base.text, of) {
+                Some(r#type) => self.expect(scope, value, r#type),
+                None => self.expression(scope, value).and(None),
+            };
+            complete &= value.is_some();
+            inner.insert(&argument.name, value);
         }
-        (complete && !self.broken.contains(&name.text.as_str())).then_some(inner)
+        if self.broken.contains(name.text.as_str()) {
+            self.broken.extend(self.writing.iter().copied());
+            return None;
+        }
+        complete.then_some(inner)
     }
 }
 
-fn count(values: usize) -> String {
+pub(super) fn count(values: usize) -> String {
     match values {
         0 => "no values".to_owned(),
         1 => "1 value".to_owned(),
@@ -187,10 +194,9 @@ fn expectation(function: Function) -> &'static str {
     match function {
         Function::Abs | Function::Sign => "it takes one number of any dimension",
         Function::Sqrt => "it takes one number whose dimension is a square, such as an area",
-        Function::Min | Function::Max => "it takes two numbers of one dimension",
+        Function::Min | Function::Max | Function::Vector => "it takes two numbers of one dimension",
         Function::Clamp => "it takes three numbers of one dimension: what to clamp, the least, the greatest",
         Function::Sin | Function::Cos | Function::Direction => "it takes one angle",
-        Function::Vector => "it takes two numbers of one dimension",
         Function::Unit | Function::Angle => "it takes one vector",
         Function::Rotate => "it takes a vector and an angle",
         Function::Turn => "it takes two angles and gives the shorter turn from the first to the second",

@@ -11,15 +11,16 @@ mod scope;
 mod statement;
 mod structure;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::Program;
 
-use super::ast::{Derived, File, Law};
-use super::types::{Type, Value};
+use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
+use super::hint::did_you_mean;
+use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
-use scope::Scope;
+use scope::{Meaning, Scope};
 
 /// Checks a file and writes its program.
 pub(super) fn lower(file: &File) -> Result<Program, Vec<Diagnostic>> {
@@ -34,26 +35,45 @@ pub(super) fn lower(file: &File) -> Result<Program, Vec<Diagnostic>> {
     }
 }
 
+/// Faults after which the compiler stops looking for more.
+const FAULT_LIMIT: usize = 50;
+/// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
+/// exhaust the stack.
+const DEPTH_LIMIT: usize = 250;
+/// The most nodes of the syntax tree that are visited, counting those of laws and derived values once for every use, so
+/// that compiling takes bounded time.
+const WORK_LIMIT: usize = 500_000;
+
 /// A state that transitions can lead to.
+#[derive(Clone)]
 struct StateEntry {
     index: usize,
-    /// Where its arguments live.
-    arguments: Vec<(String, Value)>,
+    /// Its arguments and where they live.
+    arguments: Vec<(String, Meaning)>,
 }
 
 /// Everything that is known while code is written.
 struct Compiler<'f> {
     code: Code,
     diagnostics: Vec<Diagnostic>,
+    /// Where each item of the file is named.
+    items: HashMap<&'f str, Span>,
     /// Parameters and whiskers, by name.
-    globals: HashMap<&'f str, Value>,
+    globals: HashMap<&'f str, Meaning>,
     derived: HashMap<&'f str, &'f Derived>,
     laws: HashMap<&'f str, &'f Law>,
     states: HashMap<&'f str, StateEntry>,
     /// Names of laws and derived values whose own check failed.
-    broken: Vec<&'f str>,
+    broken: HashSet<&'f str>,
     /// Names of laws and derived values that are being written into their place of use.
     writing: Vec<&'f str>,
+    /// What the state does whose transitions are being written.
+    doing: &'f [Statement],
+    /// How deep the walk through the syntax tree is, and how many nodes it has visited.
+    depth: usize,
+    work: usize,
+    /// The item that was being written when the program outgrew its limits.
+    outgrown: Option<Span>,
 }
 
 impl<'f> Compiler<'f> {
@@ -61,52 +81,96 @@ impl<'f> Compiler<'f> {
         Self {
             code: Code::new(),
             diagnostics: Vec::new(),
+            items: HashMap::new(),
             globals: HashMap::new(),
             derived: HashMap::new(),
             laws: HashMap::new(),
             states: HashMap::new(),
-            broken: Vec::new(),
+            broken: HashSet::new(),
             writing: Vec::new(),
+            doing: &[],
+            depth: 0,
+            work: 0,
+            outgrown: None,
         }
     }
 
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        if self.diagnostics.len() < FAULT_LIMIT {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Whether there is no point in going on: the program is too large, or there are faults enough.
+    fn is_exhausted(&self) -> bool {
+        self.code.full || self.work > WORK_LIMIT || self.diagnostics.len() >= FAULT_LIMIT
+    }
+
+    /// Goes one level deeper into the syntax tree, at `span`, unless that is too deep or the compiler is exhausted.
+    fn descend<T>(&mut self, span: Span, walk: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        self.work += 1;
+        if self.is_exhausted() {
+            return None;
+        }
+        if self.depth >= DEPTH_LIMIT {
+            let message = format!("expressions, laws and derived values nest more than {DEPTH_LIMIT} deep");
+            let diagnostic = Diagnostic::error("P0104", message, span, "too deep");
+            self.report(
+                diagnostic.hint("they are written out where they are used; let fewer of them build on one another"),
+            );
+            self.broken.extend(self.writing.iter().copied());
+            return None;
+        }
+        self.depth += 1;
+        let result = walk(self);
+        self.depth -= 1;
+        result
     }
 
     /// A scope in which `arguments` stand for values that are not known yet.
-    fn scope_of_arguments(&mut self, arguments: &'f [super::ast::Argument]) -> Option<Scope<'f>> {
+    fn scope_of_arguments(&mut self, arguments: &'f [Argument]) -> Scope<'f> {
         let mut scope = Scope::default();
-        let mut complete = true;
         for argument in arguments {
-            match self.type_of(&argument.type_name) {
-                Some(r#type) => {
-                    let register = self.code.place(r#type.width());
-                    self.bind(&mut scope, &argument.name, Value { r#type, register });
-                }
-                None => complete = false,
-            }
+            let meaning = self.type_of(&argument.type_name).map(|r#type| {
+                let register = self.code.place(r#type.width());
+                Value { r#type, register }
+            });
+            self.bind(&mut scope, &argument.name, meaning);
         }
-        complete.then_some(scope)
+        scope
     }
 
     /// The type that a name names, if it names one.
-    fn type_of(&mut self, name: &super::ast::TypeName) -> Option<Type> {
+    fn type_of(&mut self, name: &TypeName) -> Option<Type> {
         let of = name.of.as_ref().map(|of| of.text.as_str());
         let found = Type::named(&name.base.text, of);
         if found.is_none() {
-            let known = super::types::DIMENSIONS.iter().map(|&(known, _)| known);
-            let wrong = name.of.as_ref().unwrap_or(&name.base);
-            let mut diagnostic =
-                Diagnostic::error("P0204", format!("there is no type `{}`", wrong.text), wrong.span, "unknown type");
-            if let Some(meant) =
-                crate::diagnostic::suggest(&wrong.text, known.clone().chain(["whisker", "truth", "vector"]))
-            {
-                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-            }
-            let known = known.collect::<Vec<_>>().join(", ");
-            self.report(diagnostic.hint(format!("types are whisker, truth, {known}, and `vector of` one of these")));
+            self.report(unknown_type(name));
         }
         found
+    }
+}
+
+/// The report of a type that does not exist.
+fn unknown_type(name: &TypeName) -> Diagnostic {
+    let dimensions = DIMENSIONS.iter().map(|&(known, _)| known);
+    let list = dimensions.clone().collect::<Vec<_>>().join(", ");
+    match &name.of {
+        Some(of) if name.base.text != "vector" => {
+            let message = format!("`{}` is of nothing", name.base.text);
+            Diagnostic::error("P0204", message, name.base.span.to(of.span), "only a vector is `of` a dimension")
+                .hint(format!("write `{}` alone, or `vector of {}`", name.base.text, of.text))
+        }
+        Some(of) => {
+            let message = format!("there is no dimension `{}`", of.text);
+            let diagnostic = Diagnostic::error("P0204", message, of.span, "unknown dimension");
+            did_you_mean(diagnostic, &of.text, dimensions).hint(format!("dimensions are {list}"))
+        }
+        None => {
+            let message = format!("there is no type `{}`", name.base.text);
+            let diagnostic = Diagnostic::error("P0204", message, name.base.span, "unknown type");
+            did_you_mean(diagnostic, &name.base.text, dimensions.chain(["whisker", "truth", "vector"]))
+                .hint(format!("types are whisker, truth, {list}, vector, and `vector of` a dimension"))
+        }
     }
 }

@@ -17,13 +17,13 @@ impl<'f> Compiler<'f> {
                 let (high_value, high_dimension) = self.bound(high, None)?;
                 // `in 1 .. 200 mm/s`: the unit behind the range is that of both ends.
                 let (low_value, low_dimension) = self.bound(low, Some(high))?;
-                for (bound, found) in [(low, low_dimension), (high, high_dimension)] {
+                for (bound, found) in [(high, high_dimension), (low, low_dimension)] {
                     if found != dimension {
                         let message = format!("the range of `{}` is in another dimension", parameter.name.text);
-                        self.report(
+                        let diagnostic =
                             Diagnostic::error("P0301", message, bound.span, format!("is {}", found.phrase()))
-                                .note(parameter.value.span, format!("is {}", dimension.phrase())),
-                        );
+                                .note(parameter.value.span, format!("is {}", dimension.phrase()));
+                        self.report(diagnostic.hint("give the value and the upper end of the range a unit each"));
                         return None;
                     }
                 }

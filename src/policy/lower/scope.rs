@@ -1,25 +1,30 @@
 //! Names and what they stand for.
 
-use crate::diagnostic::{Diagnostic, suggest};
-use crate::policy::ast::Name;
-use crate::policy::builtins::FUNCTIONS;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::ast::{Name, Statement};
+use crate::policy::builtins::{self, FUNCTIONS};
+use crate::policy::hint::did_you_mean;
 use crate::policy::types::Value;
+use crate::units::parse_unit;
 
 use super::Compiler;
+
+/// What a name stands for: a value, or nothing when the value is at fault, which has been reported then.
+pub(super) type Meaning = Option<Value>;
 
 /// The names that one law, derived value or state gives to values; later ones in front.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scope<'f> {
-    names: Vec<(&'f str, Value)>,
+    names: Vec<(&'f Name, Meaning)>,
 }
 
 impl<'f> Scope<'f> {
-    pub(super) fn get(&self, name: &str) -> Option<Value> {
-        self.names.iter().rev().find(|(known, _)| *known == name).map(|&(_, value)| value)
+    pub(super) fn get(&self, name: &str) -> Option<Meaning> {
+        self.find(name).map(|&(_, meaning)| meaning)
     }
 
-    pub(super) fn insert(&mut self, name: &'f str, value: Value) {
-        self.names.push((name, value));
+    pub(super) fn insert(&mut self, name: &'f Name, meaning: Meaning) {
+        self.names.push((name, meaning));
     }
 
     /// How many names there are, to [`truncate`](Self::truncate) to.
@@ -31,43 +36,65 @@ impl<'f> Scope<'f> {
     pub(super) fn truncate(&mut self, len: usize) {
         self.names.truncate(len);
     }
+
+    fn find(&self, name: &str) -> Option<&(&'f Name, Meaning)> {
+        self.names.iter().rev().find(|(known, _)| known.text == name)
+    }
 }
 
 impl<'f> Compiler<'f> {
-    /// Gives a name to a value in a scope, unless the name is taken.
-    pub(super) fn bind(&mut self, scope: &mut Scope<'f>, name: &'f Name, value: Value) {
-        let taken = scope.get(&name.text).is_some()
-            || self.globals.contains_key(name.text.as_str())
-            || self.derived.contains_key(name.text.as_str());
-        if taken {
-            let message = format!("the name `{}` is already taken", name.text);
-            self.report(
-                Diagnostic::error("P0202", message, name.span, "named again here")
-                    .hint("give it a name of its own; one name means one thing"),
-            );
+    /// Gives a name to a value in a scope, unless the name is taken: one name means one thing.
+    pub(super) fn bind(&mut self, scope: &mut Scope<'f>, name: &'f Name, meaning: Meaning) {
+        let before = scope.find(&name.text).map(|(known, _)| known.span);
+        match before.or_else(|| self.items.get(name.text.as_str()).copied()) {
+            _ if is_reserved(&name.text) => self.report(reserved(name)),
+            Some(before) => self.report(taken(name, before)),
+            None => {}
         }
-        scope.insert(&name.text, value);
+        scope.insert(name, meaning);
     }
 
     /// Reports a name that stands for nothing.
     pub(super) fn unknown_name(&mut self, scope: &Scope<'f>, name: &Name) {
         let message = format!("nothing is called `{}`", name.text);
-        let mut diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
-        let known = scope
-            .names
-            .iter()
-            .map(|&(known, _)| known)
-            .chain(self.globals.keys().copied())
-            .chain(self.derived.keys().copied())
-            .chain(FUNCTIONS.iter().map(|&(known, ..)| known))
-            .chain(["time"]);
-        let mut known: Vec<&str> = known.collect();
-        known.sort_unstable();
-        if self.laws.contains_key(name.text.as_str()) {
-            diagnostic = diagnostic.hint(format!("`{0}` is a law: write `do {0}(…)`", name.text));
-        } else if let Some(meant) = suggest(&name.text, known) {
-            diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-        }
+        let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
+        let text = &name.text;
+        let diagnostic = if self.laws.contains_key(text.as_str()) {
+            diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
+        } else if self.items.contains_key(text.as_str()) {
+            // Everything else that has a name is a value.
+            diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
+        } else if self.doing.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text)) {
+            diagnostic.hint(format!(
+                "transitions are tried before the state does anything: write `let {text} = \u{2026}` outside of the state"
+            ))
+        } else if parse_unit(text).is_ok() {
+            diagnostic
+                .hint(format!("`{text}` is a unit: a unit stands behind a number and has no blanks in it: `5 mm/s`"))
+        } else {
+            let known = scope.names.iter().map(|(known, _)| known.text.as_str());
+            let known = known.chain(self.globals.keys().copied()).chain(self.derived.keys().copied());
+            did_you_mean(diagnostic, text, known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time"]))
+        };
         self.report(diagnostic);
     }
+}
+
+/// Whether a name has a meaning of its own in the language.
+pub(super) fn is_reserved(name: &str) -> bool {
+    builtins::function(name).is_some() || ["time", super::structure::FAILURE].contains(&name)
+}
+
+/// The report of a name that has a meaning of its own.
+pub(super) fn reserved(name: &Name) -> Diagnostic {
+    let message = format!("the name `{}` belongs to the language", name.text);
+    Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name")
+}
+
+/// The report of a name that was given before.
+pub(super) fn taken(name: &Name, before: Span) -> Diagnostic {
+    let message = format!("the name `{}` is given twice", name.text);
+    Diagnostic::error("P0202", message, name.span, "given again here")
+        .note(before, "first given here")
+        .hint("one name means one thing in a whole policy; choose another")
 }

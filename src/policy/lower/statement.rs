@@ -1,8 +1,9 @@
 //! Statements.
 
-use crate::diagnostic::{Diagnostic, Span, suggest};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::Op;
 use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
+use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
 
 use super::Compiler;
@@ -13,6 +14,10 @@ impl<'f> Compiler<'f> {
     pub(super) fn statements(&mut self, scope: &mut Scope<'f>, statements: &'f [Statement]) {
         let names = scope.len();
         for statement in statements {
+            self.work += 1;
+            if self.is_exhausted() {
+                break;
+            }
             // Whatever is at fault has been reported; the next statement may have faults of its own.
             let _ = self.statement(scope, statement);
         }
@@ -22,8 +27,8 @@ impl<'f> Compiler<'f> {
     fn statement(&mut self, scope: &mut Scope<'f>, statement: &'f Statement) -> Option<()> {
         match statement {
             Statement::Let { name, value } => {
-                let value = self.expression(scope, value)?;
-                self.bind(scope, name, value);
+                let meaning = self.expression(scope, value);
+                self.bind(scope, name, meaning);
             }
             Statement::If { branches, otherwise } => self.conditional(scope, branches, otherwise),
             Statement::Do { law, values, span } => self.apply(scope, law, values, *span)?,
@@ -63,20 +68,18 @@ impl<'f> Compiler<'f> {
     fn apply(&mut self, scope: &Scope<'f>, name: &'f Name, values: &'f [Expression], span: Span) -> Option<()> {
         let Some(law) = self.laws.get(name.text.as_str()).copied() else {
             let message = format!("there is no law `{}`", name.text);
-            let mut diagnostic = Diagnostic::error("P0201", message, name.span, "unknown law");
-            let mut known: Vec<&str> = self.laws.keys().copied().collect();
-            known.sort_unstable();
-            if let Some(meant) = suggest(&name.text, known) {
-                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-            }
-            self.report(diagnostic);
+            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown law");
+            self.report(did_you_mean(diagnostic, &name.text, self.laws.keys().copied()));
             return None;
         };
         let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
         self.writing.push(&law.name.text);
-        self.statements(&mut inner, &law.body);
+        let written = self.descend(span, |compiler| {
+            compiler.statements(&mut inner, &law.body);
+            Some(())
+        });
         self.writing.pop();
-        Some(())
+        written
     }
 
     fn steer(&mut self, scope: &Scope<'f>, steer: &'f Steer) -> Option<()> {

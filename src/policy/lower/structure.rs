@@ -1,19 +1,20 @@
 //! The machine as a whole: names of items, states, transitions.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, suggest};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::{self, Block, Program};
-use crate::policy::ast::{File, Guard, Name, State, Target, Transition};
+use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
+use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
 use crate::signal::MAX_WHISKERS;
 
-use super::scope::Scope;
+use super::function::count;
+use super::scope::{Meaning, Scope, is_reserved, reserved, taken};
 use super::{Compiler, StateEntry};
 
 /// The target that ends a run in failure; no state may have its name.
-const FAILURE: &str = "Failure";
+pub(super) const FAILURE: &str = "Failure";
 
 /// Checks a file and writes its program. `None` when it has no state to start in.
 pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Program> {
@@ -26,17 +27,18 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
     compiler.check_laws(file);
 
     // Every state's arguments need their places before any transition can lead there.
-    let scopes: Vec<Option<Scope<'f>>> = file.states.iter().map(|state| compiler.declare(state)).collect();
+    let scopes: Vec<Scope<'f>> = file.states.iter().map(|state| compiler.declare(state)).collect();
     let mut timers = 0;
     let always = file.always.iter();
     let always = always.filter_map(|rule| compiler.transition(&Scope::default(), rule, &mut timers)).collect();
     let states = file.states.iter().zip(scopes);
-    let states = states.map(|(state, scope)| compiler.state(state, scope.unwrap_or_default(), &mut timers)).collect();
+    let states = states.map(|(state, scope)| compiler.state(state, scope, &mut timers)).collect();
     let initial = compiler.initial(file);
 
-    if compiler.code.full {
+    compiler.watch_growth(file.machine.span);
+    if let Some(item) = compiler.outgrown {
         compiler.report(
-            Diagnostic::error("P0402", "the policy grows too large", file.machine.span, "this machine")
+            Diagnostic::error("P0402", "the policy grows too large", item, "grows out of bounds here")
                 .hint("laws and derived values are written out wherever they are used; use them in fewer places"),
         );
     }
@@ -60,21 +62,13 @@ impl<'f> Compiler<'f> {
         let derived = file.derived.iter().map(|derived| &derived.name);
         let laws = file.laws.iter().map(|law| &law.name);
         let states = file.states.iter().map(|state| &state.name);
-        let mut first: HashMap<&str, &Name> = HashMap::new();
         for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states) {
-            let reserved = super::super::builtins::function(&name.text).is_some()
-                || ["time", FAILURE].contains(&name.text.as_str());
-            if reserved {
-                let message = format!("the name `{}` belongs to the language", name.text);
-                self.report(
-                    Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name"),
-                );
-            } else if let Some(before) = first.insert(&name.text, name) {
-                let message = format!("the name `{}` is given twice", name.text);
-                self.report(
-                    Diagnostic::error("P0202", message, name.span, "given again here")
-                        .note(before.span, "first given here"),
-                );
+            if is_reserved(&name.text) {
+                self.report(reserved(name));
+            } else if let Some(&before) = self.items.get(name.text.as_str()) {
+                self.report(taken(name, before));
+            } else {
+                self.items.insert(&name.text, name.span);
             }
         }
     }
@@ -82,13 +76,14 @@ impl<'f> Compiler<'f> {
     fn parameters(&mut self, file: &'f File) -> Vec<machine::Parameter> {
         let mut parameters = Vec::new();
         for parameter in &file.parameters {
-            if let Some(checked) = self.parameter(parameter) {
+            let meaning = self.parameter(parameter).map(|checked| {
                 let register = self.code.place(1);
                 self.code.image[usize::from(register)] = checked.default;
-                let value = Value { r#type: Type::Scalar(checked.dimension), register };
-                self.globals.insert(&parameter.name.text, value);
+                let r#type = Type::Scalar(checked.dimension);
                 parameters.push(checked);
-            }
+                Value { r#type, register }
+            });
+            self.globals.insert(&parameter.name.text, meaning);
         }
         parameters
     }
@@ -96,66 +91,73 @@ impl<'f> Compiler<'f> {
     fn whiskers(&mut self, file: &'f File) {
         if let Some(extra) = file.whiskers.get(MAX_WHISKERS) {
             let message = format!("a policy can bind {MAX_WHISKERS} whiskers at most");
-            self.report(Diagnostic::error("P0403", message, extra.span, "one too many"));
+            let diagnostic = Diagnostic::error("P0403", message, extra.span, "one too many");
+            self.report(diagnostic.hint("bind those that the policy reads; the rig may have others"));
         }
         for (index, whisker) in file.whiskers.iter().enumerate() {
             let register = self.code.constant(index as f64);
-            self.globals.insert(&whisker.text, Value { r#type: Type::Whisker, register });
+            self.globals.insert(&whisker.text, Some(Value { r#type: Type::Whisker, register }));
         }
     }
 
     /// Checks derived values by themselves.
     fn check_derived(&mut self, file: &'f File) {
         for derived in &file.derived {
-            let before = self.diagnostics.len();
-            if let Some(scope) = self.scope_of_arguments(&derived.arguments) {
-                self.writing.push(&derived.name.text);
-                self.expression(&scope, &derived.value);
-                self.writing.pop();
-            }
-            self.drop_check(&derived.name, before);
+            self.check(&derived.name, &derived.arguments, |compiler, scope| {
+                compiler.expression(scope, &derived.value);
+            });
         }
     }
 
     /// Checks laws by themselves.
     fn check_laws(&mut self, file: &'f File) {
         for law in &file.laws {
-            let before = self.diagnostics.len();
-            if let Some(mut scope) = self.scope_of_arguments(&law.arguments) {
-                self.writing.push(&law.name.text);
-                self.statements(&mut scope, &law.body);
-                self.writing.pop();
-            }
-            self.drop_check(&law.name, before);
+            self.check(&law.name, &law.arguments, |compiler, scope| compiler.statements(scope, &law.body));
         }
     }
 
-    /// Throws away the code of a check, and remembers whether it found anything.
-    fn drop_check(&mut self, name: &'f Name, diagnostics_before: usize) {
-        self.code.ops.clear();
-        if self.diagnostics.len() > diagnostics_before {
-            self.broken.push(&name.text);
+    /// Writes a law or derived value with arguments of unknown value, throws the code away, and remembers whether there
+    /// was a fault.
+    fn check(&mut self, name: &'f Name, arguments: &'f [Argument], write: impl FnOnce(&mut Self, &mut Scope<'f>)) {
+        let (mark, faults) = (self.code.mark(), self.diagnostics.len());
+        let mut scope = self.scope_of_arguments(arguments);
+        if !self.broken.contains(name.text.as_str()) {
+            self.writing.push(&name.text);
+            write(self, &mut scope);
+            self.writing.pop();
+        }
+        self.watch_growth(name.span);
+        self.code.rewind(mark);
+        if self.diagnostics.len() > faults {
+            self.broken.insert(&name.text);
+        }
+    }
+
+    /// Remembers the item at `span` if the program has just outgrown its limits.
+    fn watch_growth(&mut self, span: Span) {
+        if self.code.full || self.work > super::WORK_LIMIT {
+            self.outgrown.get_or_insert(span);
         }
     }
 
     /// Makes a state known, with places for its arguments.
-    fn declare(&mut self, state: &'f State) -> Option<Scope<'f>> {
+    fn declare(&mut self, state: &'f State) -> Scope<'f> {
         let index = self.states.len();
         let scope = self.scope_of_arguments(&state.arguments);
-        let place = |argument: &crate::policy::ast::Argument| {
-            let value = scope.as_ref()?.get(&argument.name.text)?;
-            Some((argument.name.text.clone(), value))
-        };
-        let arguments = state.arguments.iter().filter_map(place).collect();
+        let names = state.arguments.iter().map(|argument| &argument.name.text);
+        let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
         self.states.insert(&state.name.text, StateEntry { index, arguments });
         scope
     }
 
     fn state(&mut self, state: &'f State, mut scope: Scope<'f>, timers: &mut usize) -> machine::State {
+        self.doing = &state.body;
         let transitions = state.transitions.iter();
         let transitions = transitions.filter_map(|transition| self.transition(&scope, transition, timers)).collect();
+        self.doing = &[];
         let start = self.code.here();
         self.statements(&mut scope, &state.body);
+        self.watch_growth(state.name.span);
         machine::State { name: Arc::from(state.name.text.as_str()), body: self.code.since(start), transitions }
     }
 
@@ -202,43 +204,54 @@ impl<'f> Compiler<'f> {
         }
         let Some(entry) = self.states.get(target.name.text.as_str()) else {
             let message = format!("there is no state `{}`", target.name.text);
-            let mut diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown state");
-            let mut known: Vec<&str> = self.states.keys().copied().chain([FAILURE]).collect();
-            known.sort_unstable();
-            if let Some(meant) = suggest(&target.name.text, known) {
-                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-            }
-            self.report(diagnostic);
+            let diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown state");
+            let known = self.states.keys().copied().chain([FAILURE]);
+            let diagnostic = did_you_mean(diagnostic, &target.name.text, known);
+            self.report(match &target.text {
+                Some(text) => diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)),
+                None => diagnostic,
+            });
             return None;
         };
-        let (state, arguments) = (entry.index, entry.arguments.clone());
-        if target.text.is_some() || target.values.len() != arguments.len() {
+        let StateEntry { index: state, arguments } = entry.clone();
+        if let Some(text) = &target.text {
+            let message = format!("the state `{}` takes no text", target.name.text);
+            let diagnostic = Diagnostic::error("P0304", message, text.span, "a reason is for a failure");
+            self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
+            return None;
+        }
+        if target.values.len() != arguments.len() {
             let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
             let usage = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
-            let message = format!("the state `{}` takes other arguments", target.name.text);
-            let diagnostic = Diagnostic::error("P0304", message, target.span, "entered here");
+            let (takes, given) = (count(arguments.len()), target.values.len());
+            let message = format!("the state `{}` takes {takes}, not {given}", target.name.text);
+            let mut diagnostic = Diagnostic::error("P0304", message, target.span, "entered here");
+            if let Some(&made) = self.items.get(target.name.text.as_str()) {
+                diagnostic = diagnostic.note(made, "made here");
+            }
             self.report(diagnostic.hint(format!("write `{}{usage}`", target.name.text)));
             return None;
         }
-        let start = self.code.here();
-        let arguments = self.pass(scope, target, &arguments, start)?;
+        let arguments = self.pass(scope, target, &arguments)?;
         Some(machine::Target::State { state, arguments })
     }
 
     /// Writes the values that a state is entered with. All are computed before the first is put into its place: a state may
     /// hand its own arguments on to itself in another order.
-    fn pass(
-        &mut self,
-        scope: &Scope<'f>,
-        target: &'f Target,
-        arguments: &[(String, Value)],
-        start: u32,
-    ) -> Option<Block> {
-        let expected = target.values.iter().zip(arguments);
-        let given: Vec<Option<Value>> =
-            expected.map(|(value, (_, argument))| self.expect(scope, value, argument.r#type)).collect();
+    fn pass(&mut self, scope: &Scope<'f>, target: &'f Target, arguments: &[(String, Meaning)]) -> Option<Block> {
+        let start = self.code.here();
+        let pairs = target.values.iter().zip(arguments);
+        let given: Vec<Option<(Value, Value)>> = pairs
+            .map(|(value, &(_, argument))| {
+                let Some(argument) = argument else {
+                    self.expression(scope, value);
+                    return None;
+                };
+                Some((self.expect(scope, value, argument.r#type)?, argument))
+            })
+            .collect();
         let mut copies = Vec::with_capacity(given.len());
-        for (value, (_, argument)) in given.into_iter().collect::<Option<Vec<_>>>()?.into_iter().zip(arguments) {
+        for (value, argument) in given.into_iter().collect::<Option<Vec<_>>>()? {
             let between = self.code.place(value.r#type.width());
             self.code.copy(between, value.register, value.r#type.width());
             copies.push((argument.register, between, value.r#type.width()));
@@ -255,6 +268,7 @@ impl<'f> Compiler<'f> {
                 [first, second, ..] => {
                     Diagnostic::error("P0404", "a machine starts in one state", second.span, "a second initial state")
                         .note(first.span, "the first")
+                        .hint("keep one of them")
                 }
                 _ => Diagnostic::error(
                     "P0404",
@@ -269,20 +283,14 @@ impl<'f> Compiler<'f> {
         };
         let Some(entry) = self.states.get(name.text.as_str()) else {
             let message = format!("there is no state `{}`", name.text);
-            let mut diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
-            let mut known: Vec<&str> = self.states.keys().copied().collect();
-            known.sort_unstable();
-            if let Some(meant) = suggest(&name.text, known) {
-                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-            }
-            self.report(diagnostic);
+            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
+            self.report(did_you_mean(diagnostic, &name.text, self.states.keys().copied()));
             return None;
         };
         if !entry.arguments.is_empty() {
-            let index = entry.index;
             self.report(
                 Diagnostic::error("P0404", "the initial state cannot have arguments", name.span, "starts here")
-                    .hint(format!("start in a state without any that leads to state {}", file.states[index].name.text)),
+                    .hint(format!("start in a state without arguments, and let it lead to `{}`", name.text)),
             );
             return None;
         }

@@ -1,0 +1,223 @@
+//! Errors of syntax in plain words: what was found, what could have stood there, what was probably meant.
+
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use crate::diagnostic::{Diagnostic, Source, Span};
+
+use super::grammar::{Rule, brackets, is_keyword, is_word};
+use super::hint::did_you_mean;
+
+/// What begins an item, in the order in which they usually come.
+const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`)";
+
+/// Words that can only stand outside of every brace.
+const ITEM_WORDS: [&str; 7] = ["machine", "whisker", "param", "initial", "law", "state", "always"];
+
+/// The diagnostic for pest's error.
+pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    };
+    let rules: &[Rule] = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => positives,
+        ErrorVariant::CustomError { message } => {
+            return Diagnostic::error("P0103", "the policy nests too deep", word_at(&source.text, at), message.clone())
+                .hint("name parts of it with `let`");
+        }
+    };
+    let span = word_at(&source.text, at);
+    let found = source.slice(span);
+    let opened = brackets(&source.text[..at]).ok().and_then(|opened| opened.last().copied());
+
+    if found.is_empty() {
+        return at_the_end(source, at, rules, opened);
+    }
+    if found == "\"" && !is_closed(&source.text[at..]) {
+        return Diagnostic::error("P0101", "the text is not closed", span, "begins here")
+            .hint("end it with `\"` on the same line");
+    }
+    if is_keyword(found) && rules.contains(&Rule::name) {
+        let message = format!("`{found}` is a word of the language");
+        return Diagnostic::error("P0101", message, span, "cannot be a name").hint("choose another name");
+    }
+    let mut diagnostic =
+        Diagnostic::error("P0101", format!("`{found}` is unexpected here"), span, expected(rules).unwrap_or_default());
+    if let Some(opened) = opened
+        && (ITEM_WORDS.contains(&found) || !belongs(&source.text[opened..=opened], found))
+    {
+        diagnostic = diagnostic.note(Span::new(opened, opened + 1), "still open");
+    }
+    if opened.is_none() && ["}", ")"].contains(&found) {
+        return diagnostic.hint(format!("nothing is open that `{found}` could close"));
+    }
+    match advice(found, &source.text[at..], rules) {
+        Some(advice) => diagnostic.hint(advice),
+        None => did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule))),
+    }
+}
+
+/// The text ends where it should go on.
+fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
+    let place = Span::new(at, at);
+    if rules.contains(&Rule::machine) || rules.contains(&Rule::kw_machine) {
+        return Diagnostic::error("P0101", "the file holds no policy", place, "expected `machine` and its name")
+            .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
+    }
+    let Some(opened) = opened else {
+        return Diagnostic::error("P0101", "the policy ends too early", place, expected(rules).unwrap_or_default());
+    };
+    let bracket = &source.text[opened..=opened];
+    let close = match bracket {
+        "(" => ")",
+        "{" => "}",
+        _ => bracket,
+    };
+    Diagnostic::error("P0101", "the policy ends too early", place, format!("expected `{close}`"))
+        .note(Span::new(opened, opened + 1), format!("this `{bracket}` is never closed"))
+}
+
+/// The word, or else the character, at `at`; nothing at the end of the text.
+fn word_at(text: &str, at: usize) -> Span {
+    let rest = &text[at.min(text.len())..];
+    let word = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
+    let length = if word > 0 { word } else { rest.chars().next().map_or(0, char::len_utf8) };
+    Span::new(at, at + length)
+}
+
+/// Whether the text that begins `rest` ends on its line.
+fn is_closed(rest: &str) -> bool {
+    rest[1..].find(['"', '\n']).is_some_and(|end| rest[1 + end..].starts_with('"'))
+}
+
+/// Whether `found` is no closing bracket, or the one that closes `opened`.
+fn belongs(opened: &str, found: &str) -> bool {
+    !["}", ")"].contains(&found) || (opened, found) == ("{", "}") || (opened, found) == ("(", ")")
+}
+
+/// What to do about signs and words that other languages have.
+fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
+    let starts = |with: &str| rest.starts_with(with);
+    Some(match found {
+        "=" if starts("=>") => "write `->`".to_owned(),
+        "=" => "`==` compares two values; `let name = value` names one".to_owned(),
+        "&" => "write `and`".to_owned(),
+        "|" if starts("||") => "write `or`".to_owned(),
+        "!" => "write `not`".to_owned(),
+        ";" => "leave it out; a new statement needs no sign before it".to_owned(),
+        "[" | "]" => "write `vector(x, y)` for a vector; there are no lists".to_owned(),
+        "/" if starts("//") || starts("/*") => "a comment begins with `#` and goes to the end of its line".to_owned(),
+        "/" | "*" if rules.contains(&Rule::kw_in) => {
+            "a parameter is one number with a unit, and a unit has no blanks in it: `50 mm/s`".to_owned()
+        }
+        "^" => "multiply instead: `x * x`".to_owned(),
+        "%" => "write the share as a plain number, such as 0.95".to_owned(),
+        "'" => "a text stands between double quotes".to_owned(),
+        "\"" => "a text can only be the reason of `Failure`".to_owned(),
+        "." => "a number has digits before and behind its point".to_owned(),
+        "else" => "`else` follows the `}` of an `if`".to_owned(),
+        "machine" => "a file holds one machine, which stands first".to_owned(),
+        _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
+        _ if is_keyword(found) && is_value_due(rules) => {
+            format!("`{found}` is a word of the language and cannot stand for a value")
+        }
+        _ => return None,
+    })
+}
+
+/// Whether an expression could have begun where the error is.
+fn is_value_due(rules: &[Rule]) -> bool {
+    rules.iter().any(|rule| matches!(rule, Rule::root | Rule::expression | Rule::mover))
+}
+
+/// What could have stood where the error is, most telling first.
+fn expected(rules: &[Rule]) -> Option<String> {
+    let mut known: Vec<(u8, &str)> = rules.iter().filter_map(|&rule| phrase(rule, rules)).collect();
+    known.sort_unstable();
+    known.dedup();
+    // Whatever ends in an expression can go on; that is worth saying only where nothing else can follow.
+    let most = known.first()?.0.max(CONTINUES - 1);
+    let phrases: Vec<&str> = known.iter().filter(|(rank, _)| *rank <= most).map(|&(_, phrase)| phrase).collect();
+    Some(match phrases.as_slice() {
+        [first @ .., last] if !first.is_empty() => format!("expected {} or {last}", first.join(", ")),
+        _ => format!("expected {}", phrases.concat()),
+    })
+}
+
+/// The rank of what continues an expression.
+const CONTINUES: u8 = 5;
+
+/// What a rule is called in messages, with its rank.
+fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
+    Some(match rule {
+        Rule::arrow => (0, "`->`"),
+        Rule::equals => (0, "`=`"),
+        Rule::colon => (0, "`:` and a type"),
+        Rule::dots => (0, "`..`"),
+        Rule::open_brace | Rule::block => (0, "`{`"),
+        Rule::close => (0, "`)`"),
+        Rule::bar if !is_value_due(among) => (0, "`|`"),
+        Rule::comma => (1, "`,`"),
+        Rule::arguments | Rule::values => (1, "`(`"),
+        Rule::open if !among.contains(&Rule::dot) && !is_value_due(among) => (1, "`(`"),
+        Rule::kw_along => (0, "`along`"),
+        Rule::kw_at => (0, "`at`"),
+        Rule::kw_facing => (0, "`facing`"),
+        Rule::kw_turning => (0, "`turning`"),
+        Rule::kw_for => (1, "`for`"),
+        Rule::kw_in => (1, "`in`"),
+        Rule::kw_of => (1, "`of`"),
+        Rule::kw_else => (4, "`else`"),
+        Rule::name | Rule::argument => (0, "a name"),
+        Rule::target => (0, "the name of a state"),
+        Rule::type_name => (0, "a type"),
+        Rule::text => (0, "a text"),
+        Rule::bound => (0, "a number"),
+        Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
+        Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
+        // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
+        Rule::kw_initial => (2, ITEM),
+        Rule::kw_do => (2, "a statement"),
+        Rule::kw_when => (3, "`when`"),
+        Rule::kw_after => (3, "`after`"),
+        Rule::kw_if if !among.contains(&Rule::kw_do) => (2, "`if`"),
+        Rule::close_brace => (4, "`}`"),
+        Rule::root | Rule::expression | Rule::mover => (0, "a value"),
+        Rule::times => (CONTINUES, "an operator"),
+        Rule::unit => (CONTINUES, "a unit"),
+        _ => return None,
+    })
+}
+
+/// The word that a rule stands for.
+fn word(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::machine | Rule::kw_machine => "machine",
+        Rule::kw_whisker => "whisker",
+        Rule::kw_param => "param",
+        Rule::kw_initial => "initial",
+        Rule::kw_let => "let",
+        Rule::kw_law => "law",
+        Rule::kw_state => "state",
+        Rule::kw_always => "always",
+        Rule::kw_when => "when",
+        Rule::kw_after => "after",
+        Rule::kw_if => "if",
+        Rule::kw_else => "else",
+        Rule::kw_do => "do",
+        Rule::kw_record => "record",
+        Rule::kw_steer => "steer",
+        Rule::kw_hold => "hold",
+        Rule::kw_stop => "stop",
+        Rule::kw_along => "along",
+        Rule::kw_at => "at",
+        Rule::kw_facing => "facing",
+        Rule::kw_turning => "turning",
+        Rule::kw_for => "for",
+        Rule::kw_in => "in",
+        Rule::kw_of => "of",
+        Rule::kw_and => "and",
+        Rule::kw_or => "or",
+        Rule::kw_not => "not",
+        _ => return None,
+    })
+}
