@@ -37,7 +37,7 @@ pub(super) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::Or { to, a, b } => file.put_truth(to, file.truth(a) || file.truth(b)),
             Op::Not { to, a } => file.put_truth(to, !file.truth(a)),
             Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
-            Op::Unit { to, a } => file.put_vector(to, unit(file.vector(a))),
+            Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {
                 let vector = file.vector(a);
                 file.put(to, vector.y.atan2(vector.x));
@@ -127,9 +127,4 @@ fn minimum(a: f64, b: f64) -> f64 {
 
 fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
-}
-
-fn unit(vector: Vector2) -> Vector2 {
-    let norm = vector.norm();
-    if norm == 0.0 { Vector2::zeros() } else { vector / norm }
 }

@@ -36,8 +36,9 @@ impl Steering {
 
     /// The command for `action` with the platform at `body`.
     ///
-    /// The body, or the whisker's base, gets the speed asked for in the direction asked for; turning moves a whisker's base
-    /// too, and the body's velocity makes up for that. The body is never faster than the speed asked for.
+    /// The body always moves at the speed asked for. Turning swings a whisker's base about the body; the body's direction, but
+    /// not its speed, makes up for that. To make up for all of it, the body would have to be fastest just when a contour is
+    /// least known and the platform turns most; swiping then loses its object within a second.
     pub fn command(&mut self, action: &Action, body: Pose) -> Command {
         match *action {
             Action::Hold => {}
@@ -50,13 +51,13 @@ impl Steering {
                     Turn::Rate(rate) => rate,
                     Turn::Facing(heading) => self.yaw_controller.next(turn_between(body.heading, heading), self.period),
                 };
-                let velocity = speed * unit(along_world);
+                let velocity = at_speed(speed, along_world);
                 let velocity_world = match mover {
                     Mover::Body => velocity,
                     Mover::Whisker(whisker) => {
                         let base_world = body.vector_to_world(self.bases_body[whisker]);
                         let swing = yaw_rate * Vector2::new(-base_world.y, base_world.x);
-                        speed * unit(velocity - swing)
+                        at_speed(speed, velocity - swing)
                     }
                 };
                 self.last = Command { velocity_world, yaw_rate };
@@ -66,7 +67,7 @@ impl Steering {
     }
 }
 
-fn unit(vector: Vector2) -> Vector2 {
-    let norm = vector.norm();
-    if norm > 0.0 { vector / norm } else { Vector2::zeros() }
+/// The vector at another length; zero stays zero.
+fn at_speed(speed: f64, along: Vector2) -> Vector2 {
+    speed * along.try_normalize(0.0).unwrap_or_default()
 }

@@ -9,6 +9,6 @@ mod whisker;
 
 pub use chain::{Equilibrium, ShaftChain};
 pub use contour_spline::ContourSpline;
-pub use low_pass::LowPass;
+pub use low_pass::{CutoffError, LowPass};
 pub use perception::{BindError, Perception};
 pub use tip_model::{TipModel, TipModelError};

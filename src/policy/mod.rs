@@ -1,4 +1,4 @@
-//! The compiler of the policy language: from text to a [`Program`](crate::machine::Program).
+//! The compiler of the policy language: from text to a [`Program`].
 //!
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
 //! types and units and writes the machine's code. `builtins` is the one table of what the language offers.

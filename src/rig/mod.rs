@@ -200,7 +200,7 @@ impl Default for Platform {
 
 impl Default for YawController {
     fn default() -> Self {
-        Self { proportional: 2.0, integral: 0.8, limit: std::f64::consts::FRAC_PI_2 }
+        Self { proportional: 2.0, integral: 0.8, limit: std::f64::consts::FRAC_PI_4 }
     }
 }
 

@@ -20,7 +20,7 @@ const SERVO: Key = Key::new("servo", Dimension::TIME, (1e-3, 10.0), "50 ms");
 
 const YAW_PROPORTIONAL: Key = Key::new("proportional", Dimension::FREQUENCY, (0.0, 100.0), "2 Hz");
 const YAW_INTEGRAL: Key = Key::new("integral", Dimension::new(0, 0, -2, 0), (0.0, 1000.0), "0.8 Hz^2");
-const YAW_LIMIT: Key = Key::new("limit", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "90 deg/s");
+const YAW_LIMIT: Key = Key::new("limit", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "45 deg/s");
 
 const CONTACT_TIME: Key = Key::new("contact_time", Dimension::TIME, (1e-6, 1.0), "5 ms");
 const IMPEDANCE: Key = Key::new("contact_impedance", Dimension::NUMBER, (1e-4, 0.9999), "[0.95, 0.99, 0.1 mm]");
