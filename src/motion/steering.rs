@@ -36,8 +36,10 @@ impl Steering {
 
     /// The command for `action` with the platform at `body`.
     ///
-    /// The body, or the whisker's base, gets the speed asked for in the direction asked for; turning moves a whisker's base
-    /// too, and the body's velocity makes up for that. The body is never faster than the speed asked for.
+    /// The body, or the whisker's base, gets the speed asked for in the direction asked for. Turning moves a whisker's base
+    /// too, and the body's velocity makes up for that, so that the body may be faster than the speed asked for: by the yaw
+    /// rate times the base's distance at most. (The thesis's algorithm 2 gives the body the speed asked for, and the base
+    /// what comes of it.)
     pub fn command(&mut self, action: &Action, body: Pose) -> Command {
         match *action {
             Action::Hold => {}
@@ -47,7 +49,10 @@ impl Steering {
             }
             Action::Steer { mover, along_world, speed, turn } => {
                 let yaw_rate = match turn {
-                    Turn::Rate(rate) => rate,
+                    Turn::Rate(rate) => {
+                        self.yaw_controller.reset();
+                        rate
+                    }
                     Turn::Facing(heading) => self.yaw_controller.next(turn_between(body.heading, heading), self.period),
                 };
                 let velocity = speed * unit(along_world);
@@ -56,7 +61,7 @@ impl Steering {
                     Mover::Whisker(whisker) => {
                         let base_world = body.vector_to_world(self.bases_body[whisker]);
                         let swing = yaw_rate * Vector2::new(-base_world.y, base_world.x);
-                        speed * unit(velocity - swing)
+                        velocity - swing
                     }
                 };
                 self.last = Command { velocity_world, yaw_rate };
