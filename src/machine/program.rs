@@ -129,6 +129,12 @@ pub enum SetError {
         /// The value's dimension.
         found: String,
     },
+    /// The value is not a finite number.
+    #[error("`{name}` must be a finite number")]
+    NotFinite {
+        /// The parameter.
+        name: String,
+    },
     /// The value is outside of the range.
     #[error("`{name}` must lie between {low} and {high}; {value} does not")]
     Range {
@@ -168,7 +174,7 @@ impl Program {
     /// Sets the parameter `name` to `value` (SI), which has the dimension `dimension`.
     ///
     /// # Errors
-    /// [`SetError`] when there is no such parameter, or its dimension or range is another.
+    /// [`SetError`] when there is no such parameter, its dimension or range is another, or the value is not finite.
     pub fn set(&mut self, name: &str, value: f64, dimension: Dimension) -> Result<(), SetError> {
         let Some(index) = self.parameters.iter().position(|parameter| parameter.name == name) else {
             let known = self.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect::<Vec<_>>();
@@ -182,6 +188,9 @@ impl Program {
                 expected: parameter.dimension.to_string(),
                 found: dimension.to_string(),
             });
+        }
+        if !value.is_finite() {
+            return Err(SetError::NotFinite { name: name.to_owned() });
         }
         if let Some((low, high)) = parameter.range
             && !(low..=high).contains(&value)

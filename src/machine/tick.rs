@@ -40,9 +40,9 @@ pub enum Failure {
         state: Arc<str>,
     },
     /// One tick took more than [`CHAIN_LIMIT`] transitions.
-    #[error("more than {CHAIN_LIMIT} transitions in one tick, the last into {state}")]
+    #[error("more than {CHAIN_LIMIT} transitions in one tick, the last one taken into {state}")]
     Chain {
-        /// The state that the last one led into.
+        /// The state that the last one taken led into.
         state: Arc<str>,
     },
 }
@@ -116,23 +116,20 @@ impl Machine {
         let now = senses.time();
         self.entered_at.get_or_insert(now);
 
-        let mut taken = self.due(&program, &program.always, now, senses);
-        for _ in 0..CHAIN_LIMIT {
-            let Some(target) =
-                taken.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses))
-            else {
-                return self.act(&program, senses);
-            };
-            match target {
-                Target::State { state, arguments } => {
+        let mut target = self.due(&program, &program.always, now, senses);
+        for taken in 0..=CHAIN_LIMIT {
+            target = target.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses));
+            match target.take() {
+                None => return self.act(&program, senses),
+                Some(Target::Failure(reason)) => return self.fail(Failure::Policy(Arc::clone(reason))),
+                Some(Target::State { state, arguments }) if taken < CHAIN_LIMIT => {
                     evaluate(&program.code, arguments, &mut self.registers, senses);
                     self.state = *state;
                     self.entered_at = Some(now);
                     self.holding_since[self.lasting_timers..].fill(None);
                 }
-                Target::Failure(reason) => return self.fail(Failure::Policy(Arc::clone(reason))),
+                Some(Target::State { .. }) => {}
             }
-            taken = None;
         }
         self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
     }

@@ -48,7 +48,10 @@ impl Steering {
             }
             Action::Steer { mover, along_world, speed, turn } => {
                 let yaw_rate = match turn {
-                    Turn::Rate(rate) => rate,
+                    Turn::Rate(rate) => {
+                        self.yaw_controller.reset();
+                        rate
+                    }
                     Turn::Facing(heading) => self.yaw_controller.next(turn_between(body.heading, heading), self.period),
                 };
                 let velocity = at_speed(speed, along_world);

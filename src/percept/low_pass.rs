@@ -1,6 +1,6 @@
 //! A low-pass filter for base angles.
 
-use biquad::{Biquad, Coefficients, DirectForm2Transposed, ToHertz, Type};
+use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
 
 /// A third-order Butterworth low-pass filter, at rest at zero: a first-order section before a second-order one of quality 1.
 #[derive(Debug, Clone)]
@@ -9,9 +9,9 @@ pub struct LowPass {
     second: DirectForm2Transposed<f64>,
 }
 
-/// A cutoff at or above half of the sampling rate.
+/// A cutoff that is not above zero, or not below half of the sampling rate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("a cutoff of {cutoff} Hz needs samples faster than {} Hz, not {rate} Hz", 2.0 * cutoff)]
+#[error("a filter for samples at {rate} Hz needs a cutoff above 0 Hz and below {} Hz, not {cutoff} Hz", 0.5 * rate)]
 pub struct CutoffError {
     cutoff: f64,
     rate: f64,
@@ -24,10 +24,10 @@ impl LowPass {
     /// [`CutoffError`] unless the cutoff is positive and below half of the rate.
     pub fn new(cutoff: f64, rate: f64) -> Result<Self, CutoffError> {
         let section = |kind, quality| {
-            Coefficients::from_params(kind, rate.hz(), cutoff.hz(), quality)
-                .map(DirectForm2Transposed::new)
-                .map_err(|_| CutoffError { cutoff, rate })
+            let (rate, cutoff) = (Hertz::<f64>::from_hz(rate)?, Hertz::<f64>::from_hz(cutoff)?);
+            Coefficients::from_params(kind, rate, cutoff, quality).map(DirectForm2Transposed::new)
         };
+        let section = |kind, quality| section(kind, quality).map_err(|_: biquad::Errors| CutoffError { cutoff, rate });
         Ok(Self {
             first: section(Type::SinglePoleLowPass, std::f64::consts::FRAC_1_SQRT_2)?,
             second: section(Type::LowPass, 1.0)?,

@@ -96,9 +96,12 @@ impl TipModel {
     }
 
     /// Where the tip touches, in the frame of the whisker's base (m), at `base_angle` (rad). Beyond the model's range the
-    /// place at the end of the range.
+    /// place at the end of the range; not a number for a base angle that is none.
     #[must_use]
     pub fn contact_base(&self, base_angle: f64) -> Vector2<f64> {
+        if base_angle.is_nan() {
+            return Vector2::repeat(f64::NAN);
+        }
         let last = self.knots.len() - 1;
         let along = (base_angle.abs() / self.step).min(last as f64);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]

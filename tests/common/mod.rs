@@ -1,0 +1,124 @@
+//! Senses that a test writes down, and machines that run on them.
+#![allow(dead_code, unreachable_pub, reason = "every test file uses a part of it")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::sync::Arc;
+
+use vibrissa::diagnostic::{Colour, Source, terminal};
+use vibrissa::geometry::Vector2;
+use vibrissa::machine::{Action, BodyScalar, Machine, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::policy::compile;
+
+/// What one whisker is like; numbers and truths as the machine sees them.
+#[derive(Debug, Clone, Copy)]
+pub struct Feel {
+    pub touching: bool,
+    pub ready: bool,
+    pub deflection: f64,
+    pub side: f64,
+    pub sense: f64,
+    pub tangent: Vector2,
+}
+
+impl Default for Feel {
+    fn default() -> Self {
+        Self { touching: false, ready: true, deflection: 0.0, side: 1.0, sense: 0.0, tangent: Vector2::new(1.0, 0.0) }
+    }
+}
+
+/// A scripted perception: what every whisker is like at every tick.
+#[derive(Debug, Clone)]
+pub struct Script {
+    pub period: f64,
+    pub now: usize,
+    /// By tick, then by whisker; the last tick lasts.
+    pub ticks: Vec<Vec<Feel>>,
+    pub recorded: Vec<usize>,
+}
+
+impl Script {
+    pub fn new(ticks: Vec<Vec<Feel>>) -> Self {
+        Self { period: 1.0 / 30.0, now: 0, ticks, recorded: Vec::new() }
+    }
+
+    /// One whisker that touches at the ticks marked `x`.
+    pub fn touches(marks: &str) -> Self {
+        Self::new(marks.chars().map(|mark| vec![Feel { touching: mark == 'x', ..Feel::default() }]).collect())
+    }
+
+    fn feel(&self, whisker: usize) -> Feel {
+        let tick = self.ticks.get(self.now).or(self.ticks.last()).unwrap();
+        tick.get(whisker).copied().unwrap_or_default()
+    }
+}
+
+impl Senses for Script {
+    fn time(&self) -> f64 {
+        self.now as f64 * self.period
+    }
+
+    fn body(&self, quantity: BodyScalar) -> f64 {
+        match quantity {
+            BodyScalar::Yaw => 0.5,
+        }
+    }
+
+    fn body_position(&self) -> Vector2 {
+        Vector2::new(1.0, 2.0)
+    }
+
+    fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
+        let feel = self.feel(whisker);
+        match quantity {
+            WhiskerScalar::Deflection => feel.deflection,
+            WhiskerScalar::Touching => f64::from(u8::from(feel.touching)),
+            WhiskerScalar::Side => feel.side,
+            WhiskerScalar::Sense => feel.sense,
+            WhiskerScalar::ContourReady => f64::from(u8::from(feel.ready)),
+            WhiskerScalar::Yaw => 0.25,
+            WhiskerScalar::Length => 0.1,
+            WhiskerScalar::ContourCurvature => 3.0,
+        }
+    }
+
+    fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
+        match quantity {
+            WhiskerVector::ContourTangent => self.feel(whisker).tangent,
+            WhiskerVector::Tip => Vector2::new(0.3, 0.4),
+            WhiskerVector::TipBase => Vector2::new(0.09, 0.01),
+            WhiskerVector::Base => Vector2::new(0.2, 0.3),
+            WhiskerVector::ContourEnd => Vector2::new(0.31, 0.39),
+        }
+    }
+
+    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
+        Vector2::new(whisker as f64, deflection)
+    }
+
+    fn record(&mut self, whisker: usize) {
+        self.recorded.push(whisker);
+    }
+}
+
+/// The program of a policy that must compile.
+pub fn program(text: &str) -> Program {
+    let source = Source::new("test.fsm", text);
+    compile(&source).unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain)))
+}
+
+/// Runs a policy over a script, and gives the machine and, for every tick, the state it ended in and its action.
+pub fn run(text: &str, script: &mut Script) -> (Machine, Vec<(String, Action)>) {
+    let mut machine = Machine::new(Arc::new(program(text)));
+    let mut ticks = Vec::new();
+    for now in 0..script.ticks.len() {
+        script.now = now;
+        let tick = machine.tick(script);
+        ticks.push((machine.state_name().to_owned(), tick.action));
+    }
+    (machine, ticks)
+}
+
+/// The states that a policy is in, tick by tick.
+pub fn states(text: &str, script: &mut Script) -> Vec<String> {
+    run(text, script).1.into_iter().map(|(state, _)| state).collect()
+}

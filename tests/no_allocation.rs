@@ -1,0 +1,76 @@
+//! A tick allocates nothing.
+#![allow(unsafe_code, reason = "counting allocations takes an allocator of one's own")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::sync::Arc;
+
+use vibrissa::diagnostic::Source;
+use vibrissa::geometry::{Point2, Pose};
+use vibrissa::machine::Outcome;
+use vibrissa::policy::compile;
+use vibrissa::rig::Rig;
+use vibrissa::run::Control;
+use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+
+/// The system's allocator, with a count of what each thread asks of it.
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is the system allocator's own.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Ten samples of a platform that goes straight ahead, its right whisker bent to `base_angle` (rad).
+fn samples(tick: usize, base_angle: f64) -> [Sample; 10] {
+    std::array::from_fn(|index| {
+        let time = (tick * 10 + index) as f64 / 300.0;
+        let mut whiskers = [Reading::default(); MAX_WHISKERS];
+        whiskers[0].base_angle = base_angle;
+        let body = Pose { position: Point2::new(0.0, 0.05 * time), heading: std::f64::consts::FRAC_PI_2 };
+        Sample { time, body, whiskers }
+    })
+}
+
+#[test]
+fn a_tick_of_the_thesis_policy_allocates_nothing() {
+    let program = compile(&Source::new("thesis.fsm", include_str!("../policies/thesis.fsm"))).unwrap();
+    let mut control = Control::new(&Rig::default(), Arc::new(program)).unwrap();
+    let mut seen: Vec<String> = Vec::with_capacity(8);
+    for tick in 0..120 {
+        // Nothing, then a touch as forward motion gives it, then one that is too strong.
+        let base_angle = [0.0, -3e-4, -3e-4, -2e-3][tick / 30];
+        let samples = samples(tick, base_angle);
+        let before = COUNT.get();
+        let (command, outcome) = control.tick(&samples);
+        assert_eq!(COUNT.get() - before, 0, "tick {tick}");
+        assert!(command.is_finite());
+        let state = control.machine().state_name();
+        assert_eq!(outcome == Outcome::Failed, state == "Failure");
+        if seen.last().map(String::as_str) != Some(state) {
+            seen.push(state.to_owned());
+        }
+        if tick == 80 {
+            assert!(control.perception().recorded_tip(0).is_some());
+        }
+    }
+    assert_eq!(seen, ["Exploring", "Swiping", "Failure"]);
+    assert!(COUNT.get() > 0, "the count counts");
+}
