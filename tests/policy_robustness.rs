@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 fn is_answered(text: &str) -> Result<(), TestCaseError> {
     let source = Source::new("policy.fsm", text);
     if let Err(faults) = compile(&source) {
-        prop_assert!(!faults.is_empty() && faults.len() <= 51);
+        prop_assert!(!faults.is_empty() && faults.len() <= 50);
         for fault in &faults {
             prop_assert_eq!(fault.severity, Severity::Error);
             prop_assert!(!fault.message.is_empty());
