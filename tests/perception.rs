@@ -90,7 +90,8 @@ fn arc(radius: f64, step: f64, start: f64, centre: Point2) -> impl Iterator<Item
 proptest! {
     #[test]
     fn a_straight_contour_has_its_own_direction_and_no_curvature(
-        direction in -PI..PI, x in -2.0..2.0_f64, y in -2.0..2.0_f64, steps in prop::collection::vec(1.0001e-3..5e-3_f64, 6..20),
+        direction in -PI..PI, x in -2.0..2.0_f64, y in -2.0..2.0_f64,
+        steps in prop::collection::vec(1.0001e-3..5e-3_f64, 6..20),
     ) {
         let mut at = Point2::new(x, y);
         let mut points = vec![at];
@@ -125,9 +126,14 @@ proptest! {
         points in prop::collection::vec((-3e-3..3e-3_f64, 1.1e-3..4e-3_f64), 7..12), turn in -PI..PI,
     ) {
         let mut at = Point2::origin();
-        let points: Vec<Point2> = points.into_iter().map(|(x, y)| { at += Vector2::new(x, y); at }).collect();
+        let next = |(x, y)| {
+            at += Vector2::new(x, y);
+            at
+        };
+        let points: Vec<Point2> = points.into_iter().map(next).collect();
         let pose = Pose { position: Point2::new(1.0, -2.0), heading: turn };
-        let (plain, moved) = (spline(points.iter().copied()), spline(points.iter().map(|&point| pose.point_to_world(point))));
+        let plain = spline(points.iter().copied());
+        let moved = spline(points.iter().map(|&point| pose.point_to_world(point)));
         let tangent = pose.vector_to_world(plain.tangent().unwrap());
         prop_assert!((tangent - moved.tangent().unwrap()).norm() < 1e-6);
         let curvature = plain.curvature().unwrap();

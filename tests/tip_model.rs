@@ -149,7 +149,8 @@ proptest! {
 
     #[test]
     fn every_joint_is_in_balance(
-        links in 2_usize..40, direction in 95.0..168.0_f64, moment in 0.05..2.0_f64, length in 0.03..0.2_f64, radius in 0.05e-3..0.4e-3_f64,
+        links in 2_usize..40, direction in 95.0..168.0_f64, moment in 0.05..2.0_f64, length in 0.03..0.2_f64,
+        radius in 0.05e-3..0.4e-3_f64,
     ) {
         let mut whisker = with_links(links);
         (whisker.shaft.length, whisker.shaft.radius) = (length, radius);

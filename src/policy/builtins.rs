@@ -115,3 +115,25 @@ pub(super) const FUNCTIONS: [(&str, Function, &str); 16] = [
 pub(super) fn function(name: &str) -> Option<(Function, &'static str)> {
     FUNCTIONS.iter().find(|(known, ..)| *known == name).map(|&(_, function, usage)| (function, usage))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_languages_page_names_everything_that_the_language_offers() {
+        let page = include_str!("../../docs/language.md");
+        for (_, _, usage) in FUNCTIONS {
+            assert!(page.contains(&format!("`{usage}`")), "{usage}");
+        }
+        for (owner, prefix) in [(Type::Whisker, "w"), (Type::Contour, "w.contour"), (Type::Body, "body")] {
+            for member in members(owner) {
+                let plain = page.contains(&format!("`{prefix}.{}`", member.name));
+                assert!(plain || page.contains(&format!("`{prefix}.{}(", member.name)), "{}", member.name);
+            }
+        }
+        for (name, _) in super::super::types::DIMENSIONS {
+            assert!(page.contains(&format!("`{name}`")), "{name}");
+        }
+    }
+}

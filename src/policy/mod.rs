@@ -1,7 +1,8 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
-//! types and units and writes the machine's code. `builtins` is the one table of what the language offers.
+//! types and units and writes the machine's code. `builtins` is the one table of what the language offers, `docs/language.md`
+//! its description for users.
 
 mod ast;
 mod builtins;
@@ -18,7 +19,8 @@ use crate::machine::Program;
 /// Compiles the text of a policy.
 ///
 /// # Errors
-/// Every fault that was found, in the order of their places: one of syntax, or all of names, types, units and structure.
+/// Every fault that was found, in the order of their places: one of syntax, or those of names, types, units and structure
+/// (the first fifty).
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};

@@ -260,3 +260,43 @@ impl Default for Sensing {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outline_runs_counter_clockwise_about_the_centre_of_mass() {
+        let outline = Platform::default().outline_body();
+        let area: f64 = (0..4).map(|corner| outline[corner].coords.perp(&outline[(corner + 1) % 4].coords) / 2.0).sum();
+        assert!((area - 0.18 * (0.12 + 0.03) / 2.0).abs() < 1e-12);
+        assert!((outline[1].x - outline[0].x - 0.18).abs() < 1e-12 && (outline[0].x + 0.072).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_reference_whiskers_are_mirror_images() {
+        let [right, left] =
+            <[Whisker; 2]>::try_from(Rig::default().whiskers).unwrap_or_else(|_| panic!("two whiskers"));
+        assert_eq!(right.base_body, Point2::new(left.base_body.x, -left.base_body.y));
+        assert!((right.direction_body + left.direction_body).abs() < 1e-15);
+        assert!(right.side() < 0.0 && left.side() > 0.0);
+        assert_eq!(right.shaft, left.shaft);
+    }
+
+    #[test]
+    fn the_joints_bend_as_much_as_the_shaft_but_for_the_last_half_link() {
+        for links in [1, 2, 7, 16] {
+            let shaft = Shaft { links, ..Shaft::default() };
+            let compliance: f64 = shaft.joint_stiffnesses().map(f64::recip).sum();
+            let bending = (shaft.length - 0.5 * shaft.link_length()) / shaft.bending_stiffness();
+            assert!((compliance / bending - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_links_weigh_as_much_as_the_wire() {
+        let shaft = Shaft::default();
+        let mass = shaft.links as f64 * shaft.link_mass();
+        assert!((mass - 6450.0 * std::f64::consts::PI * 0.125e-3_f64.powi(2) * 0.1).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,213 @@
+//! No text makes the compiler panic, exhaust a small stack, or take long; each either compiles or is answered.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use proptest::prelude::*;
+use vibrissa::diagnostic::{Colour, Severity, Source, terminal};
+use vibrissa::policy::compile;
+
+const THESIS: &str = include_str!("../policies/thesis.fsm");
+/// The stack (bytes) of a thread of Rust's that asks for no other.
+const STACK: usize = 2 << 20;
+/// Far more than any text takes, even in a debug build on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// A text is a policy, or has a fault, and each fault has a place in the text and words.
+fn is_answered(text: &str) -> Result<(), TestCaseError> {
+    let source = Source::new("policy.fsm", text);
+    if let Err(faults) = compile(&source) {
+        prop_assert!(!faults.is_empty() && faults.len() <= 50);
+        for fault in &faults {
+            prop_assert_eq!(fault.severity, Severity::Error);
+            prop_assert!(!fault.message.is_empty());
+            prop_assert!(!fault.primary.text.is_empty() || !fault.hints.is_empty(), "no words: {:?}", fault);
+            for label in std::iter::once(&fault.primary).chain(&fault.secondary) {
+                prop_assert!(text.get(label.span.start..label.span.end).is_some(), "not in the text: {:?}", fault);
+            }
+            prop_assert!(fault.code != "P0199", "the grammar and its reader disagree: {:?}", fault);
+        }
+        prop_assert!(!terminal(&source, &faults, Colour::Plain).is_empty());
+    }
+    Ok(())
+}
+
+/// Words and signs of the language, and some that it does not have.
+const TOKENS: [&str; 72] = [
+    "machine", "whisker", "param", "initial", "let", "law", "state", "always", "when", "after", "for", "in", "of",
+    "if", "else", "do", "record", "steer", "along", "at", "facing", "turning", "hold", "stop", "body", "and", "or",
+    "not", "true", "false", "a", "b", "S", "T", "w", "Failure", "time", "abs", "clamp", "unit", "vector", "length",
+    "number", "tip_at", "touching", "yaw", "1", "0.5", "3 mm", "2 deg/s", "1e9", "\"why\"", "\"", "(", ")", "{", "}",
+    "|", ",", ":", ".", "..", "=", "==", "->", "-", "+", "*", "/", "<", "#", "\u{b5}",
+];
+
+fn slice(text: &str, start: usize, length: usize) -> &str {
+    &text[start.min(text.len())..(start + length).min(text.len())]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn any_text_is_answered(text in "(\\PC|\n|\t| ){0,80}") {
+        is_answered(&text)?;
+        is_answered(&format!("machine m {text}"))?;
+    }
+
+    #[test]
+    fn any_soup_of_tokens_is_answered(tokens in prop::collection::vec(0..TOKENS.len(), 0..60)) {
+        let soup: Vec<&str> = tokens.into_iter().map(|index| TOKENS[index]).collect();
+        is_answered(&soup.join(" "))?;
+        is_answered(&format!("machine m whisker w initial S let a = {}", soup.join(" ")))?;
+        is_answered(&format!("machine m whisker w initial S state S {{ {}", soup.concat()))?;
+    }
+
+    #[test]
+    fn any_mutation_of_a_good_policy_is_answered(
+        (start, length, other, other_length) in (0..THESIS.len(), 0_usize..40, 0..THESIS.len(), 0_usize..40),
+        insert in "[-a-z0-9:{}()|\"#*/.,<>= \n\u{b5}]{0,6}",
+    ) {
+        prop_assert!(THESIS.is_ascii());
+        let (cut, piece) = (slice(THESIS, start, length), slice(THESIS, other, other_length));
+        let (before, behind) = (&THESIS[..start], &THESIS[start + cut.len()..]);
+        is_answered(&format!("{before}{behind}"))?;
+        is_answered(&format!("{before}{cut}{cut}{behind}"))?;
+        is_answered(&format!("{before}{insert}{behind}"))?;
+        is_answered(&format!("{before}{piece}{behind}"))?;
+    }
+
+    #[test]
+    fn any_word_in_the_place_of_another_is_answered(at in any::<prop::sample::Index>(), token in 0..TOKENS.len()) {
+        let words: Vec<&str> = THESIS.split_inclusive(char::is_whitespace).collect();
+        let at = at.index(words.len());
+        is_answered(&[&words[..at], &[TOKENS[token], " "], &words[at + 1..]].concat().concat())?;
+    }
+}
+
+/// Compiles a text in a thread with a small stack, and gives the codes of its faults.
+fn codes_on_a_small_stack(text: String) -> Vec<&'static str> {
+    let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
+        let start = Instant::now();
+        is_answered(&text).unwrap();
+        let beginning: String = text.chars().take(100).collect();
+        assert!(start.elapsed() < PATIENCE, "{:?} for {beginning}", start.elapsed());
+        compile(&Source::new("policy.fsm", text)).err().unwrap_or_default().iter().map(|fault| fault.code).collect()
+    });
+    worker.unwrap().join().unwrap()
+}
+
+fn expression(text: &str) -> String {
+    format!("machine m whisker a initial S let v = {text} state S {{ stop }}")
+}
+
+fn body(text: &str) -> String {
+    format!("machine m whisker a initial S state S {{ {text} }}")
+}
+
+#[test]
+fn nesting_up_to_the_limit_compiles_on_a_small_stack() {
+    let deep =
+        |open: &str, inside: &str, close: &str, depth| format!("{}{inside}{}", open.repeat(depth), close.repeat(depth));
+    let none: [&str; 0] = [];
+    assert_eq!(codes_on_a_small_stack(expression(&deep("(", "1", ")", 63))), none);
+    assert_eq!(codes_on_a_small_stack(expression(&deep("|1 + ", "1", "|", 63))), none);
+    assert_eq!(codes_on_a_small_stack(expression(&deep("-abs(1 + ", "1", ")", 63))), none);
+    assert_eq!(codes_on_a_small_stack(expression(&deep("max(1 - 2 * ", "1", ", 3)", 60))), none);
+    assert_eq!(codes_on_a_small_stack(body(&deep("if true { ", "hold", " } else { stop }", 62))), none);
+    assert_eq!(codes_on_a_small_stack(body(&deep("if not a.touching { } else { ", "hold", " }", 62))), none);
+    assert_eq!(codes_on_a_small_stack(expression(&vec!["1"; 190].join(" + "))), none);
+    assert_eq!(codes_on_a_small_stack(expression(&deep("- - -(", "1", ")", 60))), none);
+    let laws: Vec<String> = (1..240).map(|index| format!("law l{index}() {{ do l{}() }}", index - 1)).collect();
+    assert_eq!(
+        codes_on_a_small_stack(format!(
+            "machine m initial S law l0() {{ }} {} state S {{ do l239() }}",
+            laws.join(" ")
+        )),
+        none
+    );
+    let chain: Vec<String> = (1..80).map(|index| format!("let v{index}(x: number) = 1 + v{}(x)", index - 1)).collect();
+    assert_eq!(
+        codes_on_a_small_stack(format!("machine m initial S let v0(x: number) = x {} state S {{ }}", chain.join(" "))),
+        none
+    );
+}
+
+#[test]
+fn nesting_without_end_is_answered_on_a_small_stack() {
+    for unit in [
+        "(",
+        "|",
+        "-",
+        "- ",
+        "not ",
+        "-(",
+        "not (",
+        "abs(",
+        "|1 + ",
+        "a.",
+        "a(",
+        "1 + (",
+        "{",
+        "[",
+        "\"",
+        "(|",
+        "-|",
+        "a.tip_at(",
+    ] {
+        for count in [5, 100, 5000, 60_000] {
+            let nested = unit.repeat(count);
+            if nested.len() < 250_000 {
+                assert_ne!(codes_on_a_small_stack(expression(&nested)), [""; 0], "{unit}");
+            }
+        }
+    }
+    for unit in ["if true { ", "if a.touching { } else { ", "when true -> S(", "do l(", "steer a along ", "if "] {
+        for count in [5, 100, 5000] {
+            assert_ne!(codes_on_a_small_stack(body(&unit.repeat(count))), [""; 0], "{unit}");
+        }
+    }
+}
+
+#[test]
+fn long_chains_are_answered_on_a_small_stack() {
+    assert_eq!(codes_on_a_small_stack(expression(&vec!["1"; 60_000].join("+"))), ["P0104"]);
+    assert_eq!(codes_on_a_small_stack(expression(&vec!["true"; 25_000].join(" and "))), ["P0104"]);
+    assert_eq!(codes_on_a_small_stack(expression(&format!("a{}", ".a".repeat(100_000)))), ["P0104"]);
+    let branches = " else if true { hold }".repeat(10_000);
+    assert_eq!(codes_on_a_small_stack(body(&format!("if true {{ }} {branches}"))), [""; 0]);
+    assert_eq!(codes_on_a_small_stack(body(&"when true for 1 s -> S ".repeat(10_000))), [""; 0]);
+    assert_eq!(codes_on_a_small_stack(expression(&format!("max({})", vec!["1"; 60_000].join(", ")))), ["P0304"]);
+}
+
+#[test]
+fn large_texts_take_bounded_work() {
+    let list = |count: usize, item: &dyn Fn(usize) -> String| (0..count).map(item).collect::<Vec<_>>().join("\n");
+    let answered = |text: String| {
+        codes_on_a_small_stack(text);
+    };
+    answered(body(&list(12_000, &|index| format!("let x{index} = {index}"))));
+    answered(body(&list(8_000, &|index| format!("let x{index} = y{index}"))));
+    answered(body(&list(8_000, &|index| format!("when nothing{index} -> S"))));
+    answered(body(&list(8_000, &|index| format!("when true -> S{index}"))));
+    answered(format!("machine m initial S {}", list(12_000, &|index| format!("param p{index} = {index}"))));
+    answered(format!("machine m initial S {}", list(8_000, &|index| format!("state S{index} {{ stop }}"))));
+    answered(format!("machine m initial S {}", list(5_000, &|index| format!("let v{} = v{index}", index + 1))));
+    answered(format!(
+        "machine m initial S {}",
+        list(5_000, &|index| format!("law l{}() {{ do l{index}() }}", index + 1))
+    ));
+    answered(format!(
+        "machine m initial S {}",
+        list(3_000, &|index| format!("let v{} = v{index} + v{index}", index + 1))
+    ));
+    let name = "n".repeat(100_000);
+    answered(format!("machine m initial S let {name} = 1 let other = {name}x"));
+    answered(format!("machine m initial S let a = 1 {name}"));
+    answered(format!("machine m initial S let a = {}", "9".repeat(200_000)));
+    answered(format!("machine m initial S let a = 1 m{}", "*m".repeat(100_000)));
+    answered(format!("machine m initial S let a = 1 {}", "#".repeat(200_000)));
+    answered(format!("machine m initial S {}", "\u{1F980}".repeat(60_000)));
+    let doubling = list(40, &|index| format!("law l{}(x: number) {{ do l{index}(x + x) do l{index}(x) }}", index + 1));
+    answered(format!("machine m initial S law l0(x: number) {{ }} {doubling} state S {{ do l40(1) }}"));
+}
