@@ -17,9 +17,9 @@ const HALF_HEIGHT: f64 = 0.01;
 
 /// Writes the MuJoCo model of `rig` at `start` before `object`, whose inside is solid.
 ///
-/// Names in the model: the body and the geom `platform/body`, the joints `platform/x`, `platform/y` and `platform/yaw`, and an actuator of the same
-/// name each; for a whisker `w` the joints `w`, its sensor, and `w.0`, `w.1`, … along the shaft; the geom `object`; the
-/// keyframe `start`.
+/// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
+/// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
+/// the shaft; the geom `object`; the keyframe `start`.
 ///
 /// # Errors
 /// [`SolidError`] when the object has no exact solid in MuJoCo.
@@ -33,8 +33,6 @@ pub fn mjcf(rig: &Rig, object: Option<&Contour>, start: Pose) -> Result<String, 
 
 fn write_model(xml: &mut String, rig: &Rig, solid: Option<&Solid>, start: Pose) -> fmt::Result {
     let physics = &rig.physics;
-    let [surface, full, depth] = physics.contact_impedance;
-    let (condim, friction) = if physics.friction > 0.0 { (3, physics.friction) } else { (1, 0.0) };
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false"/>"#)?;
     // A handful of contacts: conjugate gradients reach the same solution as Newton's method, to a millionth, and need not
@@ -48,19 +46,14 @@ fn write_model(xml: &mut String, rig: &Rig, solid: Option<&Solid>, start: Pose) 
     // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
     writeln!(xml, r"  </option>")?;
-    writeln!(xml, r"  <default>")?;
-    // MuJoCo takes the larger friction of the two sides of a contact, so that both sides declare it.
-    writeln!(
-        xml,
-        r#"    <geom condim="{condim}" friction="{friction} 0 0" solref="{} 1" solimp="{surface} {full} {depth}"/>"#,
-        physics.contact_time
-    )?;
-    writeln!(xml, r"  </default>")?;
     write_assets(xml, &rig.platform, solid)?;
     writeln!(xml, r"  <worldbody>")?;
     write_object(xml, solid)?;
     write_platform(xml, rig)?;
     writeln!(xml, r"  </worldbody>")?;
+    if solid.is_some() {
+        write_contacts(xml, rig)?;
+    }
     write_actuators(xml, &rig.platform)?;
     if rig.sensing.forces {
         writeln!(xml, r"  <sensor>")?;
@@ -95,11 +88,11 @@ fn write_object(xml: &mut String, solid: Option<&Solid>) -> fmt::Result {
         None => Ok(()),
         Some(Solid::Cylinder { centre, radius }) => writeln!(
             xml,
-            r#"    <geom name="object" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" contype="1" conaffinity="0"/>"#,
+            r#"    <geom name="object" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" contype="0" conaffinity="0"/>"#,
             centre.x, centre.y
         ),
         Some(Solid::Prism { .. }) => {
-            writeln!(xml, r#"    <geom name="object" type="mesh" mesh="object" contype="1" conaffinity="0"/>"#)
+            writeln!(xml, r#"    <geom name="object" type="mesh" mesh="object" contype="0" conaffinity="0"/>"#)
         }
     }
 }
@@ -111,7 +104,7 @@ fn write_platform(xml: &mut String, rig: &Rig) -> fmt::Result {
     writeln!(xml, r#"      <joint name="platform/x" type="slide" axis="1 0 0"/>"#)?;
     writeln!(xml, r#"      <joint name="platform/y" type="slide" axis="0 1 0"/>"#)?;
     writeln!(xml, r#"      <joint name="platform/yaw" type="hinge" axis="0 0 1"/>"#)?;
-    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" contype="0" conaffinity="1"/>"#)?;
+    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" contype="0" conaffinity="0"/>"#)?;
     for whisker in &rig.whiskers {
         write_whisker(xml, whisker)?;
     }
@@ -152,11 +145,32 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
         )?;
         writeln!(
             xml,
-            r#"          <geom type="capsule" fromto="0 0 0 {length} 0 0" size="{}" contype="0" conaffinity="1"/>"#,
+            r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" contype="0" conaffinity="0"/>"#,
             shaft.radius
         )?;
     }
     writeln!(xml, "      {}</body>", "</body>".repeat(shaft.links))
+}
+
+/// What can touch what, pair by pair: the object, and every link of a whisker or the platform. Geoms that collide by
+/// default would make the engine look at every two bodies in every step, and take the larger friction of the two.
+fn write_contacts(xml: &mut String, rig: &Rig) -> fmt::Result {
+    let physics = &rig.physics;
+    let [surface, full, depth] = physics.contact_impedance;
+    let condim = if physics.friction > 0.0 { 3 } else { 1 };
+    let links = rig
+        .whiskers
+        .iter()
+        .flat_map(|whisker| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
+    writeln!(xml, r"  <contact>")?;
+    for geom in links.chain(["platform/body".to_owned()]) {
+        writeln!(
+            xml,
+            r#"    <pair geom1="object" geom2="{geom}" condim="{condim}" friction="{1} {1}" solref="{0} 1" solimp="{surface} {full} {depth}"/>"#,
+            physics.contact_time, physics.friction
+        )?;
+    }
+    writeln!(xml, r"  </contact>")
 }
 
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
