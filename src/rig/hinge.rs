@@ -1,0 +1,18 @@
+//! The spring at a whisker's base.
+
+/// A torsion spring at a whisker's base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hinge {
+    /// Stiffness (N m/rad).
+    pub stiffness: f64,
+    /// Damping (N m s/rad).
+    pub damping: f64,
+    /// Inertia of the moving part of the suspension (kg m²).
+    pub armature: f64,
+}
+
+impl Default for Hinge {
+    fn default() -> Self {
+        Self { stiffness: 1.0, damping: 0.01, armature: 1e-5 }
+    }
+}

@@ -1,0 +1,84 @@
+//! The body that carries the whiskers, and its drives.
+
+use nalgebra::Point2;
+
+/// The body that carries the whiskers: a trapezoid in plan, symmetric about its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Platform {
+    /// Width at the tail (m).
+    pub tail_width: f64,
+    /// Width at the nose (m).
+    pub nose_width: f64,
+    /// Length from tail to nose (m).
+    pub length: f64,
+    /// Distance of the centre of mass ahead of the tail (m).
+    pub centre_of_mass: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about the vertical through the centre of mass (kg m²).
+    pub inertia: f64,
+    /// Time constant with which the servos take up a commanded velocity or yaw rate (s).
+    pub servo: f64,
+    /// The controller that turns the platform to a heading.
+    pub yaw: YawController,
+}
+
+impl Platform {
+    /// The corners in the body frame (m), counter-clockwise from the right end of the tail.
+    #[must_use]
+    pub fn outline_body(&self) -> [Point2<f64>; 4] {
+        let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
+        let (tail_side, nose_side) = (0.5 * self.tail_width, 0.5 * self.nose_width);
+        [
+            Point2::new(tail, -tail_side),
+            Point2::new(nose, -nose_side),
+            Point2::new(nose, nose_side),
+            Point2::new(tail, tail_side),
+        ]
+    }
+}
+
+impl Default for Platform {
+    fn default() -> Self {
+        Self {
+            tail_width: 0.12,
+            nose_width: 0.03,
+            length: 0.18,
+            centre_of_mass: 0.072,
+            mass: 0.51,
+            inertia: 0.0015,
+            servo: 0.05,
+            yaw: YawController::default(),
+        }
+    }
+}
+
+/// The controller that turns the platform to a heading: proportional and integral, with a limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct YawController {
+    /// Yaw rate for a unit of error (1/s).
+    pub proportional: f64,
+    /// Growth of the yaw rate for a unit of error (1/s²).
+    pub integral: f64,
+    /// Greatest yaw rate (rad/s).
+    pub limit: f64,
+}
+
+impl Default for YawController {
+    fn default() -> Self {
+        Self { proportional: 2.0, integral: 0.8, limit: std::f64::consts::FRAC_PI_4 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outline_runs_counter_clockwise_about_the_centre_of_mass() {
+        let outline = Platform::default().outline_body();
+        let area: f64 = (0..4).map(|corner| outline[corner].coords.perp(&outline[(corner + 1) % 4].coords) / 2.0).sum();
+        assert!((area - 0.18 * (0.12 + 0.03) / 2.0).abs() < 1e-12);
+        assert!((outline[1].x - outline[0].x - 0.18).abs() < 1e-12 && (outline[0].x + 0.072).abs() < 1e-12);
+    }
+}
