@@ -71,6 +71,41 @@ fn after_counts_from_the_entry_into_the_state() {
 }
 
 #[test]
+fn memory_is_set_on_entry_and_kept_from_tick_to_tick() {
+    let text = "machine m whisker w initial A
+        state A { var count = 0  set count = count + 1  steer body along vector(1, 0) at count * 1 m/s turning 0 rad/s
+                  when count >= 3 -> B(count) }
+        state B(before: number) { var twice = 2 * before  steer body along vector(1, 0) at twice * 1 m/s turning 0 rad/s
+                  when true -> A }";
+    let (_, ticks) = run(text, &mut Script::touches("......"));
+    // B leaves at once, so that A counts from 1 again in the tick in which it had 3.
+    assert_eq!(ticks.iter().map(|&(_, action)| speed(action)).collect::<Vec<_>>(), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn entry_and_exit_are_done_once_a_stay_in_their_order() {
+    let text = "machine m whisker w initial A
+        state A { var x = 1  entry { set x = 10 * x + 2 }  exit { set x = 10 * x + 4 }
+                  set x = 10 * x + 3  when w.touching -> B(x) }
+        state B(x: number) { steer body along vector(1, 0) at x * 1 m/s turning 0 rad/s }";
+    let (_, ticks) = run(text, &mut Script::touches(".x"));
+    assert_eq!(speed(ticks[1].1), 1234.0);
+}
+
+#[test]
+fn filters_and_controllers_begin_anew_when_their_state_is_entered() {
+    let text = "machine m whisker w initial A
+        law go(x: number) { steer body along vector(1, 0) at lowpass(x, 1 Hz) * 1 m/s turning 0 rad/s }
+        state A { do go(time / 1 s)  after 0.2 s -> B }
+        state B { do go(time / 1 s)  after 0.2 s -> A }";
+    let (_, ticks) = run(text, &mut Script::touches("............"));
+    let speeds: Vec<f64> = ticks.iter().map(|&(_, action)| speed(action)).collect();
+    assert_eq!(speeds[6], 6.0 / 30.0, "at the first tick in B the filter is where its input is");
+    assert!(speeds[5] < 4.0 / 30.0, "before, it lags");
+    assert!(speeds[7] > 6.0 / 30.0 && speeds[7] < 7.0 / 30.0);
+}
+
+#[test]
 fn a_duration_that_is_not_a_number_never_passes() {
     let text = "machine m whisker w initial A
         state A { when true for sqrt(-1) * 1 s -> B  after 0 s / 0 -> B }  state B { stop }";

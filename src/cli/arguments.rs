@@ -37,13 +37,13 @@ pub(super) struct RunArguments {
     /// Policy to run instead of the one that a scenario names
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
-    /// Set a parameter of the policy, with its unit: --set "speed=20 mm/s"
+    /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     pub(super) settings: Vec<Setting>,
     /// World to run in
     #[arg(long, value_enum, default_value_t = World::Mujoco)]
     pub(super) world: World,
-    /// Seed of the sensors' noise instead of the scenario's
+    /// Seed of the sensors' noise instead of the scenario's; it matters only to a rig with noise
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u64>,
     /// Write a picture and the result of every run into this directory
@@ -55,6 +55,7 @@ pub(super) struct RunArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct CheckArguments {
     /// Policy files
     #[arg(value_name = "POLICY", required = true)]
@@ -65,6 +66,7 @@ pub(super) struct CheckArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct MjcfArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
@@ -94,7 +96,7 @@ pub(super) struct Setting {
 }
 
 fn parse_setting(text: &str) -> Result<Setting, String> {
-    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=20 mm/s\"")?;
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
     let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     Ok(Setting { name: name.trim().to_owned(), value })
 }

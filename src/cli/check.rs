@@ -67,7 +67,7 @@ fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
     if !json {
         output::faults(&source, &faults);
         if let Some(machine) = &machine {
-            output::result(describe(&source.name, machine));
+            output::result(describe(&source.name, machine))?;
         }
     }
     Ok(Checked { file: source.name.clone(), machine, diagnostics: records(&source, &faults) })

@@ -53,6 +53,8 @@ pub(super) enum Failure {
     Execute { scenario: PathBuf, cause: ExecuteError },
     #[error("{}: {cause}", scenario.display())]
     Solid { scenario: PathBuf, cause: SolidError },
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

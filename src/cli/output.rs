@@ -1,7 +1,7 @@
 //! Printing. Results go to standard output, everything else to standard error.
 
 use std::fmt::Display;
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 
 use serde::Serialize;
 
@@ -9,15 +9,17 @@ use crate::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 use super::exit::Failure;
 
-/// Prints a result. A reader that has gone away, such as `head`, is no fault.
-pub(super) fn result(text: impl Display) {
-    let _ = writeln!(stdout(), "{text}");
+/// Prints a result. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+pub(super) fn result(text: impl Display) -> Result<(), Failure> {
+    match writeln!(stdout(), "{text}") {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Print(cause)),
+        _ => Ok(()),
+    }
 }
 
 /// Prints a result as JSON.
 pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
-    result(serde_json::to_string_pretty(value)?);
-    Ok(())
+    result(serde_json::to_string_pretty(value)?)
 }
 
 /// Prints a message.

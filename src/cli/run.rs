@@ -40,6 +40,9 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     for job in jobs {
         let run = execute_with_progress(&job, arguments.world.into())?;
         let score = Score::new(&run, &job.scene.object);
+        if let Some(reason) = &run.reason {
+            output::message(format_args!("{}: {}: {reason}", job.identity.scenario, run.outcome));
+        }
         for expectation in &job.scene.expect {
             if let Some(violation) = expectation.violation(run.outcome, |metric| score.figure(metric)) {
                 output::message(format_args!("{}: {violation}", job.identity.scenario));
@@ -63,10 +66,10 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&results)?;
     } else {
-        output::result(table(&results));
+        output::result(table(&results))?;
         if let Some(directory) = &arguments.out {
             for result in &results {
-                output::result(format_args!("report: {}", report_path(directory, result, "svg").display()));
+                output::result(format_args!("report: {}", report_path(directory, result, "svg").display()))?;
             }
         }
     }

@@ -9,6 +9,7 @@ mod evaluate;
 mod op;
 mod program;
 mod senses;
+mod stateful;
 mod tick;
 
 pub use action::{Action, Mover, Turn};

@@ -89,10 +89,12 @@ pub(super) enum Function {
     Turn,
     Dot,
     Cross,
+    LowPass,
+    Pid,
 }
 
 /// Every function, by its name, with how it is called.
-pub(super) const FUNCTIONS: [(&str, Function, &str); 16] = [
+pub(super) const FUNCTIONS: [(&str, Function, &str); 18] = [
     ("abs", Function::Abs, "abs(x)"),
     ("sign", Function::Sign, "sign(x)"),
     ("sqrt", Function::Sqrt, "sqrt(x)"),
@@ -109,6 +111,8 @@ pub(super) const FUNCTIONS: [(&str, Function, &str); 16] = [
     ("turn", Function::Turn, "turn(from, to)"),
     ("dot", Function::Dot, "dot(a, b)"),
     ("cross", Function::Cross, "cross(a, b)"),
+    ("lowpass", Function::LowPass, "lowpass(x, cutoff)"),
+    ("pid", Function::Pid, "pid(error, p, i, d, limit)"),
 ];
 
 /// The function called `name`, with how it is called.

@@ -14,7 +14,7 @@ mod structure;
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::Program;
+use crate::machine::{Program, Register};
 
 use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
 use super::hint::did_you_mean;
@@ -69,6 +69,12 @@ struct Compiler<'f> {
     writing: Vec<&'f str>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
+    /// The memory that the state being written has declared.
+    variables: Vec<&'f str>,
+    /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
+    memories: Vec<(Register, u16)>,
+    /// Why commands are not allowed in what is being written, if they are not.
+    commandless: Option<&'static str>,
     /// How deep the walk through the syntax tree is, and how many nodes it has visited.
     depth: usize,
     work: usize,
@@ -89,6 +95,9 @@ impl<'f> Compiler<'f> {
             broken: HashSet::new(),
             writing: Vec::new(),
             doing: &[],
+            variables: Vec::new(),
+            memories: Vec::new(),
+            commandless: None,
             depth: 0,
             work: 0,
             outgrown: None,
