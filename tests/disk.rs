@@ -102,6 +102,16 @@ fn the_policy_follows_disks_of_other_sizes_at_other_speeds() {
     }
 }
 
+/// A policy that none of the thesis's is: deflection alone, and two commands.
+#[test]
+fn bang_bang_following_goes_round_too() {
+    let program = compile(&read("policies/bang.fsm")).unwrap();
+    let (run, score) = run(&scene(&read("scenarios/disk.yaml").text), program, 0);
+    assert_eq!(run.outcome, Outcome::Completed, "{:?}", run.reason);
+    let mean = score.error.unwrap().mean;
+    assert!(mean < 0.8e-3 && score.coverage > 0.95, "mean error {mean} m, coverage {}", score.coverage);
+}
+
 #[test]
 fn a_policy_that_loses_the_object_fails_and_says_why() {
     let mut program = thesis();
