@@ -121,7 +121,7 @@ fn check_solid(reader: &mut Reader<'_>, object: &Placed<Contour>) {
         Err(SolidError::Corners { count, limit }) => (
             "the object has too many corners to be simulated",
             format!("{count} corners, must be at most {limit}"),
-            "leave out vertices that hardly turn, or use arcs, which are exact",
+            "leave out vertices that hardly turn, or use arcs",
         ),
     };
     reader.report(Diagnostic::error(fault::SHAPE, message, object.span, label).hint(hint));
