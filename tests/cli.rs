@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -17,14 +17,6 @@ fn stdout(output: &Output) -> String {
 
 fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// A directory of its own for one test, emptied before.
-fn directory(name: &str) -> PathBuf {
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&directory);
-    std::fs::create_dir_all(&directory).unwrap();
-    directory
 }
 
 fn bad(kind: &str) -> Vec<String> {
@@ -104,6 +96,18 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
 }
 
 #[test]
+fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_status_2() {
+    for (file, expected) in [("/dev/zero", "larger than 1 MiB"), ("tests/fixtures/latin1.txt", "not UTF-8")] {
+        for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
+            let output = vibrissa(&arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            let message = stderr(&output);
+            assert!(message.contains(&format!("cannot read {file}")) && message.contains(expected), "{message}");
+        }
+    }
+}
+
+#[test]
 fn mjcf_prints_the_model() {
     let output = vibrissa(&["mjcf", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(0));
@@ -113,8 +117,17 @@ fn mjcf_prints_the_model() {
 
 #[cfg(feature = "sim")]
 mod with_simulation {
-    use super::{directory, stderr, stdout, vibrissa};
+    use super::{stderr, stdout, vibrissa};
     use serde_json::Value;
+    use std::path::{Path, PathBuf};
+
+    /// A directory of its own for one test, emptied before.
+    fn directory(name: &str) -> PathBuf {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&directory);
+        std::fs::create_dir_all(&directory).unwrap();
+        directory
+    }
 
     /// The keys of a JSON value, with those of objects within, sorted.
     fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {
@@ -205,5 +218,4 @@ fn a_build_without_the_simulator_says_so() {
     let output = vibrissa(&["run", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
-    let _ = directory("unused");
 }

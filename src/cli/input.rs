@@ -1,5 +1,7 @@
 //! Reading scenarios and policies.
 
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
@@ -11,6 +13,9 @@ use crate::scene::Scene;
 
 use super::exit::Failure;
 
+/// The most bytes that are read of a file: as many as the largest scenario may have. Policies are smaller still.
+const SIZE_LIMIT: u64 = 1 << 20;
+
 /// Something read from a file, with a hash of the file's text.
 pub(super) struct Loaded<T> {
     pub(super) value: T,
@@ -18,8 +23,21 @@ pub(super) struct Loaded<T> {
 }
 
 pub(super) fn read(path: &Path) -> Result<Source, Failure> {
-    let text = std::fs::read_to_string(path).map_err(Failure::read(path))?;
+    let text = read_text(path).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
+}
+
+/// Reads no more than tells that a file is too large: a device never ends.
+fn read_text(path: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    let count = File::open(path)?.take(SIZE_LIMIT + 1).read_to_end(&mut bytes)?;
+    let unusable = |cause| Error::new(ErrorKind::InvalidData, cause);
+    if count as u64 > SIZE_LIMIT {
+        return Err(unusable(
+            "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
+        ));
+    }
+    String::from_utf8(bytes).map_err(|_| unusable("it is not UTF-8 text; save it as UTF-8, or is it the wrong file?"))
 }
 
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
