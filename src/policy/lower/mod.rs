@@ -13,7 +13,7 @@ mod structure;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use crate::machine::{Program, Register};
 
 use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
@@ -35,8 +35,6 @@ pub(super) fn lower(file: &File) -> Result<Program, Vec<Diagnostic>> {
     }
 }
 
-/// Faults after which the compiler stops looking for more.
-const FAULT_LIMIT: usize = 50;
 /// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
 /// exhaust the stack.
 const DEPTH_LIMIT: usize = 250;

@@ -51,7 +51,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     let stop = fields.required("stop", "{time: 120 s}").and_then(|entry| stop::read(reader, entry));
     let expect = match fields.entry("expect") {
         Some(entry) => expect::read(reader, entry),
-        None => Some(Vec::new()),
+        None => Some(vec![expect::COMPLETION]),
     };
     let policy = match fields.entry("policy") {
         Some(entry) => policy(reader, entry).map(Some),
