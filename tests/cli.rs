@@ -36,7 +36,7 @@ fn bad(kind: &str) -> Vec<String> {
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "mjcf"] {
+    for command in ["run", "check", "graph", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -95,12 +95,29 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+        (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
+        (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
     ] {
         let output = vibrissa(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
         assert_eq!(stdout(&output), "", "{arguments:?}");
     }
+}
+
+#[test]
+fn graph_prints_or_writes_a_statechart() {
+    for (format, beginning) in [("svg", "<svg"), ("mermaid", "stateDiagram-v2\n"), ("dot", "digraph \"thesis\" {\n")] {
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let printed = stdout(&output);
+        assert!(printed.starts_with(beginning) && printed.contains("Swiping"), "{printed}");
+        let file = directory("graph").join("chart").display().to_string();
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format, "-o", &file]);
+        assert_eq!((output.status.code(), stdout(&output)), (Some(0), String::new()));
+        assert_eq!(std::fs::read_to_string(file).unwrap(), printed);
+    }
+    assert!(stdout(&vibrissa(&["graph", "policies/thesis.fsm"])).starts_with("<svg"));
 }
 
 #[test]
