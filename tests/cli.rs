@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -25,10 +25,18 @@ fn bad(kind: &str) -> Vec<String> {
     files.filter(|file| file.extension().is_some()).map(|file| file.display().to_string()).collect()
 }
 
+/// A directory of its own for one test, emptied before.
+fn directory(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&directory);
+    std::fs::create_dir_all(&directory).unwrap();
+    directory
+}
+
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "mjcf"] {
+    for command in ["run", "check", "graph", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -87,6 +95,8 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+        (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
+        (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
     ] {
         let output = vibrissa(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -108,6 +118,21 @@ fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_statu
 }
 
 #[test]
+fn graph_prints_or_writes_a_statechart() {
+    for (format, beginning) in [("svg", "<svg"), ("mermaid", "stateDiagram-v2\n"), ("dot", "digraph \"thesis\" {\n")] {
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let printed = stdout(&output);
+        assert!(printed.starts_with(beginning) && printed.contains("Swiping"), "{printed}");
+        let file = directory("graph").join("chart").display().to_string();
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format, "-o", &file]);
+        assert_eq!((output.status.code(), stdout(&output)), (Some(0), String::new()));
+        assert_eq!(std::fs::read_to_string(file).unwrap(), printed);
+    }
+    assert!(stdout(&vibrissa(&["graph", "policies/thesis.fsm"])).starts_with("<svg"));
+}
+
+#[test]
 fn mjcf_prints_the_model() {
     let output = vibrissa(&["mjcf", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(0));
@@ -117,17 +142,8 @@ fn mjcf_prints_the_model() {
 
 #[cfg(feature = "sim")]
 mod with_simulation {
-    use super::{stderr, stdout, vibrissa};
+    use super::{directory, stderr, stdout, vibrissa};
     use serde_json::Value;
-    use std::path::{Path, PathBuf};
-
-    /// A directory of its own for one test, emptied before.
-    fn directory(name: &str) -> PathBuf {
-        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = std::fs::remove_dir_all(&directory);
-        std::fs::create_dir_all(&directory).unwrap();
-        directory
-    }
 
     /// The keys of a JSON value, with those of objects within, sorted.
     fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {

@@ -24,6 +24,8 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
+    /// Draw the statechart of a policy
+    Graph(GraphArguments),
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
 }
@@ -63,6 +65,31 @@ pub(super) struct CheckArguments {
     /// Print only JSON: an array of policies with their diagnostics
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct GraphArguments {
+    /// Policy file
+    #[arg(value_name = "POLICY")]
+    pub(super) policy: PathBuf,
+    /// Format of the statechart
+    #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
+    pub(super) format: ChartFormat,
+    /// Write it into this file instead of printing it
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// The formats of a statechart.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum ChartFormat {
+    /// A picture
+    Svg,
+    /// Text for Mermaid, which many pages that show Markdown draw
+    Mermaid,
+    /// Text for Graphviz
+    Dot,
 }
 
 #[derive(Debug, Args)]

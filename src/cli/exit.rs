@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::SetError;
+use crate::report::ChartTooLarge;
 use crate::scene::SolidError;
 use crate::study::ExecuteError;
 
@@ -39,7 +40,7 @@ impl From<Exit> for ExitCode {
 pub(super) enum Failure {
     #[error("cannot read {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}; choose another directory with --out", path.display())]
+    #[error("cannot write {}: {cause}; choose another place", path.display())]
     Write { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
@@ -55,6 +56,8 @@ pub(super) enum Failure {
     Solid { scenario: PathBuf, cause: SolidError },
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
+    #[error("{}: {cause}", policy.display())]
+    Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

@@ -8,7 +8,8 @@ use sha2::{Digest, Sha256};
 
 use crate::diagnostic::Source;
 use crate::machine::Program;
-use crate::policy::compile;
+use crate::policy::chart::Chart;
+use crate::policy::{self, compile};
 use crate::scene::Scene;
 
 use super::exit::Failure;
@@ -56,6 +57,11 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Program>, Failure> {
         Ok(value) => Ok(Loaded { value, hash }),
         Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
     }
+}
+
+pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
+    let source = read(path)?;
+    policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 
 /// The first sixteen hexadecimal digits of a hash: enough to tell files apart.

@@ -6,6 +6,7 @@
 
 mod ast;
 mod builtins;
+pub mod chart;
 mod grammar;
 mod hint;
 mod lower;
@@ -31,4 +32,21 @@ use crate::machine::Program;
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
     let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
     lower::lower(&file)
+}
+
+/// The statechart of a policy.
+///
+/// # Errors
+/// Those of [`compile`]: only of a policy without fault can it be said what leads where.
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::chart};
+/// let source = Source::new("still.fsm", "machine still  initial Still  state Still { after 1 s -> Failure(\"late\") }");
+/// assert_eq!(chart(&source)?.transitions[0].guard, chart::Guard::After("1 s".to_owned()));
+/// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
+/// ```
+pub fn chart(source: &Source) -> Result<chart::Chart, Vec<Diagnostic>> {
+    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    lower::lower(&file)?;
+    Ok(chart::build(source, &file))
 }

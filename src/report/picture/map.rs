@@ -7,10 +7,10 @@ use std::ops::Range;
 
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
-use super::outline::Outline;
 use super::scale::Scale;
-use super::style::{self, Anchor, line, px, text};
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
+use crate::report::outline::Outline;
+use crate::report::style::{self, Anchor, line, px, text};
 use crate::rig::Rig;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
