@@ -297,7 +297,7 @@ fn nested_states_are_drawn_as_such() {
         "{mermaid}"
     );
     let dot = chart_dot(&chart);
-    assert!(dot.contains("subgraph \"cluster Outer\" {\n    \"Inner\""), "{dot}");
+    assert!(dot.contains("subgraph \"cluster Outer\" {\n    \"Outer\" [label=\"Outer\"]\n    \"Inner\""), "{dot}");
     let shown = see(&chart_svg(&chart).unwrap()).texts;
     assert!(shown.iter().any(|(text, _)| text == "in Outer"));
 }

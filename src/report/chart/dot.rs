@@ -42,15 +42,19 @@ pub fn chart_dot(chart: &Chart) -> String {
 /// The states that lie in `parent`, each with those that lie in it.
 fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     for (index, state) in chart.inside(parent) {
-        lines.push(&format!("{} [label={}]", quoted(&state.name), quoted(&signature(state))));
+        let node = format!("{} [label={}]", quoted(&state.name), quoted(&signature(state)));
+        if chart.inside(Some(index)).next().is_some() {
+            lines.block(&format!("subgraph {}", quoted(&format!("cluster {}", state.name))), |lines| {
+                lines.push(&node);
+                states(lines, chart, Some(index));
+            });
+        } else {
+            lines.push(&node);
+        }
         if state.initial {
             let start = parent.map_or(START.to_owned(), |parent| format!("start of {}", chart.states[parent].name));
             lines.push(&format!("{} [shape=point, width=0.15]", quoted(&start)));
             lines.push(&format!("{} -> {}", quoted(&start), quoted(&state.name)));
-        }
-        if chart.inside(Some(index)).next().is_some() {
-            let cluster = format!("cluster {}", state.name);
-            lines.block(&format!("subgraph {}", quoted(&cluster)), |lines| states(lines, chart, Some(index)));
         }
     }
 }
