@@ -82,7 +82,7 @@ impl Machine {
 
     /// A machine that has just entered a state, with `registers` as its memory.
     pub(crate) fn entered(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
-        Self { state, registers, ..Self::new(program) }
+        Self { registers, state, ..Self::new(program) }
     }
 
     /// The program that it runs.

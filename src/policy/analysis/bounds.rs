@@ -3,13 +3,13 @@
 use crate::machine::{Block, Op, Register};
 
 use super::interval::Interval;
-use super::model::{Condition, Model};
+use super::model::Model;
 use super::region::Region;
 use super::unknown::{Source, Unknown, scalar, vector};
 
 /// Evaluates code over intervals.
 pub(super) struct Bounds<'m> {
-    model: &'m Model<'m>,
+    pub(super) model: &'m Model<'m>,
     /// What the code at hand has written, each with the number of the evaluation that wrote it.
     cells: Vec<(u32, Interval)>,
     evaluation: u32,
@@ -20,11 +20,6 @@ pub(super) struct Bounds<'m> {
 impl<'m> Bounds<'m> {
     pub(super) fn new(model: &'m Model<'m>) -> Self {
         Self { model, cells: vec![(0, Interval::ANYTHING); model.program.image.len()], evaluation: 0, work: 0 }
-    }
-
-    /// What a condition can be in a region.
-    pub(super) fn truth(&mut self, condition: Condition<'_>, region: &mut Region<'_>) -> Interval {
-        self.value(condition.code, condition.truth, region).unwrap_or(Interval::TRUTH)
     }
 
     /// What `register` can hold after `code` in a region; `None` if the code does more than to compute.
@@ -41,7 +36,24 @@ impl<'m> Bounds<'m> {
         Some(self.at(register, region))
     }
 
-    fn at(&self, register: Register, region: &mut Region<'_>) -> Interval {
+    /// Whether the code at hand has written a register.
+    pub(super) fn is_written(&self, register: Register) -> bool {
+        self.cells.get(usize::from(register)).is_some_and(|&(evaluation, _)| evaluation == self.evaluation)
+    }
+
+    /// What a register may hold that the code at hand has written.
+    pub(super) fn cell(&self, register: Register) -> Interval {
+        self.cells.get(usize::from(register)).map_or(Interval::ANYTHING, |&(_, value)| value)
+    }
+
+    /// The one whisker that a register means, if it means but one.
+    pub(super) fn whisker(&self, register: Register, region: &mut Region<'_>) -> Option<usize> {
+        let mut whiskers = self.whiskers(register, region);
+        whiskers.next().filter(|_| whiskers.next().is_none())
+    }
+
+    /// What a register may hold.
+    pub(super) fn at(&self, register: Register, region: &mut Region<'_>) -> Interval {
         match self.cells.get(usize::from(register)) {
             Some(&(evaluation, value)) if evaluation == self.evaluation => value,
             _ => region.register(register),
@@ -52,7 +64,7 @@ impl<'m> Bounds<'m> {
         [self.at(register, region), self.at(register + 1, region)]
     }
 
-    fn put(&mut self, register: Register, value: Interval) {
+    pub(super) fn put(&mut self, register: Register, value: Interval) {
         if let Some(cell) = self.cells.get_mut(usize::from(register)) {
             *cell = (self.evaluation, value);
         }

@@ -40,8 +40,8 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
                 matches!(machine.failure(), Some(Failure::Chain { .. }))
             }
         };
-        if let Found::Witness(point) = search.find_such(&goals, &fails) {
-            let witness = search.describe_such(&goals, point, &fails);
+        if let Found::Witness(point) = search.find_such(&goals, fails) {
+            let witness = search.describe_such(&goals, point, fails);
             told.extend(path.iter().map(|(_, edge)| *edge));
             faults.push(fault(model, path, &witness));
         }

@@ -20,8 +20,8 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
         if search.find(&[Goal::holds(condition)]) == Found::Nothing {
             warnings.push(
                 Diagnostic::warning("P0508", "this guard never holds", edge.guard_span(), "never holds").hint(
-                    "it fails for every value that can be felt, with parameters anywhere in their ranges, \
-                     and where they have none as they are",
+                    "it fails for all that can be felt; a parameter counts with its range, or with its value if it \
+                     has none",
                 ),
             );
             return false;

@@ -25,7 +25,6 @@ pub(super) struct Interval {
 impl Interval {
     pub(super) const ANYTHING: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY, nan: true };
     pub(super) const NO_NUMBER: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, nan: true };
-    pub(super) const TRUTH: Self = Self::new(0.0, 1.0);
 
     pub(super) const fn new(low: f64, high: f64) -> Self {
         Self { low, high, nan: false }
@@ -79,6 +78,48 @@ impl Interval {
     /// The smallest interval that holds both.
     pub(super) fn join(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high), nan: self.nan || other.nan }
+    }
+
+    /// What lies in both.
+    pub(super) fn meet(self, other: Self) -> Self {
+        Self { low: self.low.max(other.low), high: self.high.min(other.high), nan: self.nan && other.nan }
+    }
+
+    /// Whether it holds anything at all.
+    pub(super) fn has_any(self) -> bool {
+        self.nan || !self.is_empty()
+    }
+
+    /// Whether it holds numbers only, and finite ones.
+    pub(super) fn is_finite(self) -> bool {
+        !self.nan && !self.has_infinity()
+    }
+
+    /// Its numbers.
+    pub(super) fn number(self) -> Self {
+        Self { nan: false, ..self }
+    }
+
+    /// What an operation came from whose result lies in it, given its other operand and the inverse operation. There is
+    /// room for the rounding of both.
+    pub(super) fn undo(self, other: Self, inverse: fn(Self, Self) -> Self) -> Self {
+        let origin = inverse(self, other.number());
+        let room = (self.size() + other.size() + origin.size()) * SLACK + 1e-200;
+        if origin.nan || !room.is_finite() {
+            return Self::new(f64::NEG_INFINITY, f64::INFINITY);
+        }
+        Self::new(origin.low - room, origin.high + room)
+    }
+
+    /// What a product came from that lies in it, given the other factor.
+    pub(super) fn undo_product(self, other: Self) -> Self {
+        // Next to a factor of nothing, anything goes.
+        let is_plain = !other.is_empty() && other.absolute().low > 1e-100;
+        if is_plain { self.undo(other, Self::divide) } else { Self::new(f64::NEG_INFINITY, f64::INFINITY) }
+    }
+
+    fn size(self) -> f64 {
+        if self.is_empty() { 0.0 } else { self.low.abs().max(self.high.abs()) }
     }
 
     pub(super) fn add(self, other: Self) -> Self {
@@ -201,7 +242,7 @@ impl Interval {
 
     pub(super) fn wrapped(self) -> Self {
         let nan = self.nan || self.has_infinity();
-        if self.is_empty() || (self.low > -3.1415 && self.high <= PI) {
+        if self.is_empty() || (self.low > WRAP_SLACK - PI && self.high <= PI) {
             self
         } else if let Some(angle) = self.single() {
             Self::point(wrap(angle))
@@ -241,7 +282,8 @@ impl Interval {
         Self::truth(self.may_fail(), self.may_hold())
     }
 
-    fn widened(self) -> Self {
+    /// The same with room for rounding.
+    pub(super) fn widened(self) -> Self {
         if self.is_empty() {
             return self;
         }

@@ -1,7 +1,7 @@
 //! What a policy that compiles may still have wrong with it.
 //!
 //! The syntax tree says where things are written, the program what they mean. Conditions are evaluated over intervals
-//! (`bounds`) in regions of all that can be felt (`region`), which are split until the question is settled or a witness is
+//! (`bounds`) in regions of all that can be felt (`region`), which are narrowed to where it may be as wanted (`narrow`) and split until the question is settled or a witness is
 //! found (`search`). A witness is checked by the machine's own evaluator. Each of the other files is one kind of warning.
 
 mod bounds;
@@ -11,6 +11,7 @@ mod guards;
 mod interval;
 mod model;
 mod names;
+mod narrow;
 mod overlap;
 mod point;
 mod reach;

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::geometry::Vector2;
-use crate::machine::{BodyScalar, Register, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
 
 use super::interval::Interval;
 use super::model::Model;
@@ -53,6 +53,8 @@ fn single(value: f64) -> Domain {
 pub(super) enum Choice {
     /// The plainest: parameters as they are, everything else as near to nothing as can be.
     Plain,
+    /// The same, a little away from the ends of ranges.
+    Inside,
     /// In the middle of every range.
     Middle,
     /// At the low end of every range.
@@ -65,6 +67,7 @@ impl Point {
     /// A point of a region.
     pub(super) fn of(region: &Region<'_>, model: &Model<'_>, choice: Choice) -> Self {
         let value = |unknown, domain: &Domain| match (domain, choice) {
+            (Domain::Range(range), Choice::Inside) => inside(*range, plainest(model, unknown, domain)),
             (Domain::Range(range), Choice::Middle) => middle(*range),
             (Domain::Range(range), Choice::Low) => range.low.max(-f64::MAX),
             (Domain::Range(range), Choice::High) => range.high.min(f64::MAX),
@@ -79,9 +82,9 @@ impl Point {
         self.values.borrow().0.iter().map(|(unknown, domain)| (*unknown, domain.hull().low)).collect()
     }
 
-    /// The value of a register, if it is unknown.
-    pub(super) fn register(&self, register: Register) -> Option<f64> {
-        self.values().into_iter().find(|&(unknown, _)| unknown == Unknown::Register(register)).map(|(_, value)| value)
+    /// The value of an unknown.
+    pub(super) fn value(&self, unknown: Unknown) -> f64 {
+        self.values.borrow_mut().range(unknown).low
     }
 
     /// Changes the value of an unknown.
@@ -104,6 +107,13 @@ impl Point {
         }
         read(&mut self.values.borrow_mut())
     }
+}
+
+/// A number near `value`, but not at an end of the range: what is wanted is often not to be had there.
+fn inside(range: Interval, value: f64) -> f64 {
+    let Interval { low, high, .. } = range;
+    let step = (value.abs() / 16.0).max(f64::MIN_POSITIVE).min((high - low) / 4.0);
+    value.max(low + step).min(high - step)
 }
 
 /// The plainest value that an unknown can have.

@@ -75,11 +75,12 @@ impl<'m> Search<'m> {
             if looked_at > REGION_LIMIT || self.is_exhausted() {
                 return Found::Unclear;
             }
-            if !self.may_meet(goals, &mut region) {
+            // Twice, since what one goal narrows can tell more of the others.
+            if !goals.iter().chain(goals).all(|&goal| self.bounds.narrow(goal, &mut region)) {
                 continue;
             }
             if !region.is_partial {
-                for choice in [Choice::Plain, Choice::Middle, Choice::Low, Choice::High] {
+                for choice in [Choice::Plain, Choice::Inside, Choice::Middle, Choice::Low, Choice::High] {
                     let point = Point::of(&region, self.model, choice);
                     if self.meets(goals, &point) && accept(&point, self.registers(&point)) {
                         return Found::Witness(point);
@@ -92,14 +93,6 @@ impl<'m> Search<'m> {
             }
         }
         if is_unclear { Found::Unclear } else { Found::Nothing }
-    }
-
-    /// Whether there may be a point in a region at which every goal is met.
-    fn may_meet(&mut self, goals: &[Goal<'_>], region: &mut Region<'m>) -> bool {
-        goals.iter().all(|goal| {
-            let truth = self.bounds.truth(goal.condition, region);
-            if goal.wanted { truth.may_hold() } else { truth.may_fail() }
-        })
     }
 
     /// Whether every goal is met at a point, by the real evaluator.

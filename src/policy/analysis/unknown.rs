@@ -11,7 +11,7 @@ const FAR: f64 = 1e6;
 /// More than any body turns (rad).
 const WHIRL: f64 = 1e5;
 /// The least deflection of a whisker that touches (rad).
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// One degree of freedom of all that guards may read.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +75,29 @@ impl Domain {
         }
     }
 
+    /// Keeps only what lies in an interval; false if nothing does.
+    pub(super) fn narrow(&mut self, to: Interval) -> bool {
+        match self {
+            Self::Values(values) => {
+                values.retain(|&value| Interval::point(value).meet(to).has_any());
+                !values.is_empty()
+            }
+            Self::Range(range) => {
+                *range = range.meet(to);
+                range.has_any()
+            }
+        }
+    }
+
+    /// Keeps only the contacts of which a number lies in an interval; false if none is left.
+    pub(super) fn keep_contacts(&mut self, quantity: WhiskerScalar, to: Interval) -> bool {
+        let Self::Values(numbers) = self else { return true };
+        numbers.retain(|&number| {
+            numbered(number).is_some_and(|contact| Interval::point(reading(quantity, contact)).meet(to).has_any())
+        });
+        !numbers.is_empty()
+    }
+
     /// Two parts of it; `None` if there is but one value.
     pub(super) fn split(&self) -> Option<[Self; 2]> {
         match self {
@@ -122,9 +145,10 @@ pub(super) trait Source {
 /// What a number of a whisker may be.
 pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: WhiskerScalar) -> Interval {
     match quantity {
-        WhiskerScalar::Touching => contact(source, whisker, |_, sense| sense.abs()),
-        WhiskerScalar::Side => contact(source, whisker, |side, _| side),
-        WhiskerScalar::Sense => contact(source, whisker, |_, sense| sense),
+        WhiskerScalar::Touching | WhiskerScalar::Side | WhiskerScalar::Sense => {
+            let values = contacts(source, whisker).map(|contact| Interval::point(reading(quantity, contact)));
+            values.reduce(Interval::join).unwrap_or(Interval::ANYTHING)
+        }
         WhiskerScalar::Deflection => {
             let free = source.range(Unknown::Deflection(whisker));
             let size = free.absolute();
@@ -167,12 +191,22 @@ pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: Whisker
 fn contacts(source: &mut impl Source, whisker: usize) -> impl Iterator<Item = (f64, f64)> {
     let domain = source.domain(Unknown::Contact(whisker));
     let numbers = if let Domain::Values(numbers) = domain { numbers.as_slice() } else { &[] };
-    CONTACTS.iter().enumerate().filter(|(index, _)| numbers.contains(&(*index as f64))).map(|(_, &contact)| contact)
+    numbers.iter().filter_map(|&number| numbered(number))
 }
 
-fn contact(source: &mut impl Source, whisker: usize, value: impl Fn(f64, f64) -> f64) -> Interval {
-    let values = contacts(source, whisker).map(|(side, sense)| Interval::point(value(side, sense)));
-    values.reduce(Interval::join).unwrap_or(Interval::ANYTHING)
+/// The contact with a number.
+fn numbered(number: f64) -> Option<(f64, f64)> {
+    let mut known = CONTACTS.iter().enumerate().filter(|&(index, _)| (index as f64 - number).abs() < 0.5);
+    known.next().map(|(_, &contact)| contact)
+}
+
+/// What a contact is read as.
+fn reading(quantity: WhiskerScalar, (side, sense): (f64, f64)) -> f64 {
+    match quantity {
+        WhiskerScalar::Side => side,
+        WhiskerScalar::Touching => sense.abs(),
+        _ => sense,
+    }
 }
 
 /// What is no number before the contour is ready.

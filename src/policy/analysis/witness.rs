@@ -36,14 +36,16 @@ impl Search<'_> {
             evaluate(&program.code, goal.condition.code, &mut registers, &mut senses);
         }
         let named = named_values(model, &point);
-        let felt = senses.readings().into_iter().map(|reading| felt(program, &senses, reading));
+        let felt = senses.readings().into_iter().filter_map(|reading| felt(program, &senses, reading));
         let words: Vec<String> = named.into_iter().chain(felt).collect();
         if words.is_empty() { "any time".to_owned() } else { words.join(", ") }
     }
 
     /// The same point with every value as plain as it can be for the goals still to be met.
     fn plainer(&mut self, goals: &[Goal<'_>], mut point: Point, accept: impl Fn(&Point, Vec<f64>) -> bool) -> Point {
-        for (unknown, value) in point.values() {
+        // Twice, since one value may have to wait for another to become plain first.
+        for (unknown, _) in [point.values(), point.values()].concat() {
+            let value = point.value(unknown);
             let domain = match unknown {
                 Unknown::Register(register) => self.model.domain(register),
                 _ => Some(Domain::felt(unknown)),
@@ -77,7 +79,7 @@ impl Search<'_> {
     }
 }
 
-/// The numbers of so many digits next to `value` that can be read off their text in the unit that suits it: below, above.
+/// The numbers of so many digits next to `value` in the unit that suits it, as they read in text, the nearest first.
 fn round(value: f64, dimension: Dimension, digits: i32) -> Vec<f64> {
     let Ok(quantity) = parse_quantity(&format_si(value, dimension)) else { return Vec::new() };
     let scale = |number: f64| quantity.unit.map_or(number, |unit| unit.to_si(number));
@@ -87,7 +89,8 @@ fn round(value: f64, dimension: Dimension, digits: i32) -> Vec<f64> {
     }
     #[expect(clippy::cast_possible_truncation, reason = "the magnitude of a finite number is small")]
     let step = 10.0_f64.powi(number.abs().log10().floor() as i32 + 1 - digits);
-    [(number / step).floor(), (number / step).ceil()]
+    let steps = (number / step).round();
+    [steps, steps - 1.0, steps + 1.0]
         .into_iter()
         .filter_map(|steps| {
             // Through the text, so that what is shown is what was tried.
@@ -138,7 +141,7 @@ fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
         let shown = match named.r#type {
             Type::Whisker | Type::Contour => whisker_name(model.program, value).to_owned(),
             Type::Vector(_) => {
-                let part = |register| point.register(register).unwrap_or(0.0);
+                let part = |register| point.value(Unknown::Register(register));
                 show(named.r#type, [part(named.first), part(named.first + 1)])
             }
             r#type => show(r#type, [value, 0.0]),
@@ -157,19 +160,27 @@ fn whisker_name(program: &Program, index: f64) -> &str {
     names.next().map_or("?", |(_, name)| name)
 }
 
+/// A number so that it can be read back exactly, in the unit that suits it if so few digits will do.
+fn exact(value: f64, dimension: Dimension) -> String {
+    let text = format_si(value, dimension);
+    #[expect(clippy::float_cmp, reason = "it is to be the very same number")]
+    let is_exact = parse_quantity(&text).is_ok_and(|read| read.value_si == value);
+    if is_exact { text } else { format!("{value:?} {}", dimension.si_unit()).trim_end().to_owned() }
+}
+
 /// A value in words: a vector's x and y, of anything else the first of the two.
 fn show(r#type: Type, [x, y]: [f64; 2]) -> String {
     match r#type {
-        Type::Scalar(dimension) => format_si(x, dimension),
-        Type::Vector(dimension) => format!("vector({}, {})", format_si(x, dimension), format_si(y, dimension)),
+        Type::Scalar(dimension) => exact(x, dimension),
+        Type::Vector(dimension) => format!("vector({}, {})", exact(x, dimension), exact(y, dimension)),
         _ => (x > 0.5).to_string(),
     }
 }
 
-/// What a reading gives, in words.
-fn felt(program: &Program, point: &Point, reading: Reading) -> String {
+/// What a reading gives, in words; nothing of what is no number.
+fn felt(program: &Program, point: &Point, reading: Reading) -> Option<String> {
     let (whisker, source, value) = match reading {
-        Reading::Time => return format!("time = {}", show(Type::TIME, [point.time(), 0.0])),
+        Reading::Time => return Some(format!("time = {}", show(Type::TIME, [point.time(), 0.0]))),
         Reading::Body(quantity) => (None, MemberSource::Body(quantity), [point.body(quantity), 0.0]),
         Reading::BodyPosition => (None, MemberSource::BodyPosition, point.body_position().into()),
         Reading::Whisker(whisker, quantity) => {
@@ -180,7 +191,7 @@ fn felt(program: &Program, point: &Point, reading: Reading) -> String {
         }
     };
     let owner = whisker.map_or(String::new(), |whisker| format!("{}.", whisker_name(program, whisker as f64)));
-    member(source).map_or(String::new(), |(prefix, member)| {
-        format!("{owner}{prefix}{} = {}", member.name, show(member.r#type, value))
-    })
+    let (prefix, member) = member(source)?;
+    let is_number = value.iter().all(|part| part.is_finite());
+    is_number.then(|| format!("{owner}{prefix}{} = {}", member.name, show(member.r#type, value)))
 }
