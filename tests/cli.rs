@@ -69,6 +69,34 @@ fn every_malformed_policy_is_refused_with_a_place_and_exit_status_2() {
 }
 
 #[test]
+fn warnings_are_shown_and_refused_on_demand() {
+    let warned = "tests/fixtures/policies/warn/overlap_of_touches.fsm";
+    let output = vibrissa(&["check", warned]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("warning[P0512]") && stderr(&output).contains(&format!("{warned}:10:8")));
+    assert!(stdout(&output).contains("Exploring"), "what the policy consists of is told all the same");
+    let output = vibrissa(&["check", warned, "--deny-warnings", "--json"]);
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(2), ""));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(checked[0]["diagnostics"][0]["severity"], "warning");
+    assert_eq!(checked[0]["machine"]["name"], "warned");
+    assert_eq!(vibrissa(&["check", "policies/thesis.fsm", "--deny-warnings"]).status.code(), Some(0));
+}
+
+#[test]
+fn run_tells_the_warnings_of_a_policy_once() {
+    let directory = directory("warned");
+    let other = directory.join("other.yaml").display().to_string();
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    std::fs::write(&other, disk.replace("name: disk", "name: other")).unwrap();
+    let warned = "tests/fixtures/policies/warn/parameter_never_used.fsm";
+    // No run is needed to see them: a setting that does not exist ends the command before.
+    let output = vibrissa(&["run", "scenarios/disk.yaml", &other, "--policy", warned, "--set", "nothing=1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
+}
+
+#[test]
 fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
     let files = bad("scenarios");
     assert!(files.len() >= 20);

@@ -5,19 +5,26 @@ use std::thread;
 
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Severity, Source, terminal};
-use vibrissa::policy::compile;
+use vibrissa::policy::{compile, compile_with_warnings};
 
 const THESIS: &str = include_str!("../policies/thesis.fsm");
 /// The stack (bytes) of a thread of Rust's that asks for no other.
 const STACK: usize = 2 << 20;
 
-/// A text is a policy, or has a fault, and each fault has a place in the text and words.
+/// A text is a policy, perhaps with warnings, or has a fault, and each of them has a place in the text and words.
 fn is_answered(text: &str) -> Result<(), TestCaseError> {
     let source = Source::new("policy.fsm", text);
-    if let Err(faults) = compile(&source) {
-        prop_assert!(!faults.is_empty() && faults.len() <= 50);
+    let (faults, severity) = match compile_with_warnings(&source) {
+        Ok(compiled) => (compiled.warnings, Severity::Warning),
+        Err(faults) => {
+            prop_assert!(!faults.is_empty());
+            (faults, Severity::Error)
+        }
+    };
+    if !faults.is_empty() {
+        prop_assert!(faults.len() <= 50);
         for fault in &faults {
-            prop_assert_eq!(fault.severity, Severity::Error);
+            prop_assert_eq!(fault.severity, severity);
             prop_assert!(!fault.message.is_empty());
             prop_assert!(!fault.primary.text.is_empty() || !fault.hints.is_empty(), "no words: {:?}", fault);
             for label in std::iter::once(&fault.primary).chain(&fault.secondary) {
@@ -194,6 +201,18 @@ fn large_texts_and_texts_that_double_with_every_line_are_answered() {
     answered(format!(
         "machine m initial S {}",
         list(3_000, &|index| format!("let v{} = v{index} + v{index}", index + 1))
+    ));
+    answered(body(&list(3_000, &|index| format!("when a.deflection > {index} urad -> S"))));
+    answered(
+        body(&list(3_000, &|index| format!("when a.deflection > {index} urad and time > {index} s -> T{}", index % 7)))
+            + &list(7, &|index| {
+                format!("state T{index} {{ when not a.touching -> S when a.touching -> T{} }}", (index + 1) % 7)
+            }),
+    );
+    let all = |index: usize| list(60, &|other| format!("when a.deflection > {} urad -> S{other}", index * other));
+    answered(format!(
+        "machine m whisker a initial S0 {}",
+        list(60, &|index| format!("state S{index} {{ {} }}", all(index)))
     ));
     let name = "n".repeat(100_000);
     answered(format!("machine m initial S let {name} = 1 let other = {name}x"));

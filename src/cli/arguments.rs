@@ -62,6 +62,9 @@ pub(super) struct CheckArguments {
     /// Policy files
     #[arg(value_name = "POLICY", required = true)]
     pub(super) policies: Vec<PathBuf>,
+    /// Take warnings for errors: exit status 2
+    #[arg(long)]
+    pub(super) deny_warnings: bool,
     /// Print only JSON: an array of policies with their diagnostics
     #[arg(long)]
     pub(super) json: bool,

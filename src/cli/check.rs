@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::diagnostic::{Record, records};
 use crate::machine::{Program, State};
-use crate::policy::compile;
+use crate::policy::compile_with_warnings;
 use crate::units::format_si;
 
 use super::arguments::CheckArguments;
@@ -55,22 +55,24 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&checked)?;
     }
-    Ok(if checked.iter().any(|policy| policy.machine.is_none()) { Exit::Unusable } else { Exit::Done })
+    let is_refused =
+        |policy: &Checked| policy.machine.is_none() || (arguments.deny_warnings && !policy.diagnostics.is_empty());
+    Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
 }
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
     let source = input::read(path)?;
-    let (machine, faults) = match compile(&source) {
-        Ok(program) => (Some(summary(&program)), Vec::new()),
+    let (machine, diagnostics) = match compile_with_warnings(&source) {
+        Ok(compiled) => (Some(summary(&compiled.program)), compiled.warnings),
         Err(faults) => (None, faults),
     };
     if !json {
-        output::faults(&source, &faults);
+        output::diagnostics(&source, &diagnostics);
         if let Some(machine) = &machine {
             output::result(describe(&source.name, machine))?;
         }
     }
-    Ok(Checked { file: source.name.clone(), machine, diagnostics: records(&source, &faults) })
+    Ok(Checked { file: source.name.clone(), machine, diagnostics: records(&source, &diagnostics) })
 }
 
 fn summary(program: &Program) -> Summary {

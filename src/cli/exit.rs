@@ -83,7 +83,7 @@ impl Failure {
     /// Prints what went wrong to standard error.
     pub(super) fn report(&self) {
         match self {
-            Self::Faults { source_text, faults } => output::faults(source_text, faults),
+            Self::Faults { source_text, faults } => output::diagnostics(source_text, faults),
             other => output::error(other),
         }
     }

@@ -7,9 +7,8 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::Source;
-use crate::machine::Program;
 use crate::policy::chart::Chart;
-use crate::policy::{self, compile};
+use crate::policy::{self, Compiled, compile_with_warnings};
 use crate::scene::Scene;
 
 use super::exit::Failure;
@@ -50,11 +49,17 @@ pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
     }
 }
 
-pub(super) fn policy(path: &Path) -> Result<Loaded<Program>, Failure> {
+/// A policy and its text.
+pub(super) struct Policy {
+    pub(super) source: Source,
+    pub(super) compiled: Compiled,
+}
+
+pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let source = read(path)?;
     let hash = Sha256::new().chain_update(&source.text);
-    match compile(&source) {
-        Ok(value) => Ok(Loaded { value, hash }),
+    match compile_with_warnings(&source) {
+        Ok(compiled) => Ok(Loaded { value: Policy { source, compiled }, hash }),
         Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
     }
 }

@@ -32,9 +32,9 @@ pub(super) fn error(text: impl Display) {
     message(format_args!("error: {text}"));
 }
 
-/// Prints the faults of a text.
-pub(super) fn faults(source: &Source, faults: &[Diagnostic]) {
+/// Prints what is wrong with a text.
+pub(super) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) {
     let colour =
         if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
-    let _ = write!(stderr(), "{}", terminal(source, faults, colour));
+    let _ = write!(stderr(), "{}", terminal(source, diagnostics, colour));
 }

@@ -1,5 +1,6 @@
 //! `vibrissa run`
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,6 +17,7 @@ use crate::study::{WorldKind, engine_hash, execute};
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
+use super::input::{Loaded, Policy};
 use super::{input, output};
 
 /// A run that is ready to begin.
@@ -29,7 +31,9 @@ struct Job {
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     // Whatever is wrong with the last scenario should show before the first has run.
-    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments)).collect::<Result<Vec<_>, _>>()?;
+    let mut warned = BTreeSet::new();
+    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments, &mut warned));
+    let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
     check_names(&jobs)?;
     if let Some(directory) = &arguments.out {
         std::fs::create_dir_all(directory).map_err(Failure::write(directory))?;
@@ -76,7 +80,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn job(path: &Path, arguments: &RunArguments) -> Result<Job, Failure> {
+/// Prepares a run. Tells the warnings of its policy, unless the policy is among those `warned` of.
+fn job(path: &Path, arguments: &RunArguments, warned: &mut BTreeSet<PathBuf>) -> Result<Job, Failure> {
     let scenario = input::scenario(path)?;
     let scene = scenario.value;
     let policy_path = match (&arguments.policy, &scene.policy) {
@@ -84,8 +89,11 @@ fn job(path: &Path, arguments: &RunArguments) -> Result<Job, Failure> {
         (None, Some(policy)) => path.parent().unwrap_or(Path::new("")).join(policy),
         (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
     };
-    let policy = input::policy(&policy_path)?;
-    let (mut program, mut policy_hash) = (policy.value, policy.hash);
+    let Loaded { value: Policy { source, compiled }, hash: mut policy_hash } = input::policy(&policy_path)?;
+    if warned.insert(policy_path) {
+        output::diagnostics(&source, &compiled.warnings);
+    }
+    let mut program = compiled.program;
     for setting in &arguments.settings {
         program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
         policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));

@@ -8,7 +8,7 @@ use super::senses::Senses;
 use super::stateful;
 
 /// Runs `block` of `code` and returns the last action that it gave, if any.
-pub(super) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
+pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
     let mut file = File(registers);
     let mut action = None;
     let mut next = block.start as usize;

@@ -12,6 +12,9 @@ mod senses;
 mod stateful;
 mod tick;
 
+pub(crate) use evaluate::evaluate;
+pub(crate) use tick::TIME_SLACK;
+
 pub use action::{Action, Mover, Turn};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{Guard, Parameter, Program, SetError, State, Target, Transition};

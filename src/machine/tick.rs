@@ -11,7 +11,7 @@ use super::senses::Senses;
 pub const CHAIN_LIMIT: usize = 8;
 
 /// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
-const TIME_SLACK: f64 = 1e-9;
+pub(crate) const TIME_SLACK: f64 = 1e-9;
 
 /// A running machine: a program and its memory.
 #[derive(Debug, Clone)]
@@ -78,6 +78,11 @@ impl Machine {
             failure: None,
             program,
         }
+    }
+
+    /// A machine that has just entered a state, with `registers` as its memory.
+    pub(crate) fn entered(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
+        Self { registers, state, ..Self::new(program) }
     }
 
     /// The program that it runs.

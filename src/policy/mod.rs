@@ -1,9 +1,10 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
-//! types and units and writes the machine's code. `builtins` is the one table of what the language offers, `docs/language.md`
+//! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
+mod analysis;
 mod ast;
 mod builtins;
 pub mod chart;
@@ -17,11 +18,20 @@ mod types;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::Program;
 
+/// A policy that compiled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compiled {
+    /// The machine's program.
+    pub program: Program,
+    /// What is probably not meant, in the order of the text (the first fifty).
+    pub warnings: Vec<Diagnostic>,
+}
+
 /// Compiles the text of a policy.
 ///
 /// # Errors
 /// Every fault that was found, in the order of their places: one of syntax, or those of names, types, units and structure
-/// (the first fifty).
+/// (the first fifty), or cycles of transitions that a tick cannot end.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};
@@ -30,8 +40,31 @@ use crate::machine::Program;
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
+    Ok(front(source)?.1.program)
+}
+
+/// Compiles the text of a policy, and looks for what is probably not meant.
+///
+/// # Errors
+/// As [`compile`].
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::compile_with_warnings};
+/// let source = Source::new("still.fsm", "machine still  initial Still  state Still { stop }");
+/// assert_eq!(compile_with_warnings(&source)?.warnings[0].message, "the state `Still` cannot be left");
+/// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
+/// ```
+pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
+    let (file, lowered) = front(source)?;
+    let warnings = analysis::warnings(&file, &lowered);
+    Ok(Compiled { program: lowered.program, warnings })
+}
+
+fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {
     let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
-    lower::lower(&file)
+    let lowered = lower::lower(&file)?;
+    let errors = analysis::errors(&file, &lowered);
+    if errors.is_empty() { Ok((file, lowered)) } else { Err(errors) }
 }
 
 /// The statechart of a policy.

@@ -22,15 +22,28 @@ use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
 use scope::{Meaning, Scope};
 
+/// A program, and what else is known of it once it is written.
+pub(super) struct Lowered {
+    pub(super) program: Program,
+    /// What each state is entered with: names, types and places.
+    pub(super) arguments: Vec<Vec<(String, Value)>>,
+}
+
 /// Checks a file and writes its program.
-pub(super) fn lower(file: &File) -> Result<Program, Vec<Diagnostic>> {
+pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     let program = structure::file(&mut compiler, file);
+    let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
+    states.sort_by_key(|state| state.index);
     let mut diagnostics = compiler.diagnostics;
     diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.code));
     diagnostics.dedup();
     match program {
-        Some(program) if diagnostics.is_empty() => Ok(program),
+        Some(program) if diagnostics.is_empty() => {
+            let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
+            let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
+            Ok(Lowered { program, arguments: arguments.collect() })
+        }
         _ => Err(diagnostics),
     }
 }
