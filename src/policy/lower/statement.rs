@@ -49,7 +49,7 @@ impl<'f> Compiler<'f> {
         if let Some(place) = self.commandless {
             let message = format!("{place} gives no command");
             self.report(
-                Diagnostic::error("P0405", message, span, "a command")
+                Diagnostic::error("P0407", message, span, "a command")
                     .hint("what the state does every tick commands; the tick that enters a state runs that too"),
             );
             return None;
