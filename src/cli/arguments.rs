@@ -24,6 +24,8 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
+    /// Lay out policies, in place
+    Fmt(FmtArguments),
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
 }
@@ -62,6 +64,16 @@ pub(super) struct CheckArguments {
     /// Print only JSON: an array of policies with their diagnostics
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct FmtArguments {
+    /// Policy files; `-` lays out standard input and prints it
+    #[arg(value_name = "POLICY", required = true)]
+    pub(super) policies: Vec<PathBuf>,
+    /// Change nothing: print what would change, and end with status 1 if anything would
+    #[arg(long)]
+    pub(super) check: bool,
 }
 
 #[derive(Debug, Args)]

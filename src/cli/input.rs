@@ -22,6 +22,13 @@ pub(super) fn read(path: &Path) -> Result<Source, Failure> {
     Ok(Source::new(path.display().to_string(), text))
 }
 
+/// Reads standard input.
+pub(super) fn read_standard() -> Result<Source, Failure> {
+    let name = "standard input";
+    let text = std::io::read_to_string(std::io::stdin()).map_err(Failure::read(Path::new(name)))?;
+    Ok(Source::new(name, text))
+}
+
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
     let source = read(path)?;
     let hash = Sha256::new().chain_update(&source.text);

@@ -3,6 +3,7 @@
 mod arguments;
 mod check;
 mod exit;
+mod fmt;
 mod input;
 mod mjcf;
 mod output;
@@ -19,6 +20,7 @@ pub fn main(arguments: &Arguments) -> Exit {
     let done = match &arguments.command {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

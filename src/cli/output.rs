@@ -14,6 +14,11 @@ pub(super) fn result(text: impl Display) {
     let _ = writeln!(stdout(), "{text}");
 }
 
+/// Prints a result that ends its own lines.
+pub(super) fn text(text: impl Display) {
+    let _ = write!(stdout(), "{text}");
+}
+
 /// Prints a result as JSON.
 pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
     result(serde_json::to_string_pretty(value)?);
