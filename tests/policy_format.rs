@@ -260,12 +260,12 @@ proptest! {
         policy in any::<prop::sample::Index>(),
         choices in prop::collection::vec(prop_oneof![3 => Just(0_usize), 3 => Just(1), 2 => 0..BLANKS.len()], 1..400),
     ) {
-        is_laid_out_faithfully(&disturbed(policy.get(&POLICIES), &choices));
+        is_laid_out_faithfully(&disturbed(policy.get::<String>(&POLICIES), &choices));
     }
 
     #[test]
     fn all_on_one_line_is_laid_out_faithfully(policy in any::<prop::sample::Index>()) {
-        let parts = stretches(policy.get(&POLICIES)).into_iter().map(|stretch| match stretch {
+        let parts = stretches(policy.get::<String>(&POLICIES)).into_iter().map(|stretch| match stretch {
             Stretch::Blank(_) => " ".to_owned(),
             Stretch::Comment(_) => String::new(),
             Stretch::Text(text) => text.to_owned(),

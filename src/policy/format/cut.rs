@@ -51,7 +51,7 @@ fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [b
     for line in lines.iter().filter(|line| line.width() > WIDTH) {
         let mut behind = line.tokens.start;
         for place in &structure.places[line.tokens.clone()] {
-            let Some(number) = place.block else { continue };
+            let Some(number) = place.block.filter(|&number| !broken[number]) else { continue };
             let block = structure.blocks[number];
             if block.open >= behind && line.tokens.contains(&block.close) && !block.is_empty() {
                 behind = block.close;
