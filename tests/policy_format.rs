@@ -142,6 +142,14 @@ fn a_text_that_cannot_be_read_is_refused_with_its_faults() {
 }
 
 #[test]
+fn a_text_that_would_become_too_long_to_be_read_is_refused() {
+    let nested = format!("{}hold{}", "if a { ".repeat(60), " }".repeat(60));
+    let states: String = (0..200).map(|index| format!(" state S{index} {{ {nested} }}")).collect();
+    let faults = format(&Source::new("policy.fsm", format!("machine m{states}"))).unwrap_err();
+    assert_eq!(faults.iter().map(|fault| fault.code).collect::<Vec<_>>(), ["P0102"]);
+}
+
+#[test]
 fn a_block_on_one_line_stays_there_as_long_as_it_fits() {
     assert_eq!(items("state S{stop when a->T}"), "state S { stop when a -> T }\n");
     assert_eq!(items("state S{}"), "state S {}\n");

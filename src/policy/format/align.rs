@@ -6,10 +6,10 @@ use super::line::{Kind, Line, WIDTH};
 pub(super) fn align(lines: &mut [Line<'_>]) {
     for mark in ["=", "in"] {
         let column = |line: &Line<'_>, below: Option<&Line<'_>>| assigned(line, below, mark);
-        align_column(lines, column, |line, below| line.pieces[0].text == below.pieces[0].text, |line| line.width());
+        align_column(lines, column, |line, below| line.pieces[0].text == below.pieces[0].text, Line::width);
     }
     let comment = |line: &Line<'_>, _: Option<&Line<'_>>| line.has_comment.then(|| line.pieces.len() - 1);
-    align_column(lines, comment, |line, below| line.indent == below.indent, |line| line.full_width());
+    align_column(lines, comment, |line, below| line.indent == below.indent, Line::full_width);
 }
 
 /// The piece `mark` of a statement on one line that gives a plain name a value; `below` is the line below.
@@ -24,11 +24,11 @@ fn assigned(line: &Line<'_>, below: Option<&Line<'_>>, mark: &str) -> Option<usi
 
 /// Moves the pieces that `column` gives to one column, in every run of lines that have one, are alike to the next and have no
 /// blank line between them. A run of which a line would become too wide is left as it is.
-fn align_column(
-    lines: &mut [Line<'_>],
-    column: impl Fn(&Line<'_>, Option<&Line<'_>>) -> Option<usize>,
-    alike: impl Fn(&Line<'_>, &Line<'_>) -> bool,
-    width: impl Fn(&Line<'_>) -> usize,
+fn align_column<'t>(
+    lines: &mut [Line<'t>],
+    column: impl Fn(&Line<'t>, Option<&Line<'t>>) -> Option<usize>,
+    alike: impl Fn(&Line<'t>, &Line<'t>) -> bool,
+    width: impl Fn(&Line<'t>) -> usize,
 ) {
     let columns: Vec<Option<usize>> =
         lines.iter().enumerate().map(|(index, line)| column(line, lines.get(index + 1))).collect();

@@ -94,17 +94,15 @@ impl<'s, 't> Cutter<'s, 't> {
                 self.parentheses = self.parentheses.saturating_sub(1);
             }
             let neighbour = index.checked_sub(1).map(|index| &places[index]);
-            match neighbour.filter(|neighbour| !self.ends_line(neighbour, place)).zip(self.lines.last_mut()) {
-                Some((neighbour, line)) => {
-                    line.tokens.end = index + 1;
-                    line.has_comment = place.token.kind == TokenKind::Comment;
-                    let blanks = if line.has_comment { 2 } else { usize::from(is_apart(neighbour, place)) };
-                    line.pieces.push(Piece { blanks, text: place.token.text });
-                }
-                None => {
-                    let line = self.line(index, before);
-                    self.lines.push(line);
-                }
+            let on_line = neighbour.filter(|neighbour| !self.ends_line(neighbour, place));
+            if let Some((neighbour, line)) = on_line.zip(self.lines.last_mut()) {
+                line.tokens.end = index + 1;
+                line.has_comment = place.token.kind == TokenKind::Comment;
+                let blanks = if line.has_comment { 2 } else { usize::from(is_apart(neighbour, place)) };
+                line.pieces.push(Piece { blanks, text: place.token.text });
+            } else {
+                let line = self.line(index, before);
+                self.lines.push(line);
             }
             if place.token.is("{") {
                 self.open.extend(place.block);

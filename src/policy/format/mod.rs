@@ -13,14 +13,15 @@ mod statement;
 mod structure;
 mod token;
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::grammar;
 
 /// The text of a policy, laid out by the rules of `docs/language.md`.
 ///
 /// # Errors
-/// The faults of syntax that keep the text from being read. Names, types and units need not be right.
+/// The faults of syntax that keep the text from being read, or that the layout would make the text too long to be read. Names,
+/// types and units need not be right.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::format};
@@ -34,7 +35,20 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     let mut lines = cut::cut(&places);
     line::separate(&mut lines);
     align::align(&mut lines);
-    Ok(line::render(&lines))
+    let text = line::render(&lines);
+    if text.len() > grammar::LENGTH_LIMIT {
+        let everything = Span::new(0, source.text.len());
+        return Err(vec![
+            Diagnostic::error(
+                "P0102",
+                "laid out, the policy would be too long",
+                everything,
+                "indented, this has more bytes than a policy may have",
+            )
+            .hint("nest less, so that lines begin farther to the left"),
+        ]);
+    }
+    Ok(text)
 }
 #[cfg(test)]
 mod tests {

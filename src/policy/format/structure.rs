@@ -103,10 +103,9 @@ fn role(token: &Token<'_>, after_operand: bool) -> Role {
         Kind::Keyword if VALUES.contains(&token.text) => Role::Operand,
         Kind::Keyword | Kind::Comment => Role::Other,
         Kind::Mark => match token.text {
-            "(" | "[" => Role::Opens,
             ")" | "]" => Role::Closes,
             "|" if after_operand => Role::Closes,
-            "|" => Role::Opens,
+            "(" | "[" | "|" => Role::Opens,
             "-" if !after_operand => Role::Prefix,
             _ => Role::Other,
         },
