@@ -2,13 +2,23 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 fn vibrissa(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_vibrissa")).args(arguments).current_dir(ROOT).output().unwrap()
+}
+
+/// The same with a text at its standard input.
+fn vibrissa_reading(arguments: &[&str], text: &str) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
 }
 
 fn stdout(output: &Output) -> String {
@@ -36,7 +46,7 @@ fn directory(name: &str) -> PathBuf {
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "graph", "mjcf"] {
+    for command in ["run", "check", "graph", "fmt", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -122,6 +132,8 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, disk], "both called `disk`"),
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
+        (vec!["fmt"], "POLICY"),
+        (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
         (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
         (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
@@ -131,6 +143,62 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
         assert_eq!(stdout(&output), "", "{arguments:?}");
     }
+}
+
+const UGLY: &str = "machine m\ninitial S\nstate S{stop}\n";
+const LAID_OUT: &str = "machine m\ninitial S\nstate S { stop }\n";
+
+#[test]
+fn fmt_lays_out_files_in_place_and_leaves_alone_those_that_are() {
+    let directory = directory("fmt");
+    let [ugly, laid_out] = ["ugly.fsm", "laid_out.fsm"].map(|name| directory.join(name).display().to_string());
+    std::fs::write(&ugly, UGLY).unwrap();
+    std::fs::write(&laid_out, LAID_OUT).unwrap();
+    let output = vibrissa(&["fmt", &ugly, &laid_out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+    assert_eq!(stderr(&output), format!("formatted {ugly}\n"));
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), LAID_OUT);
+    assert_eq!(std::fs::read_to_string(&laid_out).unwrap(), LAID_OUT);
+}
+
+#[test]
+fn fmt_check_shows_what_would_change_and_changes_nothing() {
+    let directory = directory("fmt_check");
+    let ugly = directory.join("ugly.fsm").display().to_string();
+    std::fs::write(&ugly, UGLY).unwrap();
+    let output = vibrissa(&["fmt", "--check", &ugly]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("\n-state S{stop}\n+state S { stop }\n"), "{}", stdout(&output));
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), UGLY);
+    let output = vibrissa(&["fmt", "--check", "policies/thesis.fsm"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(stdout(&output), "");
+}
+
+#[test]
+fn fmt_reads_standard_input_and_prints() {
+    let output = vibrissa_reading(&["fmt", "-"], UGLY);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), LAID_OUT);
+    let output = vibrissa_reading(&["fmt", "-"], "machine");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("standard input:1:"), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+}
+
+#[test]
+fn fmt_leaves_a_text_that_cannot_be_read_and_goes_on_with_the_others() {
+    let directory = directory("fmt_bad");
+    let [bad, ugly] = ["bad.fsm", "ugly.fsm"].map(|name| directory.join(name).display().to_string());
+    std::fs::write(&bad, "machine   m state {").unwrap();
+    std::fs::write(&ugly, UGLY).unwrap();
+    let output = vibrissa(&["fmt", &bad, &ugly]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains(&format!("{bad}:1:")), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(&bad).unwrap(), "machine   m state {");
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), LAID_OUT);
+    assert_eq!(vibrissa(&["fmt", "--check", &bad, &ugly]).status.code(), Some(2));
 }
 
 #[test]

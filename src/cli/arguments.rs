@@ -26,6 +26,8 @@ pub(super) enum Command {
     Check(CheckArguments),
     /// Draw the statechart of a policy
     Graph(GraphArguments),
+    /// Lay out policies, in place
+    Fmt(FmtArguments),
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
 }
@@ -93,6 +95,17 @@ pub(super) enum ChartFormat {
     Mermaid,
     /// Text for Graphviz
     Dot,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct FmtArguments {
+    /// Policy files; `-` lays out standard input and prints it
+    #[arg(value_name = "POLICY", required = true)]
+    pub(super) policies: Vec<PathBuf>,
+    /// Change nothing: print what would change, and end with status 1 if anything would
+    #[arg(long)]
+    pub(super) check: bool,
 }
 
 #[derive(Debug, Args)]

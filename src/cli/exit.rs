@@ -42,6 +42,8 @@ pub(super) enum Failure {
     Read { path: PathBuf, cause: std::io::Error },
     #[error("cannot write {}: {cause}; choose another place", path.display())]
     Write { path: PathBuf, cause: std::io::Error },
+    #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
+    Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
     #[error("{} names no policy; give one with --policy", scenario.display())]
@@ -71,6 +73,11 @@ impl Failure {
     pub(super) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         |cause| Self::Write { path, cause }
+    }
+
+    pub(super) fn rewrite(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Rewrite { path, cause }
     }
 
     pub(super) fn exit(&self) -> Exit {

@@ -23,14 +23,14 @@ pub(super) struct Loaded<T> {
 }
 
 pub(super) fn read(path: &Path) -> Result<Source, Failure> {
-    let text = read_text(path).map_err(Failure::read(path))?;
+    let text = File::open(path).and_then(read_text).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
 }
 
 /// Reads no more than tells that a file is too large: a device never ends.
-fn read_text(path: &Path) -> Result<String, Error> {
+fn read_text(from: impl Read) -> Result<String, Error> {
     let mut bytes = Vec::new();
-    let count = File::open(path)?.take(SIZE_LIMIT + 1).read_to_end(&mut bytes)?;
+    let count = from.take(SIZE_LIMIT + 1).read_to_end(&mut bytes)?;
     let unusable = |cause| Error::new(ErrorKind::InvalidData, cause);
     if count as u64 > SIZE_LIMIT {
         return Err(unusable(
@@ -38,6 +38,13 @@ fn read_text(path: &Path) -> Result<String, Error> {
         ));
     }
     String::from_utf8(bytes).map_err(|_| unusable("it is not UTF-8 text; save it as UTF-8, or is it the wrong file?"))
+}
+
+/// Reads standard input.
+pub(super) fn read_standard() -> Result<Source, Failure> {
+    let name = "standard input";
+    let text = read_text(std::io::stdin().lock()).map_err(Failure::read(Path::new(name)))?;
+    Ok(Source::new(name, text))
 }
 
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {

@@ -3,6 +3,7 @@
 mod arguments;
 mod check;
 mod exit;
+mod fmt;
 mod graph;
 mod input;
 mod mjcf;
@@ -21,6 +22,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
+        Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

@@ -9,9 +9,14 @@ use crate::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 use super::exit::Failure;
 
-/// Prints a result. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+/// Prints a result and ends its line.
 pub(super) fn result(text: impl Display) -> Result<(), Failure> {
-    match writeln!(stdout(), "{text}") {
+    self::text(format_args!("{text}\n"))
+}
+
+/// Prints a text as it is. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+pub(super) fn text(text: impl Display) -> Result<(), Failure> {
+    match write!(stdout(), "{text}") {
         Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Print(cause)),
         _ => Ok(()),
     }

@@ -140,4 +140,14 @@ mod tests {
             assert!(page.contains(&format!("`{name}`")), "{name}");
         }
     }
+
+    #[test]
+    fn the_editors_grammar_lists_the_functions_and_types_of_the_language() {
+        let grammar = include_str!("../../editors/vscode/syntaxes/fsm.tmLanguage.json");
+        let list =
+            |words: &mut dyn Iterator<Item = &'static str>| format!(r"\\b({})\\b", words.collect::<Vec<_>>().join("|"));
+        assert!(grammar.contains(&list(&mut FUNCTIONS.iter().map(|&(name, ..)| name))));
+        let types = ["truth", "vector"].into_iter().chain(super::super::types::DIMENSIONS.map(|(name, _)| name));
+        assert!(grammar.contains(&list(&mut { types })));
+    }
 }

@@ -1,19 +1,23 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
-//! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant. `builtins` is the one table of what the language offers, `docs/language.md`
+//! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
+//! out. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
 mod analysis;
 mod ast;
 mod builtins;
 pub mod chart;
+mod format;
 mod grammar;
 mod hint;
 mod lower;
 mod parse;
 mod syntax_error;
 mod types;
+
+pub use format::format;
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::Program;
