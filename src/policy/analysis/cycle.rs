@@ -42,7 +42,9 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         };
         if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {
             let witness = search.describe_such(&goals, point, Some(&fails));
-            path.iter().for_each(|&(state, _)| told[state] = true);
+            for &(state, _) in path {
+                told[state] = true;
+            }
             faults.push(fault(model, path, &witness));
         }
     }
