@@ -25,10 +25,10 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
     }
     let program = Arc::new(model.program.clone());
     let mut search = Search::new(model);
-    let mut told: Vec<&Edge<'_>> = Vec::new();
+    let mut told = vec![false; model.states.len()];
     for path in &found {
-        // A cycle with a transition of one that was told would only tell the same again.
-        if path.iter().any(|(_, edge)| told.iter().any(|told| std::ptr::eq(*told, *edge))) {
+        // A cycle of states that were told would say little more.
+        if path.iter().all(|&(state, _)| told[state]) {
             continue;
         }
         let goals: Vec<Goal<'_>> = path.iter().filter_map(|(_, edge)| edge.condition()).map(Goal::holds).collect();
@@ -40,9 +40,11 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
                 matches!(machine.failure(), Some(Failure::Chain { .. }))
             }
         };
-        if let Found::Witness(point) = search.find_such(&goals, fails) {
-            let witness = search.describe_such(&goals, point, fails);
-            told.extend(path.iter().map(|(_, edge)| *edge));
+        if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {
+            let witness = search.describe_such(&goals, point, Some(&fails));
+            for &(state, _) in path {
+                told[state] = true;
+            }
             faults.push(fault(model, path, &witness));
         }
     }

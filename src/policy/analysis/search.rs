@@ -13,6 +13,8 @@ use super::unknown::Unknown;
 
 /// Regions that one search looks at.
 const REGION_LIMIT: usize = 400;
+/// What looking at a region costs besides its operations, in operations.
+const REGION_WORK: usize = 50;
 /// Operations that all searches of a policy may evaluate together, so that no policy takes long.
 const WORK_LIMIT: usize = 1_000_000;
 
@@ -32,6 +34,9 @@ impl<'a> Goal<'a> {
         Self { condition, wanted: false }
     }
 }
+
+/// Accepts a point, given the registers of a machine there; it may run the program once.
+pub(super) type Accept<'a> = dyn Fn(&Point, Vec<f64>) -> bool + 'a;
 
 /// What a search found.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,15 +68,16 @@ impl<'m> Search<'m> {
 
     /// Looks for a point at which every goal is met.
     pub(super) fn find(&mut self, goals: &[Goal<'_>]) -> Found {
-        self.find_such(goals, |_, _| true)
+        self.find_such(goals, None)
     }
 
-    /// Looks for a point at which every goal is met and that is accepted with a machine's registers there.
-    pub(super) fn find_such(&mut self, goals: &[Goal<'_>], accept: impl Fn(&Point, Vec<f64>) -> bool) -> Found {
+    /// Looks for a point at which every goal is met and that is accepted, if that is asked for.
+    pub(super) fn find_such(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Found {
         let mut open = VecDeque::from([Region::whole(self.model)]);
         let (mut looked_at, mut is_unclear) = (0, false);
         while let Some(mut region) = open.pop_front() {
             looked_at += 1;
+            self.bounds.work += REGION_WORK;
             if looked_at > REGION_LIMIT || self.is_exhausted() {
                 return Found::Unclear;
             }
@@ -82,7 +88,7 @@ impl<'m> Search<'m> {
             if !region.is_partial {
                 for choice in [Choice::Plain, Choice::Inside, Choice::Middle, Choice::Low, Choice::High] {
                     let point = Point::of(&region, self.model, choice);
-                    if self.meets(goals, &point) && accept(&point, self.registers(&point)) {
+                    if self.meets(goals, &point) && self.accepts(&point, accept) {
                         return Found::Witness(point);
                     }
                 }
@@ -108,6 +114,13 @@ impl<'m> Search<'m> {
         });
         self.leave(point);
         met
+    }
+
+    /// Whether a point is accepted, if that is asked for.
+    pub(super) fn accepts(&mut self, point: &Point, accept: Option<&Accept<'_>>) -> bool {
+        let Some(accept) = accept else { return true };
+        self.bounds.work += self.model.program.code.len();
+        accept(point, self.registers(point))
     }
 
     /// The registers of a machine at a point.

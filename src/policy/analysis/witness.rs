@@ -7,7 +7,7 @@ use crate::units::{Dimension, format_si, parse_quantity};
 
 use super::model::Model;
 use super::point::{Point, Reading, plainest};
-use super::search::{Goal, Search};
+use super::search::{Accept, Goal, Search};
 use super::unknown::{Domain, Unknown};
 
 /// Halvings on the way to the plainest value that still does.
@@ -17,16 +17,11 @@ impl Search<'_> {
     /// A witness in words: `r0.touching = true, r0.deflection = 950 urad`. Its values are as plain as they can be for the
     /// goals still to be met, and are exactly those shown.
     pub(super) fn describe(&mut self, goals: &[Goal<'_>], point: Point) -> String {
-        self.describe_such(goals, point, |_, _| true)
+        self.describe_such(goals, point, None)
     }
 
-    /// The same for a witness that is also accepted with a machine's registers there.
-    pub(super) fn describe_such(
-        &mut self,
-        goals: &[Goal<'_>],
-        point: Point,
-        accept: impl Fn(&Point, Vec<f64>) -> bool,
-    ) -> String {
+    /// The same for a witness that is also accepted, if that is asked for.
+    pub(super) fn describe_such(&mut self, goals: &[Goal<'_>], point: Point, accept: Option<&Accept<'_>>) -> String {
         let point = self.plainer(goals, point, accept);
         let (model, program) = (self.model, self.model.program);
         // What the conditions that hold read is what counts, in the order in which they read it.
@@ -42,7 +37,7 @@ impl Search<'_> {
     }
 
     /// The same point with every value as plain as it can be for the goals still to be met.
-    fn plainer(&mut self, goals: &[Goal<'_>], mut point: Point, accept: impl Fn(&Point, Vec<f64>) -> bool) -> Point {
+    fn plainer(&mut self, goals: &[Goal<'_>], mut point: Point, accept: Option<&Accept<'_>>) -> Point {
         // Twice, since one value may have to wait for another to become plain first.
         for (unknown, _) in [point.values(), point.values()].concat() {
             let value = point.value(unknown);
@@ -56,7 +51,7 @@ impl Search<'_> {
             let mut meets = |value: f64| {
                 let mut moved = point.clone();
                 moved.set(unknown, value);
-                self.meets(goals, &moved) && accept(&moved, self.registers(&moved))
+                !self.is_exhausted() && self.meets(goals, &moved) && self.accepts(&moved, accept)
             };
             let Domain::Range(range) = domain else {
                 if meets(plain) {
