@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa::percept::{Equilibrium, ShaftChain, TipModel};
+use vibrissa::percept::{Equilibrium, ShaftChain, TipModel, TipModelError};
 use vibrissa::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
@@ -267,16 +267,36 @@ proptest! {
 
     #[test]
     fn any_sensible_whisker_has_a_tip_model(
-        length in 0.02..0.3_f64, radius in 0.03e-3..1e-3_f64, links in 2_usize..64, ratio in 20.0..1e6_f64,
-        degrees in -180.0..180.0_f64,
+        length in 0.02..0.3_f64, radius in 0.03e-3..1e-3_f64, links in 4_usize..64, ratio in 20.0..1e6_f64,
+        sweep in prop_oneof![5.0..60.0_f64, -60.0..-5.0_f64], side in prop_oneof![Just(1.0), Just(-1.0)],
     ) {
         let mut whisker = with_links(links);
         (whisker.shaft.length, whisker.shaft.radius) = (length, radius);
         whisker.hinge.stiffness = ratio * whisker.shaft.bending_stiffness() / length;
-        whisker.direction_body = degrees.to_radians();
+        whisker.direction_body = side * (90.0 + sweep).to_radians();
         let model = TipModel::new(&whisker);
         prop_assert!(model.is_ok(), "{:?}", model.err());
         let straight = model.unwrap().contact_base(0.0);
         prop_assert!((straight.x - length).abs() <= 1.001 * radius);
+    }
+}
+
+/// It may buckle either way.
+#[test]
+fn a_whisker_straight_across_the_platform_has_none_and_the_error_says_what_to_do() {
+    for degrees in [90.0, -90.0, 94.0, 86.0_f64] {
+        let whisker = Whisker { direction_body: degrees.to_radians(), ..left() };
+        let error = TipModel::new(&whisker).unwrap_err();
+        assert!(matches!(&error, TipModelError::HeadOn { .. }) && error.to_string().contains("sweep it"), "{error}");
+    }
+}
+
+/// In the frame of the base, what bends one back bends the other forward.
+#[test]
+fn whiskers_swept_forward_and_back_by_the_same_angle_have_the_same_model() {
+    let [back, forward] = [105.0, 75.0_f64]
+        .map(|degrees| TipModel::new(&Whisker { direction_body: degrees.to_radians(), ..left() }).unwrap());
+    for base_angle in [-5e-4, -1e-5, 0.0, 1e-4, 3e-4] {
+        assert!((back.contact_base(base_angle) - forward.contact_base(base_angle)).norm() < 1e-12);
     }
 }
