@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, OffsetError, Point2, circle, polygon, regular_polygon, rounded_rectangle};
+use vibrissa::geometry::{Contour, OffsetError, OffsetError, Point2, circle, polygon, regular_polygon, rounded_rectangle};
 
 use crate::{oracle, random};
 
@@ -30,6 +30,8 @@ fn at_free_end(contour: &Contour, point: Point2) -> bool {
 fn check(contour: &Contour, distance: f64, points: &[Point2]) -> Result<(), TestCaseError> {
     let found = match contour.offset(distance) {
         Ok(found) => found,
+        // As documented, at one distance in many thousands; the property needs its number of sound ones all the same.
+        Err(error @ OffsetError::Unsound { .. }) => return Err(TestCaseError::reject(error.to_string())),
         Err(error) => return Err(TestCaseError::fail(format!("{error}"))),
     };
     for parallel in &found {
