@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::diagnostic::{Diagnostic, Source};
-use crate::machine::SetError;
+use crate::machine::{ArtifactError, SetError};
 use crate::scene::SolidError;
 use crate::study::ExecuteError;
 
@@ -39,10 +39,14 @@ impl From<Exit> for ExitCode {
 pub(super) enum Failure {
     #[error("cannot read {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}; choose another directory with --out", path.display())]
+    #[error("cannot write {}: {cause}; choose another place with --out", path.display())]
     Write { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
+    #[error("{}: {cause}", path.display())]
+    Artifact { path: PathBuf, cause: ArtifactError },
+    #[error("{} would overwrite what it is made from; choose another place with --out", path.display())]
+    OntoItself { path: PathBuf },
     #[error("{} names no policy; give one with --policy", scenario.display())]
     NoPolicy { scenario: PathBuf },
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
@@ -66,6 +70,11 @@ impl Failure {
     pub(super) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         |cause| Self::Write { path, cause }
+    }
+
+    pub(super) fn artifact(path: &Path) -> impl FnOnce(ArtifactError) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Artifact { path, cause }
     }
 
     pub(super) fn exit(&self) -> Exit {

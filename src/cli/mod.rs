@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod compile;
 mod exit;
 mod input;
 mod mjcf;
@@ -19,6 +20,7 @@ pub fn main(arguments: &Arguments) -> Exit {
     let done = match &arguments.command {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::Compile(arguments) => compile::compile(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

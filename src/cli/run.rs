@@ -82,7 +82,7 @@ fn job(path: &Path, arguments: &RunArguments) -> Result<Job, Failure> {
         (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
     };
     let policy = input::policy(&policy_path)?;
-    let (mut program, mut policy_hash) = (policy.value, policy.hash);
+    let (mut program, mut policy_hash) = (policy.value.program, policy.hash);
     for setting in &arguments.settings {
         program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
         policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));

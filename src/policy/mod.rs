@@ -4,6 +4,7 @@
 //! types and units and writes the machine's code. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
+mod artifact;
 mod ast;
 mod builtins;
 mod grammar;
@@ -15,6 +16,8 @@ mod types;
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::Program;
+
+pub use artifact::compile_to_artifact;
 
 /// Compiles the text of a policy.
 ///
