@@ -59,7 +59,9 @@ pub enum ArtifactError {
     #[error("this is no compiled machine; make one from a policy with `vibrissa compile`")]
     NotAnArtifact,
     /// It is in another format.
-    #[error("the machine is in format {found}, this program reads format {FORMAT}; compile the policy with this program")]
+    #[error(
+        "the machine is in format {found}, this program reads format {FORMAT}; compile the policy with this program"
+    )]
     Format {
         /// The format's number.
         found: u32,

@@ -16,7 +16,8 @@ pub const REGISTER_LIMIT: usize = 60_000;
 /// A compiled policy.
 ///
 /// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
-/// them out; [`Program::image`] is what they hold at the start of a run.
+/// them out; [`Program::image`] is what they hold at the start of a run. A program that does not come from the compiler or an
+/// [`Artifact`](super::Artifact) is safe to run if it passes [`Program::verify`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Program {
     /// The machine's name.

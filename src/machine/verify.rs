@@ -64,6 +64,9 @@ pub enum Unsound {
     /// A register that is read as a whisker can hold something else.
     #[error("its register {0} is read as a whisker, but can hold something else")]
     Whisker(Register),
+    /// Whiskers are read, and none is bound.
+    #[error("it reads whiskers, but binds none; bind one, as in `whisker r0`")]
+    NoWhisker,
     /// The code changes a parameter.
     #[error("its code changes the parameter `{0}`")]
     ParameterWritten(String),
@@ -80,7 +83,7 @@ pub enum Unsound {
     #[error("the name `{0}` is given twice")]
     SameName(String),
     /// A reason for a failure is not one line of plain text.
-    #[error("the reason {0:?} has characters that cannot be shown")]
+    #[error("the reason {0:?} has characters that cannot be shown; reword it")]
     Reason(String),
 }
 
@@ -89,10 +92,11 @@ impl Program {
     ///
     /// A program that passes does no more work in a tick than its code is long, for each transition taken, and touches only
     /// registers, states, timers and whiskers that there are; its parameters stay what they were set to. That its commands are
-    /// finite is up to [`Machine::tick`](super::Machine::tick), that they are bounded up to the rig.
+    /// finite is seen to by [`Machine::tick`](super::Machine::tick), that they are bounded by steering.
     ///
     /// # Errors
-    /// [`Unsound`] with the first thing that is wrong. No policy that compiles gives such a program.
+    /// [`Unsound`] with the first thing that is wrong. Of the policies that compile, two kinds give such a program: one
+    /// with a state for a whisker and no whisker, and one with a control character in a reason.
     pub fn verify(&self) -> Result<(), Unsound> {
         // Taken apart, so that a field that is new is not forgotten.
         let Self { name, whiskers, parameters, states, initial, always, code, image, timers: _ } = self;
@@ -167,9 +171,7 @@ impl Program {
         }
         match &transition.target {
             Target::State { state, .. } => within("state", *state, self.states.len()),
-            Target::Failure(reason) if reason.chars().any(char::is_control) => {
-                Err(Unsound::Reason(reason.to_string()))
-            }
+            Target::Failure(reason) if reason.chars().any(char::is_control) => Err(Unsound::Reason(reason.to_string())),
             Target::Failure(_) => Ok(()),
         }
     }
@@ -247,6 +249,9 @@ impl Program {
             if whiskers.insert(register) {
                 pending.extend(copied_from.get(&register).into_iter().flatten());
             }
+        }
+        if self.whiskers.is_empty() && !whiskers.is_empty() {
+            return Err(Unsound::NoWhisker);
         }
         for &register in &whiskers {
             let index = self.image[usize::from(register)];
