@@ -2,13 +2,23 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 fn vibrissa(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_vibrissa")).args(arguments).current_dir(ROOT).output().unwrap()
+}
+
+/// The same with a text at its standard input.
+fn vibrissa_reading(arguments: &[&str], text: &str) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
 }
 
 fn stdout(output: &Output) -> String {
@@ -19,6 +29,12 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
+fn bad(kind: &str) -> Vec<String> {
+    let directory = Path::new(ROOT).join("tests/fixtures").join(kind).join("bad");
+    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|file| file.extension().is_some()).map(|file| file.display().to_string()).collect()
+}
+
 /// A directory of its own for one test, emptied before.
 fn directory(name: &str) -> PathBuf {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -27,16 +43,10 @@ fn directory(name: &str) -> PathBuf {
     directory
 }
 
-fn bad(kind: &str) -> Vec<String> {
-    let directory = Path::new(ROOT).join("tests/fixtures").join(kind).join("bad");
-    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
-    files.filter(|file| file.extension().is_some()).map(|file| file.display().to_string()).collect()
-}
-
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "compile", "mjcf"] {
+    for command in ["run", "check", "compile", "graph", "fmt", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -69,6 +79,34 @@ fn every_malformed_policy_is_refused_with_a_place_and_exit_status_2() {
 }
 
 #[test]
+fn warnings_are_shown_and_refused_on_demand() {
+    let warned = "tests/fixtures/policies/warn/overlap_of_touches.fsm";
+    let output = vibrissa(&["check", warned]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("warning[P0512]") && stderr(&output).contains(&format!("{warned}:10:8")));
+    assert!(stdout(&output).contains("Exploring"), "what the policy consists of is told all the same");
+    let output = vibrissa(&["check", warned, "--deny-warnings", "--json"]);
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(2), ""));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(checked[0]["diagnostics"][0]["severity"], "warning");
+    assert_eq!(checked[0]["machine"]["name"], "warned");
+    assert_eq!(vibrissa(&["check", "policies/thesis.fsm", "--deny-warnings"]).status.code(), Some(0));
+}
+
+#[test]
+fn run_tells_the_warnings_of_a_policy_once() {
+    let directory = directory("warned");
+    let other = directory.join("other.yaml").display().to_string();
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    std::fs::write(&other, disk.replace("name: disk", "name: other")).unwrap();
+    let warned = "tests/fixtures/policies/warn/parameter_never_used.fsm";
+    // No run is needed to see them: a setting that does not exist ends the command before.
+    let output = vibrissa(&["run", "scenarios/disk.yaml", &other, "--policy", warned, "--set", "nothing=1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
+}
+
+#[test]
 fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
     let files = bad("scenarios");
     assert!(files.len() >= 20);
@@ -94,13 +132,73 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, disk], "both called `disk`"),
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
+        (vec!["fmt"], "POLICY"),
+        (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+        (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
+        (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
     ] {
         let output = vibrissa(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
         assert_eq!(stdout(&output), "", "{arguments:?}");
     }
+}
+
+const UGLY: &str = "machine m\ninitial S\nstate S{stop}\n";
+const LAID_OUT: &str = "machine m\ninitial S\nstate S { stop }\n";
+
+#[test]
+fn fmt_lays_out_files_in_place_and_leaves_alone_those_that_are() {
+    let directory = directory("fmt");
+    let [ugly, laid_out] = ["ugly.fsm", "laid_out.fsm"].map(|name| directory.join(name).display().to_string());
+    std::fs::write(&ugly, UGLY).unwrap();
+    std::fs::write(&laid_out, LAID_OUT).unwrap();
+    let output = vibrissa(&["fmt", &ugly, &laid_out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+    assert_eq!(stderr(&output), format!("formatted {ugly}\n"));
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), LAID_OUT);
+    assert_eq!(std::fs::read_to_string(&laid_out).unwrap(), LAID_OUT);
+}
+
+#[test]
+fn fmt_check_shows_what_would_change_and_changes_nothing() {
+    let directory = directory("fmt_check");
+    let ugly = directory.join("ugly.fsm").display().to_string();
+    std::fs::write(&ugly, UGLY).unwrap();
+    let output = vibrissa(&["fmt", "--check", &ugly]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("\n-state S{stop}\n+state S { stop }\n"), "{}", stdout(&output));
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), UGLY);
+    let output = vibrissa(&["fmt", "--check", "policies/thesis.fsm"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(stdout(&output), "");
+}
+
+#[test]
+fn fmt_reads_standard_input_and_prints() {
+    let output = vibrissa_reading(&["fmt", "-"], UGLY);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), LAID_OUT);
+    let output = vibrissa_reading(&["fmt", "-"], "machine");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("standard input:1:"), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+}
+
+#[test]
+fn fmt_leaves_a_text_that_cannot_be_read_and_goes_on_with_the_others() {
+    let directory = directory("fmt_bad");
+    let [bad, ugly] = ["bad.fsm", "ugly.fsm"].map(|name| directory.join(name).display().to_string());
+    std::fs::write(&bad, "machine   m state {").unwrap();
+    std::fs::write(&ugly, UGLY).unwrap();
+    let output = vibrissa(&["fmt", &bad, &ugly]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains(&format!("{bad}:1:")), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(&bad).unwrap(), "machine   m state {");
+    assert_eq!(std::fs::read_to_string(&ugly).unwrap(), LAID_OUT);
+    assert_eq!(vibrissa(&["fmt", "--check", &bad, &ugly]).status.code(), Some(2));
 }
 
 #[test]
@@ -170,6 +268,33 @@ fn what_cannot_be_compiled_or_is_no_sound_machine_is_refused() {
         assert_eq!(stdout(&output), "", "{arguments:?}");
     }
     assert_eq!(std::fs::read(&cut).unwrap().len(), bytes.len() - 1, "nothing is written that is at fault");
+}
+
+#[test]
+fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_status_2() {
+    for (file, expected) in [("/dev/zero", "larger than 1 MiB"), ("tests/fixtures/latin1.txt", "not UTF-8")] {
+        for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
+            let output = vibrissa(&arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            let message = stderr(&output);
+            assert!(message.contains(&format!("cannot read {file}")) && message.contains(expected), "{message}");
+        }
+    }
+}
+
+#[test]
+fn graph_prints_or_writes_a_statechart() {
+    for (format, beginning) in [("svg", "<svg"), ("mermaid", "stateDiagram-v2\n"), ("dot", "digraph \"thesis\" {\n")] {
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let printed = stdout(&output);
+        assert!(printed.starts_with(beginning) && printed.contains("Swiping"), "{printed}");
+        let file = directory("graph").join("chart").display().to_string();
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format, "-o", &file]);
+        assert_eq!((output.status.code(), stdout(&output)), (Some(0), String::new()));
+        assert_eq!(std::fs::read_to_string(file).unwrap(), printed);
+    }
+    assert!(stdout(&vibrissa(&["graph", "policies/thesis.fsm"])).starts_with("<svg"));
 }
 
 #[test]
@@ -286,5 +411,4 @@ fn a_build_without_the_simulator_says_so() {
     let output = vibrissa(&["run", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
-    let _ = directory("unused");
 }

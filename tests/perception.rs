@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use nalgebra::Matrix2;
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::percept::{ContourSpline, LowPass};
+use vibrissa::percept::{LocalContour, LowPass};
 
 /// The amplitude that a filter gives a sine of unit amplitude at `frequency`, once it has settled: that of the sine which
 /// fits its output best.
@@ -76,8 +76,8 @@ fn a_cutoff_that_no_filter_can_have_is_an_error() {
     assert_eq!(message, "a filter for samples at 300 Hz needs a cutoff above 0 Hz and below 150 Hz, not 150 Hz");
 }
 
-fn spline(points: impl IntoIterator<Item = Point2>) -> ContourSpline {
-    let mut spline = ContourSpline::default();
+fn spline(points: impl IntoIterator<Item = Point2>) -> LocalContour {
+    let mut spline = LocalContour::default();
     points.into_iter().for_each(|point| spline.add(point));
     spline
 }
@@ -157,7 +157,7 @@ fn halving_the_spacing_brings_a_round_contour_four_times_nearer() {
 
 #[test]
 fn points_that_are_too_near_are_left_out_and_seven_make_a_curve() {
-    let mut spline = ContourSpline::default();
+    let mut spline = LocalContour::default();
     for index in 0..65 {
         spline.add(Point2::new(1e-4 * f64::from(index), 0.0));
         assert_eq!(spline.is_ready(), index >= 60 && spline.newest().unwrap().x > 5.9e-3, "{index}");

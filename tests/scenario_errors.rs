@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
+use vibrissa::diagnostic::{Colour, Diagnostic, FAULT_LIMIT, Severity, Source, terminal};
 use vibrissa::scene::Scene;
 
 const DISK: &str = include_str!("../scenarios/disk.yaml");
@@ -11,13 +11,17 @@ fn faults(text: &str) -> Vec<Diagnostic> {
     Scene::from_yaml(&Source::new("scenario.yaml", text)).err().unwrap_or_default()
 }
 
-#[test]
-fn every_malformed_scenario_is_answered_as_reviewed() {
+fn snapshots() -> insta::Settings {
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path("../snapshots/scenarios");
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    settings.bind(|| {
+    settings
+}
+
+#[test]
+fn every_malformed_scenario_is_answered_as_reviewed() {
+    snapshots().bind(|| {
         insta::glob!("fixtures/scenarios/bad/*.yaml", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
@@ -31,7 +35,7 @@ fn every_malformed_scenario_is_answered_as_reviewed() {
 fn is_answered(text: &str) -> Result<(), TestCaseError> {
     let source = Source::new("scenario.yaml", text);
     if let Err(faults) = Scene::from_yaml(&source) {
-        prop_assert!(!faults.is_empty());
+        prop_assert!(!faults.is_empty() && faults.len() <= FAULT_LIMIT);
         for fault in &faults {
             prop_assert_eq!(fault.severity, Severity::Error);
             prop_assert!(!fault.hints.is_empty(), "no advice: {:?}", fault);
@@ -82,7 +86,35 @@ fn independent_faults_are_told_together_and_in_the_order_of_the_text() {
 }
 
 #[test]
-fn a_large_file_is_refused_without_reading_it() {
+fn a_large_text_is_refused_whatever_is_in_it() {
     let faults = faults(&"# a comment\n".repeat(100_000));
     assert_eq!(faults.first().map(|fault| fault.code), Some("S0005"));
+}
+
+/// The disk's scenario with a polygon of these vertices in its place, each on a line of its own.
+fn with_polygon(vertices: impl Iterator<Item = String>) -> Source {
+    let lines = vertices.fold(String::new(), |lines, vertex| lines + "      - " + &vertex + "\n");
+    let disk = "  circle: {centre: [0.4 m, 0.4 m], radius: 0.3 m}\n";
+    assert!(DISK.contains(disk));
+    Source::new("scenario.yaml", DISK.replace(disk, &format!("  polygon:\n    vertices:\n{lines}")))
+}
+
+#[test]
+fn a_polygon_of_too_many_corners_is_answered_as_reviewed() {
+    let sides = 2100;
+    let source = with_polygon((0..sides).map(|corner| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(sides)).sin_cos();
+        format!("[{} m, {} m]", 0.4 + 0.3 * cos, 0.4 + 0.3 * sin)
+    }));
+    let faults = Scene::from_yaml(&source).unwrap_err();
+    snapshots().bind(|| insta::assert_snapshot!("too_many_corners", terminal(&source, &faults, Colour::Plain)));
+}
+
+#[test]
+fn of_a_great_many_faults_some_are_told() {
+    let source = with_polygon((0..16_000).map(|_| "[1, 2]".to_owned()));
+    let faults = Scene::from_yaml(&source).unwrap_err();
+    assert_eq!(faults.len(), FAULT_LIMIT);
+    assert!(faults.iter().all(|fault| fault.code == "S0201"));
+    assert!(terminal(&source, &faults, Colour::Plain).len() < 50_000);
 }

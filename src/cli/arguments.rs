@@ -26,6 +26,10 @@ pub(super) enum Command {
     Check(CheckArguments),
     /// Compile a policy into a file that runs without its text
     Compile(CompileArguments),
+    /// Draw the statechart of a policy
+    Graph(GraphArguments),
+    /// Lay out policies, in place
+    Fmt(FmtArguments),
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
 }
@@ -39,13 +43,13 @@ pub(super) struct RunArguments {
     /// Policy, or compiled machine, to run instead of the policy that a scenario names
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
-    /// Set a parameter of the policy, with its unit: --set "speed=20 mm/s"
+    /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     pub(super) settings: Vec<Setting>,
     /// World to run in
     #[arg(long, value_enum, default_value_t = World::Mujoco)]
     pub(super) world: World,
-    /// Seed of the sensors' noise instead of the scenario's
+    /// Seed of the sensors' noise instead of the scenario's; it matters only to a rig with noise
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u64>,
     /// Write a picture and the result of every run into this directory
@@ -57,16 +61,21 @@ pub(super) struct RunArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct CheckArguments {
     /// Policy files or compiled machines
     #[arg(value_name = "POLICY", required = true)]
     pub(super) policies: Vec<PathBuf>,
+    /// Take warnings for errors: exit status 2
+    #[arg(long)]
+    pub(super) deny_warnings: bool,
     /// Print only JSON: an array of policies with their diagnostics
     #[arg(long)]
     pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct CompileArguments {
     /// Policy file, or a compiled machine to set parameters of
     #[arg(value_name = "POLICY")]
@@ -74,12 +83,49 @@ pub(super) struct CompileArguments {
     /// File to write, usually NAME.machine
     #[arg(short, long, value_name = "FILE")]
     pub(super) out: PathBuf,
-    /// Set a parameter of the policy for good, with its unit: --set "speed=20 mm/s"
+    /// Set a parameter of the policy for good, with its unit: --set "speed=80 mm/s"
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     pub(super) settings: Vec<Setting>,
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct GraphArguments {
+    /// Policy file
+    #[arg(value_name = "POLICY")]
+    pub(super) policy: PathBuf,
+    /// Format of the statechart
+    #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
+    pub(super) format: ChartFormat,
+    /// Write it into this file instead of printing it
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// The formats of a statechart.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum ChartFormat {
+    /// A picture
+    Svg,
+    /// Text for Mermaid, which many pages that show Markdown draw
+    Mermaid,
+    /// Text for Graphviz
+    Dot,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct FmtArguments {
+    /// Policy files; `-` lays out standard input and prints it
+    #[arg(value_name = "POLICY", required = true)]
+    pub(super) policies: Vec<PathBuf>,
+    /// Change nothing: print what would change, and end with status 1 if anything would
+    #[arg(long)]
+    pub(super) check: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct MjcfArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
@@ -109,7 +155,7 @@ pub(super) struct Setting {
 }
 
 fn parse_setting(text: &str) -> Result<Setting, String> {
-    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=20 mm/s\"")?;
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
     let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     Ok(Setting { name: name.trim().to_owned(), value })
 }

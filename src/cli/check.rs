@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::diagnostic::{Position, Record, records};
 use crate::machine::{Artifact, FORMAT, State};
-use crate::policy::compile_to_artifact;
+use crate::policy::compile_with_warnings;
 use crate::units::format_si;
 
 use super::arguments::CheckArguments;
@@ -69,34 +69,36 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&checked)?;
     }
-    Ok(if checked.iter().any(|policy| policy.machine.is_none()) { Exit::Unusable } else { Exit::Done })
+    let is_refused =
+        |policy: &Checked| policy.machine.is_none() || (arguments.deny_warnings && !policy.diagnostics.is_empty());
+    Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
 }
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
     let source = match input::policy_file(path)?.value {
         PolicyFile::Text(source) => source,
-        PolicyFile::Machine(artifact) => return Ok(check_machine(path, &artifact, json)),
+        PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
-    let (machine, faults) = match compile_to_artifact(&source) {
-        Ok(artifact) => (Some(summary(&artifact)), Vec::new()),
+    let (machine, diagnostics) = match compile_with_warnings(&source) {
+        Ok(compiled) => (Some(summary(&compiled.artifact)), compiled.warnings),
         Err(faults) => (None, faults),
     };
     if !json {
-        output::faults(&source, &faults);
+        output::diagnostics(&source, &diagnostics);
         if let Some(machine) = &machine {
-            output::result(describe(&source.name, machine));
+            output::result(describe(&source.name, machine))?;
         }
     }
-    Ok(Checked { file: source.name.clone(), machine, compiled: None, diagnostics: records(&source, &faults) })
+    Ok(Checked { file: source.name.clone(), machine, compiled: None, diagnostics: records(&source, &diagnostics) })
 }
 
-fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Checked {
+fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
     let file = path.display().to_string();
     let machine = summary(artifact);
     let origin = &artifact.origin;
     if !json {
-        output::result(describe(&file, &machine));
-        output::result(format_args!("compiled from {} by vibrissa {}", origin.file, origin.compiler));
+        output::result(describe(&file, &machine))?;
+        output::result(format_args!("compiled from {} by vibrissa {}", origin.file, origin.compiler))?;
     }
     let compiled = Compiled {
         file: origin.file.clone(),
@@ -104,7 +106,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Checked {
         compiler: origin.compiler.clone(),
         format: FORMAT,
     };
-    Checked { file, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() }
+    Ok(Checked { file, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() })
 }
 
 fn summary(artifact: &Artifact) -> Summary {

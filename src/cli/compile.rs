@@ -2,11 +2,15 @@
 
 use super::arguments::CompileArguments;
 use super::exit::{Exit, Failure};
+use super::input::Policy;
 use super::{input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let (policy, out) = (&arguments.policy, &arguments.out);
-    let mut artifact = input::policy(policy)?.value;
+    let Policy { mut artifact, warned } = input::policy(policy)?.value;
+    if let Some((source, warnings)) = &warned {
+        output::diagnostics(source, warnings);
+    }
     for setting in &arguments.settings {
         artifact.program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
     }
@@ -18,6 +22,6 @@ pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     }
     std::fs::write(out, &bytes).map_err(Failure::write(out))?;
     let (machine, size) = (&artifact.program.name, bytes.len());
-    output::result(format_args!("{}: machine {machine}, {size} bytes", out.display()));
+    output::result(format_args!("{}: machine {machine}, {size} bytes", out.display()))?;
     Ok(Exit::Done)
 }

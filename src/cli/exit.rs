@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ArtifactError, SetError};
+use crate::report::ChartTooLarge;
 use crate::scene::SolidError;
 use crate::study::ExecuteError;
 
@@ -39,8 +40,10 @@ impl From<Exit> for ExitCode {
 pub(super) enum Failure {
     #[error("cannot read {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}; choose another place with --out", path.display())]
+    #[error("cannot write {}: {cause}; choose another place", path.display())]
     Write { path: PathBuf, cause: std::io::Error },
+    #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
+    Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
     #[error("{}: {cause}", path.display())]
@@ -57,6 +60,10 @@ pub(super) enum Failure {
     Execute { scenario: PathBuf, cause: ExecuteError },
     #[error("{}: {cause}", scenario.display())]
     Solid { scenario: PathBuf, cause: SolidError },
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
+    #[error("{}: {cause}", policy.display())]
+    Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }
@@ -77,6 +84,11 @@ impl Failure {
         |cause| Self::Artifact { path, cause }
     }
 
+    pub(super) fn rewrite(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Rewrite { path, cause }
+    }
+
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Json(_) => Exit::Internal,
@@ -87,7 +99,7 @@ impl Failure {
     /// Prints what went wrong to standard error.
     pub(super) fn report(&self) {
         match self {
-            Self::Faults { source_text, faults } => output::faults(source_text, faults),
+            Self::Faults { source_text, faults } => output::diagnostics(source_text, faults),
             other => output::error(other),
         }
     }

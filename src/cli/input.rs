@@ -1,16 +1,21 @@
 //! Reading scenarios and policies.
 
+use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::Source;
+use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ARTIFACT_LIMIT, Artifact};
-use crate::policy::compile_to_artifact;
+use crate::policy::chart::Chart;
+use crate::policy::{self, Compiled, compile_with_warnings};
 use crate::scene::Scene;
 
 use super::exit::Failure;
+
+/// The most bytes that a text may have: as many as the largest scenario may have. Policies are smaller still.
+const SIZE_LIMIT: usize = 1 << 20;
 
 /// Something read from a file, with a hash of the file's text.
 pub(super) struct Loaded<T> {
@@ -19,8 +24,36 @@ pub(super) struct Loaded<T> {
 }
 
 pub(super) fn read(path: &Path) -> Result<Source, Failure> {
-    let text = std::fs::read_to_string(path).map_err(Failure::read(path))?;
+    let text = File::open(path).and_then(read_text).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
+}
+
+/// Reads no more than tells that there are more than `limit` bytes: a device never ends.
+fn read_bytes(from: impl Read, limit: usize) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    from.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn read_text(from: impl Read) -> Result<String, Error> {
+    read_bytes(from, SIZE_LIMIT).and_then(text)
+}
+
+fn text(bytes: Vec<u8>) -> Result<String, Error> {
+    let unusable = |cause| Error::new(ErrorKind::InvalidData, cause);
+    if bytes.len() > SIZE_LIMIT {
+        return Err(unusable(
+            "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
+        ));
+    }
+    String::from_utf8(bytes).map_err(|_| unusable("it is not UTF-8 text; save it as UTF-8, or is it the wrong file?"))
+}
+
+/// Reads standard input.
+pub(super) fn read_standard() -> Result<Source, Failure> {
+    let name = "standard input";
+    let text = read_text(std::io::stdin().lock()).map_err(Failure::read(Path::new(name)))?;
+    Ok(Source::new(name, text))
 }
 
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
@@ -40,31 +73,40 @@ pub(super) enum PolicyFile {
 
 /// Reads a policy's text or a compiled machine.
 pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
-    // A byte more than a machine may have, and far more than a text may, tells that it is too large.
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(Failure::read(path))?;
-    file.take(ARTIFACT_LIMIT as u64 + 1).read_to_end(&mut bytes).map_err(Failure::read(path))?;
+    let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
     let hash = Sha256::new().chain_update(&bytes);
     let value = if Artifact::is_in(&bytes) {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
     } else {
-        let text = String::from_utf8(bytes).map_err(|error| Error::new(ErrorKind::InvalidData, error));
-        PolicyFile::Text(Source::new(path.display().to_string(), text.map_err(Failure::read(path))?))
+        let text = text(bytes).map_err(Failure::read(path))?;
+        PolicyFile::Text(Source::new(path.display().to_string(), text))
     };
     Ok(Loaded { value, hash })
 }
 
+/// A policy that is ready to run.
+pub(super) struct Policy {
+    pub(super) artifact: Artifact,
+    /// Its text and what the text is warned of, unless it was compiled before.
+    pub(super) warned: Option<(Source, Vec<Diagnostic>)>,
+}
+
 /// Reads a policy's text and compiles it, or a compiled machine.
-pub(super) fn policy(path: &Path) -> Result<Loaded<Artifact>, Failure> {
+pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
     let value = match value {
-        PolicyFile::Machine(artifact) => *artifact,
-        PolicyFile::Text(source) => match compile_to_artifact(&source) {
-            Ok(artifact) => artifact,
+        PolicyFile::Machine(artifact) => Policy { artifact: *artifact, warned: None },
+        PolicyFile::Text(source) => match compile_with_warnings(&source) {
+            Ok(Compiled { artifact, warnings }) => Policy { artifact, warned: Some((source, warnings)) },
             Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
         },
     };
     Ok(Loaded { value, hash })
+}
+
+pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
+    let source = read(path)?;
+    policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 
 /// The first sixteen hexadecimal digits of a hash: enough to tell files apart.

@@ -4,6 +4,8 @@ mod arguments;
 mod check;
 mod compile;
 mod exit;
+mod fmt;
+mod graph;
 mod input;
 mod mjcf;
 mod output;
@@ -21,6 +23,8 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
+        Command::Graph(arguments) => graph::graph(arguments),
+        Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

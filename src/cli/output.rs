@@ -1,7 +1,7 @@
 //! Printing. Results go to standard output, everything else to standard error.
 
 use std::fmt::Display;
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 
 use serde::Serialize;
 
@@ -9,15 +9,22 @@ use crate::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 use super::exit::Failure;
 
-/// Prints a result. A reader that has gone away, such as `head`, is no fault.
-pub(super) fn result(text: impl Display) {
-    let _ = writeln!(stdout(), "{text}");
+/// Prints a result and ends its line.
+pub(super) fn result(text: impl Display) -> Result<(), Failure> {
+    self::text(format_args!("{text}\n"))
+}
+
+/// Prints a text as it is. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+pub(super) fn text(text: impl Display) -> Result<(), Failure> {
+    match write!(stdout(), "{text}") {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Print(cause)),
+        _ => Ok(()),
+    }
 }
 
 /// Prints a result as JSON.
 pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
-    result(serde_json::to_string_pretty(value)?);
-    Ok(())
+    result(serde_json::to_string_pretty(value)?)
 }
 
 /// Prints a message.
@@ -30,9 +37,9 @@ pub(super) fn error(text: impl Display) {
     message(format_args!("error: {text}"));
 }
 
-/// Prints the faults of a text.
-pub(super) fn faults(source: &Source, faults: &[Diagnostic]) {
+/// Prints what is wrong with a text.
+pub(super) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) {
     let colour =
         if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
-    let _ = write!(stderr(), "{}", terminal(source, faults, colour));
+    let _ = write!(stderr(), "{}", terminal(source, diagnostics, colour));
 }

@@ -1,5 +1,6 @@
 //! `vibrissa run`
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,6 +17,7 @@ use crate::study::{WorldKind, engine_hash, execute};
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
+use super::input::{Loaded, Policy};
 use super::{input, output};
 
 /// A run that is ready to begin.
@@ -29,7 +31,9 @@ struct Job {
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     // Whatever is wrong with the last scenario should show before the first has run.
-    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments)).collect::<Result<Vec<_>, _>>()?;
+    let mut told = BTreeSet::new();
+    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments, &mut told));
+    let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
     check_names(&jobs)?;
     if let Some(directory) = &arguments.out {
         std::fs::create_dir_all(directory).map_err(Failure::write(directory))?;
@@ -40,6 +44,9 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     for job in jobs {
         let run = execute_with_progress(&job, arguments.world.into())?;
         let score = Score::new(&run, &job.scene.object);
+        if let Some(reason) = &run.reason {
+            output::message(format_args!("{}: {}: {reason}", job.identity.scenario, run.outcome));
+        }
         for expectation in &job.scene.expect {
             if let Some(violation) = expectation.violation(run.outcome, |metric| score.figure(metric)) {
                 output::message(format_args!("{}: {violation}", job.identity.scenario));
@@ -63,17 +70,18 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&results)?;
     } else {
-        output::result(table(&results));
+        output::result(table(&results))?;
         if let Some(directory) = &arguments.out {
             for result in &results {
-                output::result(format_args!("report: {}", report_path(directory, result, "svg").display()));
+                output::result(format_args!("report: {}", report_path(directory, result, "svg").display()))?;
             }
         }
     }
     Ok(exit)
 }
 
-fn job(path: &Path, arguments: &RunArguments) -> Result<Job, Failure> {
+/// Prepares a run. Tells the warnings of its policy, unless the policy is among those `told` of.
+fn job(path: &Path, arguments: &RunArguments, told: &mut BTreeSet<PathBuf>) -> Result<Job, Failure> {
     let scenario = input::scenario(path)?;
     let scene = scenario.value;
     let policy_path = match (&arguments.policy, &scene.policy) {
@@ -81,8 +89,13 @@ fn job(path: &Path, arguments: &RunArguments) -> Result<Job, Failure> {
         (None, Some(policy)) => path.parent().unwrap_or(Path::new("")).join(policy),
         (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
     };
-    let policy = input::policy(&policy_path)?;
-    let (mut program, mut policy_hash) = (policy.value.program, policy.hash);
+    let Loaded { value: Policy { artifact, warned }, hash: mut policy_hash } = input::policy(&policy_path)?;
+    if let Some((source, warnings)) = &warned
+        && told.insert(policy_path)
+    {
+        output::diagnostics(source, warnings);
+    }
+    let mut program = artifact.program;
     for setting in &arguments.settings {
         program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
         policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));

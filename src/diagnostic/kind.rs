@@ -3,6 +3,9 @@
 use super::Span;
 use serde::Serialize;
 
+/// The most faults that are told of one source: nobody reads more, and a text can hold a hundred thousand.
+pub const FAULT_LIMIT: usize = 50;
+
 /// How bad it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]

@@ -6,7 +6,7 @@ mod source;
 mod suggestion;
 mod terminal;
 
-pub use kind::{Diagnostic, Label, Severity};
+pub use kind::{Diagnostic, FAULT_LIMIT, Label, Severity};
 pub use record::{Record, RecordLabel, records};
 pub use source::{Position, Source, Span};
 pub use suggestion::suggest;

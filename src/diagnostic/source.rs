@@ -46,24 +46,28 @@ pub struct Position {
 pub struct Source {
     /// The name.
     pub name: String,
-    /// The text.
+    /// The text. Another text is another source: its lines are counted when it is made.
     pub text: String,
+    /// The first byte of each line.
+    line_starts: Vec<usize>,
 }
 
 impl Source {
     /// A text under a name.
     #[must_use]
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { name: name.into(), text: text.into() }
+        let text = text.into();
+        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1)).collect();
+        Self { name: name.into(), text, line_starts }
     }
 
     /// Line and column of a byte; of the end of the text, if the byte lies beyond it.
     #[must_use]
     pub fn line_column(&self, byte: usize) -> Position {
-        let before = &self.text[..self.text.floor_char_boundary(byte)];
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let line = 1 + before.bytes().filter(|&byte| byte == b'\n').count();
-        Position { line, column: 1 + before[line_start..].chars().count() }
+        let byte = self.text.floor_char_boundary(byte);
+        let line = self.line_starts.partition_point(|&start| start <= byte);
+        let line_start = self.line_starts.get(line.saturating_sub(1)).copied().unwrap_or_default();
+        Position { line, column: 1 + self.text.get(line_start..byte).unwrap_or_default().chars().count() }
     }
 
     /// The text of a span; the part within the text, if it reaches beyond.
@@ -82,6 +86,7 @@ impl Source {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn columns_count_characters_and_lines_count_from_one() {
@@ -89,6 +94,16 @@ mod tests {
         assert_eq!(source.line_column(0), Position { line: 1, column: 1 });
         assert_eq!(source.line_column(10), Position { line: 2, column: 6 });
         assert_eq!(source.line_column(99), Position { line: 3, column: 1 });
+    }
+
+    proptest! {
+        #[test]
+        fn the_place_of_a_byte_is_that_of_counting_up_to_it(text in "(\\PC|\n|\r\n){0,40}", byte in 0_usize..99) {
+            let before = &text[..text.floor_char_boundary(byte)];
+            let line = before.split('\n').count();
+            let column = 1 + before.split('\n').next_back().map_or(0, |last| last.chars().count());
+            prop_assert_eq!(Source::new("a", text.as_str()).line_column(byte), Position { line, column });
+        }
     }
 
     #[test]

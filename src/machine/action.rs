@@ -27,7 +27,7 @@ pub enum Action {
 pub enum Mover {
     /// The platform's centre of mass.
     Body,
-    /// The base of the whisker with this index.
+    /// The base of the whisker with this index: the body moves at the speed, in the direction that takes the base along.
     Whisker(usize),
 }
 

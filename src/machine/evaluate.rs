@@ -5,9 +5,10 @@ use crate::geometry::{Vector2, rotate, wrap};
 use super::action::{Action, Mover, Turn};
 use super::op::{Block, Op, Register, Wide};
 use super::senses::Senses;
+use super::stateful;
 
 /// Runs `block` of `code` and returns the last action that it gave, if any.
-pub(super) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
+pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
     let mut file = File(registers);
     let mut action = None;
     let mut next = block.start as usize;
@@ -51,6 +52,18 @@ pub(super) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
                 file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
             }
             Op::TipAt { to, whisker, a } => file.put_vector(to, senses.tip_at(file.index(whisker), file.at(a))),
+            Op::LowPass { to, a, b, memory } => {
+                let filtered = stateful::low_pass(file.memory(memory), senses.time(), file.at(a), file.at(b));
+                let value = file.keep(memory, filtered);
+                file.put(to, value);
+            }
+            Op::Pid { to, a, gains, memory } => {
+                let gains = [0, 1, 2, 3].map(|gain| file.at(gains + gain));
+                let output = stateful::pid(file.memory(memory), senses.time(), file.at(a), gains);
+                let value = file.keep(memory, output);
+                file.put(to, value);
+            }
+            Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
             Op::JumpUnless { a, target } => {
                 if !file.truth(a) {
                     next = target as usize;
@@ -89,6 +102,18 @@ impl File<'_> {
 
     fn put(&mut self, register: Register, value: f64) {
         self.0[usize::from(register)] = value;
+    }
+
+    fn memory<const N: usize>(&self, register: Register) -> [f64; N] {
+        let start = usize::from(register);
+        std::array::from_fn(|offset| self.0[start + offset])
+    }
+
+    /// Writes a stateful operation's memory back, and gives its value.
+    fn keep<const N: usize>(&mut self, register: Register, (memory, value): ([f64; N], f64)) -> f64 {
+        let start = usize::from(register);
+        self.0[start..start + N].copy_from_slice(&memory);
+        value
     }
 
     fn truth(&self, register: Register) -> bool {

@@ -12,8 +12,12 @@ mod operands;
 mod program;
 mod senses;
 mod source_map;
+mod stateful;
 mod tick;
 mod verify;
+
+pub(crate) use evaluate::evaluate;
+pub(crate) use tick::TIME_SLACK;
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};

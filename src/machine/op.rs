@@ -79,6 +79,13 @@ pub enum Op {
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
     /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
     TipAt { to: Wide, whisker: Register, a: Register },
+    /// `to = a through a first-order low-pass filter with the cutoff b` (Hz); its memory is three registers
+    LowPass { to: Register, a: Register, b: Register, memory: Register },
+    /// `to = output of a PID controller` for the error `a`; `gains` are four registers: p, i, d and the output's limit; its
+    /// memory is four registers
+    Pid { to: Register, a: Register, gains: Register, memory: Register },
+    /// Forgets the memory of `count` registers from `memory` on.
+    Clear { memory: Register, count: u16 },
     /// Goes on at `target` unless `a`; `target` lies ahead.
     JumpUnless { a: Register, target: u32 },
     /// Goes on at `target`, which lies ahead.

@@ -5,9 +5,9 @@ use super::op::{Op, Register};
 /// What one operation does with the registers and with the order of the code.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Operands {
-    /// Where the result goes.
-    pub(super) write: Place,
-    /// Where numbers are read.
+    /// Where the result and what is remembered go.
+    pub(super) writes: [Place; 2],
+    /// Where numbers are read, what is remembered among them.
     pub(super) reads: [Place; 3],
     /// Where the index of a whisker is read.
     pub(super) whisker: Option<Register>,
@@ -40,8 +40,16 @@ fn vector(first: Register) -> Place {
 }
 
 impl Operands {
-    fn write(self, write: Place) -> Self {
-        Self { write, ..self }
+    fn write(mut self, place: Place) -> Self {
+        self.writes[0] = place;
+        self
+    }
+
+    /// Remembers numbers from one use to the next.
+    fn remember(mut self, memory: Place) -> Self {
+        self.writes[1] = memory;
+        self.reads[2] = memory;
+        self
     }
 
     fn read<const N: usize>(mut self, places: [Place; N]) -> Self {
@@ -91,6 +99,14 @@ impl Op {
             Self::Whisker { to, whisker, .. } => operands.write(number(to)).whisker(whisker),
             Self::WhiskerVector { to, whisker, .. } => operands.write(vector(to)).whisker(whisker),
             Self::TipAt { to, whisker, a } => operands.write(vector(to)).whisker(whisker).read([number(a)]),
+            Self::LowPass { to, a, b, memory } => {
+                operands.write(number(to)).read([number(a), number(b)]).remember(Place { first: memory, width: 3 })
+            }
+            Self::Pid { to, a, gains, memory } => operands
+                .write(number(to))
+                .read([number(a), Place { first: gains, width: 4 }])
+                .remember(Place { first: memory, width: 4 }),
+            Self::Clear { memory, count } => operands.write(Place { first: memory, width: count }),
             Self::JumpUnless { a, target } => operands.read([number(a)]).jump(target),
             Self::Jump { target } => operands.jump(target),
             Self::Record { whisker } => operands.whisker(whisker),

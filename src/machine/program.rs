@@ -58,8 +58,12 @@ pub struct Parameter {
 pub struct State {
     /// Its name.
     pub name: Arc<str>,
+    /// What it does when it is entered, before anything else: sets its memory.
+    pub entry: Block,
     /// What it does every tick.
     pub body: Block,
+    /// What it does when it is left.
+    pub exit: Block,
     /// Its transitions in the order in which they are tried.
     pub transitions: Vec<Transition>,
 }

@@ -11,7 +11,7 @@ use super::senses::Senses;
 pub const CHAIN_LIMIT: usize = 8;
 
 /// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
-const TIME_SLACK: f64 = 1e-9;
+pub(crate) const TIME_SLACK: f64 = 1e-9;
 
 /// A running machine: a program and its memory.
 #[derive(Debug, Clone)]
@@ -80,6 +80,11 @@ impl Machine {
         }
     }
 
+    /// A machine that has just entered a state, with `registers` as its memory.
+    pub(crate) fn entered(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
+        Self { registers, state, ..Self::new(program) }
+    }
+
     /// The program that it runs.
     #[must_use]
     pub fn program(&self) -> &Program {
@@ -114,7 +119,9 @@ impl Machine {
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
-        self.entered_at.get_or_insert(now);
+        if self.entered_at.is_none() {
+            self.enter(&program, self.state, now, senses);
+        }
 
         let mut target = self.due(&program, &program.always, now, senses);
         for taken in 0..=CHAIN_LIMIT {
@@ -123,15 +130,21 @@ impl Machine {
                 None => return self.act(&program, senses),
                 Some(Target::Failure(reason)) => return self.fail(Failure::Policy(Arc::clone(reason))),
                 Some(Target::State { state, arguments }) if taken < CHAIN_LIMIT => {
+                    evaluate(&program.code, &program.states[self.state].exit, &mut self.registers, senses);
                     evaluate(&program.code, arguments, &mut self.registers, senses);
-                    self.state = *state;
-                    self.entered_at = Some(now);
-                    self.holding_since[self.lasting_timers..].fill(None);
+                    self.enter(&program, *state, now, senses);
                 }
                 Some(Target::State { .. }) => {}
             }
         }
         self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
+    }
+
+    fn enter<S: Senses>(&mut self, program: &Program, state: usize, now: f64, senses: &mut S) {
+        self.state = state;
+        self.entered_at = Some(now);
+        self.holding_since[self.lasting_timers..].fill(None);
+        evaluate(&program.code, &program.states[state].entry, &mut self.registers, senses);
     }
 
     fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Tick {

@@ -5,11 +5,13 @@ use std::collections::{HashMap, HashSet};
 use crate::signal::MAX_WHISKERS;
 
 use super::op::{Block, Op, Register};
-use super::operands::number;
+use super::operands::{Place, number};
 use super::program::{CODE_LIMIT, Guard, Program, REGISTER_LIMIT, State, Target, Transition};
 
 /// The most states that a program may have, and the most transitions.
 const STRUCTURE_LIMIT: usize = 50_000;
+/// The most registers that one operation may clear, as many as the largest memory has: operations do a bounded amount of work.
+const CLEAR_LIMIT: u16 = 4;
 
 /// Why a program is not safe to run.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -55,7 +57,7 @@ pub enum Unsound {
     Work {
         /// Index of the state.
         state: usize,
-        /// Operations of its guards and its body.
+        /// Operations of all its blocks and of the rules that hold always.
         operations: usize,
     },
     /// A timer of a rule that holds always is used by a state, or the other way round.
@@ -185,11 +187,12 @@ impl Program {
             [transition.guard.code().clone(), arguments]
         };
         let of_state = |state: &State| {
-            let body = [state.body.clone()];
-            state.transitions.iter().flat_map(of_transition).chain(body).collect::<Vec<Block>>()
+            let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
+            state.transitions.iter().flat_map(of_transition).chain(own).collect::<Vec<Block>>()
         };
-        let mut blocks: Vec<Block> = self.always.iter().flat_map(of_transition).collect();
-        blocks.extend(self.states.iter().flat_map(of_state));
+        let always: Vec<Block> = self.always.iter().flat_map(of_transition).collect();
+        let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
+        let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));
         blocks.dedup();
 
@@ -207,10 +210,9 @@ impl Program {
                 }
             }
         }
-        let guards = |transitions: &[Transition]| transitions.iter().map(|one| one.guard.code().len()).sum::<usize>();
-        let always = guards(&self.always);
-        for (index, state) in self.states.iter().enumerate() {
-            let operations = always + guards(&state.transitions) + state.body.len();
+        // Between two transitions each of a state's blocks is done once at most.
+        for (index, state) in states.iter().enumerate() {
+            let operations = always.iter().chain(state).map(ExactSizeIterator::len).sum::<usize>();
             if operations > self.code.len() {
                 return Err(Unsound::Work { state: index, operations });
             }
@@ -227,19 +229,25 @@ impl Program {
         for op in &self.code {
             let operands = op.operands();
             let whisker = operands.whisker.map_or_else(Default::default, number);
-            for place in operands.reads.into_iter().chain([operands.write, whisker]) {
+            for place in operands.reads.into_iter().chain(operands.writes).chain([whisker]) {
                 if let Some(last) = place.registers().last() {
                     within("register", last, self.image.len())?;
                 }
             }
-            let written = operands.write.registers();
-            if let Some(parameter) = self.parameters.get(written.start)
-                && !written.is_empty()
-            {
-                return Err(Unsound::ParameterWritten(parameter.name.clone()));
+            for written in operands.writes.map(Place::registers) {
+                if let Some(parameter) = self.parameters.get(written.start)
+                    && !written.is_empty()
+                {
+                    return Err(Unsound::ParameterWritten(parameter.name.clone()));
+                }
             }
-            if let Op::Copy { to, a } = *op {
-                copied_from.entry(to).or_default().push(a);
+            match *op {
+                Op::Copy { to, a } => copied_from.entry(to).or_default().push(a),
+                Op::Clear { count, .. } if count > CLEAR_LIMIT => {
+                    let (count, limit) = (count.into(), CLEAR_LIMIT.into());
+                    return Err(Unsound::TooMany { what: "registers to clear at once", count, limit });
+                }
+                _ => {}
             }
             pending.extend(operands.whisker);
         }
@@ -261,7 +269,7 @@ impl Program {
             }
         }
         for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. })) {
-            for register in op.operands().write.registers() {
+            for register in op.operands().writes.into_iter().flat_map(Place::registers) {
                 if let Ok(register) = Register::try_from(register)
                     && whiskers.contains(&register)
                 {

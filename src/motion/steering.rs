@@ -20,16 +20,15 @@ pub struct Steering {
 }
 
 impl Steering {
-    /// Steering for `rig` and the whiskers called `names`, at rest.
+    /// Steering for `rig` and its whiskers with these indices, at rest.
+    ///
+    /// # Panics
+    /// If the rig has no whisker with such an index.
     #[must_use]
-    pub fn new(rig: &Rig, names: &[String]) -> Self {
-        let base = |name: &String| {
-            let whisker = rig.whiskers.iter().find(|whisker| whisker.name == *name);
-            whisker.map_or_else(Vector2::zeros, |whisker| whisker.base_body.coords)
-        };
+    pub fn new(rig: &Rig, whiskers: &[usize]) -> Self {
         let yaw = &rig.platform.yaw;
         Self {
-            bases_body: names.iter().map(base).collect(),
+            bases_body: whiskers.iter().map(|&index| rig.whiskers[index].base_body.coords).collect(),
             yaw_controller: PiController::new(yaw.proportional, yaw.integral, yaw.limit),
             speed_limit: rig.platform.speed_limit,
             yaw_rate_limit: rig.platform.yaw_rate_limit,
@@ -69,7 +68,7 @@ impl Steering {
                     Mover::Whisker(whisker) => {
                         let base_world = body.vector_to_world(self.bases_body[whisker]);
                         let swing = yaw_rate * Vector2::new(-base_world.y, base_world.x);
-                        at_speed(speed, velocity - swing)
+                        at_speed(speed.abs(), velocity - swing)
                     }
                 };
                 let command = Command { velocity_world, yaw_rate };

@@ -1,14 +1,14 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
 mod chain;
-mod contour_spline;
+mod local_contour;
 mod low_pass;
 mod perception;
 mod tip_model;
 mod whisker;
 
 pub use chain::{Equilibrium, ShaftChain};
-pub use contour_spline::ContourSpline;
+pub use local_contour::LocalContour;
 pub use low_pass::{CutoffError, LowPass};
-pub use perception::{BindError, Perception};
+pub use perception::{Perception, PerceptionError};
 pub use tip_model::{TipModel, TipModelError};

@@ -20,17 +20,9 @@ pub struct Perception {
     in_sample: Vec<usize>,
 }
 
-/// Why a policy cannot perceive with a rig.
+/// Why a rig cannot be perceived.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BindError {
-    /// The rig has no whisker of a name that the policy binds.
-    #[error("the policy binds the whisker `{name}`, which the rig does not have; the rig has {known}")]
-    NoSuchWhisker {
-        /// The name.
-        name: String,
-        /// The rig's whiskers.
-        known: String,
-    },
+pub enum PerceptionError {
     /// A whisker's mechanics give no tip model.
     #[error(transparent)]
     TipModel(#[from] TipModelError),
@@ -40,25 +32,22 @@ pub enum BindError {
 }
 
 impl Perception {
-    /// Perception of `rig` by the whiskers called `names`.
+    /// Perception of `rig` by the whiskers with these indices.
     ///
     /// # Errors
-    /// [`BindError`] when the rig lacks a whisker, or its mechanics or rates leave no model or filter.
-    pub fn new(rig: &Rig, names: &[String]) -> Result<Self, BindError> {
-        let mut whiskers = Vec::with_capacity(names.len());
-        let mut in_sample = Vec::with_capacity(names.len());
-        for name in names {
-            let Some(index) = rig.whiskers.iter().position(|whisker| whisker.name == *name) else {
-                let known = rig.whiskers.iter().map(|whisker| format!("`{}`", whisker.name)).collect::<Vec<_>>();
-                return Err(BindError::NoSuchWhisker { name: name.clone(), known: known.join(", ") });
-            };
-            let sensing = &rig.sensing;
+    /// [`PerceptionError`] when its mechanics or rates leave no model or filter.
+    ///
+    /// # Panics
+    /// If the rig has no whisker with such an index.
+    pub fn new(rig: &Rig, whiskers: &[usize]) -> Result<Self, PerceptionError> {
+        let sensing = &rig.sensing;
+        let perceived = whiskers.iter().map(|&index| {
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let model = TipModel::new(&rig.whiskers[index])?;
-            whiskers.push(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing.contact_threshold));
-            in_sample.push(index);
-        }
-        Ok(Self { time: 0.0, body: Pose::default(), whiskers, in_sample })
+            Ok(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing.contact_threshold))
+        });
+        let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
+        Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
     }
 
     /// Begins a tick with the samples since the last one, oldest first.

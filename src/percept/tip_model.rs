@@ -1,6 +1,6 @@
 //! Where a whisker's tip touches, from its base angle alone.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
@@ -30,15 +30,32 @@ struct Knot {
     slope: Vector2<f64>,
 }
 
-/// The chain of a whisker has no equilibrium where the model needs one.
+/// Why a whisker has no tip model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error(
-    "whisker {whisker}: no tip model beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
-    base_angle * 1e6
-)]
-pub struct TipModelError {
-    whisker: String,
-    base_angle: f64,
+pub enum TipModelError {
+    /// The whisker stands too nearly across the heading.
+    #[error(
+        "whisker {whisker} is swept {:.0} deg from straight across the platform: it would meet a surface beside it head-on and \
+         might buckle either way; sweep it by {:.0} deg or more",
+        sweep.to_degrees(), LEAST_SWEEP.to_degrees().ceil()
+    )]
+    HeadOn {
+        /// The whisker.
+        whisker: String,
+        /// Its sweep back, or forward if negative (rad).
+        sweep: f64,
+    },
+    /// The chain has no equilibrium where the model needs one.
+    #[error(
+        "whisker {whisker}: no tip model beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
+        base_angle * 1e6
+    )]
+    NoEquilibrium {
+        /// The whisker.
+        whisker: String,
+        /// The base angle (rad).
+        base_angle: f64,
+    },
 }
 
 /// Greatest base moment of the model, in units of `EI / L`; the reference target is 1.6 of them.
@@ -47,7 +64,7 @@ const MOMENT_RANGE: f64 = 6.0;
 const STEPS: usize = 120;
 /// The least angle (rad) between the undeflected shaft and the normal of the surface: a shaft that meets a surface head-on
 /// may buckle to either side, so that no model can know.
-const LEAST_SWEEP: f64 = 0.26;
+const LEAST_SWEEP: f64 = 0.087;
 
 impl TipModel {
     /// The model of `whisker`.
@@ -56,7 +73,7 @@ impl TipModel {
     /// [`TipModelError`] when its chain has no equilibrium somewhere in the model's range.
     pub fn new(whisker: &Whisker) -> Result<Self, TipModelError> {
         let chain = ShaftChain::new(whisker);
-        let force_direction = Self::force_direction(whisker);
+        let force_direction = Self::force_direction(whisker)?;
         let shaft = &whisker.shaft;
         let step = MOMENT_RANGE * shaft.bending_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
         let normal = Vector2::new(force_direction.cos(), force_direction.sin());
@@ -80,7 +97,7 @@ impl TipModel {
                 before = solution;
                 solution = chain
                     .solve(base_angle, force_direction, &guess)
-                    .ok_or_else(|| TipModelError { whisker: whisker.name.clone(), base_angle })?;
+                    .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             }
             // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
             contacts.push(solution.tip_base - shaft.radius * normal);
@@ -89,10 +106,14 @@ impl TipModel {
     }
 
     /// Direction (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
-    /// swipes along a surface parallel to its heading.
-    fn force_direction(whisker: &Whisker) -> f64 {
-        let swept_back = (whisker.direction_body.abs() - FRAC_PI_2).max(LEAST_SWEEP);
-        std::f64::consts::PI - swept_back
+    /// swipes along a surface parallel to its heading. A whisker swept forward is bent forward by it, one swept back to the
+    /// back; in the frame of the base the one is the mirror image of the other.
+    fn force_direction(whisker: &Whisker) -> Result<f64, TipModelError> {
+        let sweep = whisker.direction_body.abs() - FRAC_PI_2;
+        if sweep.abs() < LEAST_SWEEP {
+            return Err(TipModelError::HeadOn { whisker: whisker.name.clone(), sweep });
+        }
+        Ok(PI - sweep.abs())
     }
 
     /// Where the tip touches, in the frame of the whisker's base (m), at `base_angle` (rad). Beyond the model's range the

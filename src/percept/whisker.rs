@@ -3,7 +3,7 @@
 use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::rig::Whisker;
 
-use super::contour_spline::ContourSpline;
+use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::tip_model::TipModel;
 
@@ -20,7 +20,7 @@ pub(super) struct PerceivedWhisker {
     pub(super) deflection: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
-    pub(super) contour: ContourSpline,
+    pub(super) contour: LocalContour,
     /// Whether this tick's tip was recorded, and the last one's was.
     pub(super) recorded: bool,
     recorded_before: bool,
@@ -39,7 +39,7 @@ impl PerceivedWhisker {
             deflection: 0.0,
             base_world: Point2::origin(),
             yaw: 0.0,
-            contour: ContourSpline::default(),
+            contour: LocalContour::default(),
             recorded: false,
             recorded_before: false,
         }

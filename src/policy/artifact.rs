@@ -1,26 +1,21 @@
-//! From a policy's text to its artifact.
+//! Where a program comes from, for its artifact.
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{Diagnostic, Position, Source};
-use crate::machine::{Artifact, Origin, SourceMap, StatePlace};
+use crate::diagnostic::{Position, Source};
+use crate::machine::{Artifact, Origin, Program, SourceMap, StatePlace};
 
 use super::ast::{File, Guard, Transition};
-use super::{lower, parse};
 
-/// Compiles the text of a policy, and keeps where the result comes from.
-///
-/// # Errors
-/// As those of [`compile`](super::compile).
-pub fn compile_to_artifact(source: &Source) -> Result<Artifact, Vec<Diagnostic>> {
-    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+/// The artifact of a program and of the text and its syntax tree that it comes from.
+pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifact {
     let origin = Origin {
         // The same policy gives the same bytes wherever it lies.
         file: source.name.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };
-    Ok(Artifact { origin, program: lower::lower(&file)?, places: places(source, &file) })
+    Artifact { origin, program, places: places(source, file) }
 }
 
 fn places(source: &Source, file: &File) -> SourceMap {

@@ -81,6 +81,10 @@ pub(super) struct Law {
 pub(super) struct State {
     pub(super) name: Name,
     pub(super) arguments: Vec<Argument>,
+    /// `var name = value`
+    pub(super) memory: Vec<(Name, Expression)>,
+    pub(super) entry: Vec<Statement>,
+    pub(super) exit: Vec<Statement>,
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
 }
@@ -113,6 +117,11 @@ pub(super) enum Statement {
         name: Name,
         value: Expression,
     },
+    /// `set name = value`
+    Set {
+        name: Name,
+        value: Expression,
+    },
     /// Conditions with their blocks, tried in order, and the block for when none holds.
     If {
         branches: Vec<(Expression, Vec<Statement>)>,
@@ -125,8 +134,8 @@ pub(super) enum Statement {
     },
     Record(Expression),
     Steer(Box<Steer>),
-    Hold,
-    Stop,
+    Hold(Span),
+    Stop(Span),
 }
 
 /// `steer mover along direction at speed facing angle`
@@ -137,6 +146,7 @@ pub(super) struct Steer {
     pub(super) along: Expression,
     pub(super) speed: Expression,
     pub(super) turn: Turn,
+    pub(super) span: Span,
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -89,10 +89,12 @@ pub(super) enum Function {
     Turn,
     Dot,
     Cross,
+    LowPass,
+    Pid,
 }
 
 /// Every function, by its name, with how it is called.
-pub(super) const FUNCTIONS: [(&str, Function, &str); 16] = [
+pub(super) const FUNCTIONS: [(&str, Function, &str); 18] = [
     ("abs", Function::Abs, "abs(x)"),
     ("sign", Function::Sign, "sign(x)"),
     ("sqrt", Function::Sqrt, "sqrt(x)"),
@@ -109,6 +111,8 @@ pub(super) const FUNCTIONS: [(&str, Function, &str); 16] = [
     ("turn", Function::Turn, "turn(from, to)"),
     ("dot", Function::Dot, "dot(a, b)"),
     ("cross", Function::Cross, "cross(a, b)"),
+    ("lowpass", Function::LowPass, "lowpass(x, cutoff)"),
+    ("pid", Function::Pid, "pid(error, p, i, d, limit)"),
 ];
 
 /// The function called `name`, with how it is called.
@@ -135,5 +139,15 @@ mod tests {
         for (name, _) in super::super::types::DIMENSIONS {
             assert!(page.contains(&format!("`{name}`")), "{name}");
         }
+    }
+
+    #[test]
+    fn the_editors_grammar_lists_the_functions_and_types_of_the_language() {
+        let grammar = include_str!("../../editors/vscode/syntaxes/fsm.tmLanguage.json");
+        let list =
+            |words: &mut dyn Iterator<Item = &'static str>| format!(r"\\b({})\\b", words.collect::<Vec<_>>().join("|"));
+        assert!(grammar.contains(&list(&mut FUNCTIONS.iter().map(|&(name, ..)| name))));
+        let types = ["truth", "vector"].into_iter().chain(super::super::types::DIMENSIONS.map(|(name, _)| name));
+        assert!(grammar.contains(&list(&mut { types })));
     }
 }

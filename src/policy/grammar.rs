@@ -10,7 +10,7 @@ use super::syntax_error::syntax_error;
 /// Brackets may nest this deep; a parser that recurses must stop somewhere, and no policy comes near.
 const NESTING_LIMIT: usize = 64;
 /// Greatest length of a policy's text (bytes), a hundred times that of a long policy.
-const LENGTH_LIMIT: usize = 1 << 18;
+pub(super) const LENGTH_LIMIT: usize = 1 << 18;
 
 /// Words behind which an expression begins.
 const WORDS_BEFORE_OPERANDS: [&str; 14] =

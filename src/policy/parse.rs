@@ -109,14 +109,21 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
 
 fn state(reader: &mut Reader<'_>) -> Parsed<State> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
-    let (mut body, mut transitions) = (Vec::new(), Vec::new());
+    let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut state = State { name, arguments, memory, entry, exit, body, transitions };
     while let Ok(pair) = reader.next() {
         match pair.as_rule() {
-            Rule::when | Rule::after => transitions.push(transition(pair)?),
-            _ => body.push(statement(pair)?),
+            Rule::when | Rule::after => state.transitions.push(transition(pair)?),
+            Rule::memory => {
+                let mut memory = Reader::new(pair);
+                state.memory.push((memory.name()?, memory.expression()?));
+            }
+            Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
+            Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
+            _ => state.body.push(statement(pair)?),
         }
     }
-    Ok(State { name, arguments, body, transitions })
+    Ok(state)
 }
 
 fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
@@ -157,6 +164,7 @@ fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
     let mut reader = Reader::new(pair);
     Ok(match rule {
         Rule::binding => Statement::Let { name: reader.name()?, value: reader.expression()? },
+        Rule::assign => Statement::Set { name: reader.name()?, value: reader.expression()? },
         Rule::conditional => {
             let mut branches = Vec::new();
             while reader.has(Rule::expression) {
@@ -176,10 +184,10 @@ fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
             } else {
                 Turn::Turning(Reader::new(reader.take(Rule::turning)?).expression()?)
             };
-            Statement::Steer(Box::new(Steer { whisker, along, speed, turn }))
+            Statement::Steer(Box::new(Steer { whisker, along, speed, turn, span }))
         }
-        Rule::hold => Statement::Hold,
-        Rule::stop => Statement::Stop,
+        Rule::hold => Statement::Hold(span),
+        Rule::stop => Statement::Stop(span),
         _ => return Err(internal(span)),
     })
 }
@@ -387,6 +395,10 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_turning
             | Rule::kw_hold
             | Rule::kw_stop
+            | Rule::kw_var
+            | Rule::kw_set
+            | Rule::kw_entry
+            | Rule::kw_exit
             | Rule::open
             | Rule::close
             | Rule::open_brace

@@ -1,10 +1,14 @@
-//! What people and programs get to see of a run: the result, a table, a picture.
+//! What people and programs get to see of a run: the result, a table, a picture; and of a policy: its statechart.
 
+mod chart;
 mod number;
+mod outline;
 mod picture;
 mod result;
+mod style;
 mod table;
 
+pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub use picture::picture;
 pub use result::{ErrorMm, Hashes, Identity, MeanStd, Retrieval, RunResult, TickUs};
 pub use table::table;

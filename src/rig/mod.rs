@@ -31,6 +31,30 @@ pub struct Rig {
     pub sensing: Sensing,
 }
 
+/// A whisker that a policy binds and the rig does not have.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the policy binds the whisker `{name}`, which the rig does not have; the rig has {known}")]
+pub struct UnknownWhisker {
+    name: String,
+    known: String,
+}
+
+impl Rig {
+    /// The indices of the whiskers called `names`, in the order of the names.
+    ///
+    /// # Errors
+    /// [`UnknownWhisker`] when the rig has none of a name.
+    pub fn indices(&self, names: &[String]) -> Result<Vec<usize>, UnknownWhisker> {
+        let index = |name: &String| {
+            self.whiskers.iter().position(|whisker| whisker.name == *name).ok_or_else(|| {
+                let known = self.whiskers.iter().map(|whisker| format!("`{}`", whisker.name)).collect::<Vec<_>>();
+                UnknownWhisker { name: name.clone(), known: known.join(", ") }
+            })
+        };
+        names.iter().map(index).collect()
+    }
+}
+
 impl Default for Rig {
     fn default() -> Self {
         Self {

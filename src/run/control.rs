@@ -4,9 +4,20 @@ use std::sync::Arc;
 
 use crate::machine::{Machine, Outcome, Program};
 use crate::motion::Steering;
-use crate::percept::{BindError, Perception};
-use crate::rig::Rig;
+use crate::percept::{Perception, PerceptionError};
+use crate::rig::{Rig, UnknownWhisker};
 use crate::signal::{Command, Sample};
+
+/// Why a policy cannot control a rig.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BindError {
+    /// The rig lacks a whisker.
+    #[error(transparent)]
+    Whisker(#[from] UnknownWhisker),
+    /// The rig cannot be perceived.
+    #[error(transparent)]
+    Perception(#[from] PerceptionError),
+}
 
 /// Perception, machine and steering of one rig under one policy: all that runs at the control rate.
 #[derive(Debug, Clone)]
@@ -22,9 +33,10 @@ impl Control {
     /// # Errors
     /// [`BindError`] when the rig does not have what the policy needs.
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
+        let whiskers = rig.indices(&program.whiskers)?;
         Ok(Self {
-            perception: Perception::new(rig, &program.whiskers)?,
-            steering: Steering::new(rig, &program.whiskers),
+            perception: Perception::new(rig, &whiskers)?,
+            steering: Steering::new(rig, &whiskers),
             machine: Machine::new(program),
         })
     }

@@ -2,13 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use crate::geometry::Point2;
 use crate::machine;
 use crate::scene::{Outcome, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
-use crate::world::World;
+use crate::world::{Fault, World};
 
 use super::control::Control;
+use super::loop_watch::LoopWatch;
 use super::trace::{TickRecord, Trace};
 
 /// What a run gave.
@@ -28,6 +28,9 @@ pub struct Run {
     pub tick_times: Vec<Duration>,
 }
 
+/// Ticks for which there is room from the start, an hour at 30 Hz; a longer run makes more when it needs it.
+const ROOM: usize = 108_000;
+
 /// Drives `world` by `control` until `stop`, and calls `progress` with the simulated time (s) at every tick.
 pub fn drive(
     world: &mut dyn World,
@@ -43,16 +46,19 @@ pub fn drive(
         whiskers: program.whiskers.clone(),
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
         period,
-        ticks: Vec::with_capacity(most_ticks),
+        ticks: Vec::with_capacity(most_ticks.min(ROOM)),
     };
-    let mut tick_times = Vec::with_capacity(most_ticks);
-    let mut closure = LoopWatch::default();
+    let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
+    let mut watches = [LoopWatch::default(); MAX_WHISKERS];
     let mut command = Command::STOP;
     let start = Instant::now();
     let (outcome, reason) = loop {
         let samples = match world.advance(&command) {
             Ok(samples) => samples,
-            Err(fault) => break (Outcome::Diverged, Some(fault.to_string())),
+            Err(fault) => {
+                let outcome = if let Fault::Crash { .. } = fault { Outcome::Failed } else { Outcome::Diverged };
+                break (outcome, Some(fault.to_string()));
+            }
         };
         let before_tick = Instant::now();
         let (next, ticked) = control.tick(samples);
@@ -66,7 +72,7 @@ pub fn drive(
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
         if let Some(aim) = &stop.loop_closed
-            && closure.closed(&tick, aim.within, aim.after)
+            && watches.iter_mut().zip(tick.tips).any(|(watch, tip)| watch.closes(tick.time, tip, aim))
         {
             break (Outcome::Completed, None);
         }
@@ -97,23 +103,4 @@ fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord
         tick.tips[whisker] = perception.recorded_tip(whisker);
     }
     tick
-}
-
-/// Watches for tips that come back to where their whisker's first one was.
-#[derive(Debug, Default)]
-struct LoopWatch {
-    /// Time and place of each whisker's first tip.
-    first: [Option<(f64, Point2)>; MAX_WHISKERS],
-}
-
-impl LoopWatch {
-    fn closed(&mut self, tick: &TickRecord, within: f64, after: f64) -> bool {
-        let mut closed = false;
-        for (first, tip) in self.first.iter_mut().zip(&tick.tips) {
-            let Some(tip) = tip else { continue };
-            let (time, place) = *first.get_or_insert((tick.time, *tip));
-            closed |= tick.time - time >= after && (tip - place).norm() <= within;
-        }
-        closed
-    }
 }

@@ -2,8 +2,9 @@
 
 mod control;
 mod drive;
+mod loop_watch;
 mod trace;
 
-pub use control::Control;
+pub use control::{BindError, Control};
 pub use drive::{Run, drive};
 pub use trace::{TickRecord, Trace};

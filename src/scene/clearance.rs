@@ -1,6 +1,7 @@
 //! Whether a rig stands clear of an object.
 
-use crate::geometry::{Contour, Point2, Pose, unit};
+use super::gap::gap;
+use crate::geometry::{Contour, Point2, Pose, Segment, unit};
 use crate::rig::Rig;
 
 /// Parts nearer to the object than this (m) touch it.
@@ -31,17 +32,11 @@ pub(super) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overla
     hits.map(Overlap::Whisker)
 }
 
-/// Whether every point of a segment is outside the object and farther than `margin` (m) from its outline.
-///
-/// No point of a segment is farther from its middle than half its length, so a middle that is farther from the outline
-/// than that clears the whole segment; otherwise each half is looked at.
-fn is_clear(object: &Contour, from: Point2, to: Point2, margin: f64) -> bool {
-    let middle = nalgebra::center(&from, &to);
-    let distance = if object.is_closed() { object.signed_distance(middle) } else { object.nearest(middle).distance };
-    if distance > 0.5 * (to - from).norm() + margin {
-        return true;
-    }
-    distance > margin && is_clear(object, from, middle, margin) && is_clear(object, middle, to, margin)
+/// Whether every point of a line is outside the object and farther than `margin` (m) from its outline. A line that keeps
+/// clear of the outline is outside if one of its points is.
+fn is_clear(object: &Contour, start: Point2, end: Point2, margin: f64) -> bool {
+    let line = Segment { start, end };
+    !object.contains(start) && object.pieces().iter().all(|piece| gap(&line, piece) > margin)
 }
 
 /// Whether a point is inside a convex polygon given counter-clockwise.
@@ -53,7 +48,7 @@ fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::geometry::circle;
+    use crate::geometry::{circle, polygon};
     use proptest::prelude::*;
 
     fn disk(x: f64, y: f64, radius: f64) -> Contour {
@@ -75,6 +70,19 @@ mod tests {
     #[test]
     fn a_whisker_that_sticks_into_an_object_is_named() {
         assert_eq!(overlap(&Rig::default(), &Pose::default(), &disk(0.03, 0.13, 0.02)), Some(Overlap::Whisker(1)));
+    }
+
+    /// A platform whose tail is 10 nm too far from a wall to touch it, all along.
+    #[test]
+    fn a_side_parallel_to_an_object_is_judged_by_its_gap() {
+        let wall =
+            polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 0.0), (-1.0, 0.0)].map(|(x, y)| Point2::new(x, y))).unwrap();
+        let stands = |gap: f64| {
+            let position = Point2::new(0.0, Rig::default().platform.centre_of_mass + gap);
+            overlap(&Rig::default(), &Pose { position, heading: std::f64::consts::FRAC_PI_2 }, &wall)
+        };
+        assert_eq!(stands(TOUCHING + 1e-8), None);
+        assert_eq!(stands(TOUCHING - 1e-8), Some(Overlap::Platform));
     }
 
     proptest! {

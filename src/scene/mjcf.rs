@@ -8,12 +8,15 @@
 use std::fmt::{self, Write};
 
 use crate::geometry::{Contour, Pose};
-use crate::rig::{Platform, Rig, Whisker};
+use crate::rig::{Platform, Rig, Shaft, Whisker};
 
 use super::solid::{Solid, SolidError};
 
 /// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
 const HALF_HEIGHT: f64 = 0.01;
+
+/// The least moment of inertia (kg m²) that MuJoCo takes for a body.
+pub(super) const LEAST_INERTIA: f64 = 1e-15;
 
 /// Writes the MuJoCo model of `rig` at `start` before `object`, whose inside is solid.
 ///
@@ -115,12 +118,11 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
     let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
     let length = shaft.link_length();
     let mass = shaft.link_mass();
-    // A slender rod about its middle; about its own axis it never turns, where any positive inertia will do.
-    let transverse = mass * length * length / 12.0;
-    let axial = mass * shaft.radius * shaft.radius / 2.0;
+    let inertia = link_inertia(shaft);
+    // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
     writeln!(
         xml,
-        r#"      <body name="{name}" pos="{} {} 0" euler="0 0 {}">"#,
+        r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
         whisker.base_body.x, whisker.base_body.y, whisker.direction_body
     )?;
     // The suspension's inertia is the hinge's armature; the body only needs enough to be a body.
@@ -135,7 +137,7 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
         let at = if link == 0 { 0.0 } else { length };
         writeln!(
             xml,
-            r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{axial} {transverse} {transverse}"/>"#,
+            r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
             length / 2.0
         )?;
         writeln!(
@@ -150,6 +152,14 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
         )?;
     }
     writeln!(xml, "      {}</body>", "</body>".repeat(shaft.links))
+}
+
+/// The moment of inertia (kg m²) of one link about an axis across it, through its middle: that of a slender rod, `m l² / 12`.
+///
+/// The model has the same about every axis: a link turns about the vertical alone, and a thin wire's inertia about its own
+/// axis would be below [`LEAST_INERTIA`].
+pub(super) fn link_inertia(shaft: &Shaft) -> f64 {
+    shaft.link_mass() * shaft.link_length().powi(2) / 12.0
 }
 
 /// What can touch what, pair by pair: the object, and every link of a whisker or the platform. Geoms that collide by
@@ -194,4 +204,51 @@ fn write_start(xml: &mut String, rig: &Rig, start: Pose) -> fmt::Result {
         start.heading,
         " 0".repeat(straight)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+
+    /// The values of an attribute, in the order of the model.
+    fn values<'x>(xml: &'x str, attribute: &str) -> Vec<&'x str> {
+        let opening = format!(" {attribute}=\"");
+        xml.split(&opening).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
+    }
+
+    #[test]
+    fn no_name_of_a_whisker_can_be_taken_already() {
+        let mut rig = Rig::default();
+        for (whisker, name) in rig.whiskers.iter_mut().zip(["world", "object"]) {
+            name.clone_into(&mut whisker.name);
+        }
+        rig.sensing.forces = true;
+        let xml = mjcf(&rig, None, Pose::default()).unwrap();
+        for element in ["<body", "<joint", "<geom", "<site", "<force", "<velocity"] {
+            let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
+            let mut names = values(&tags, "name");
+            if element == "<body" {
+                names.push("world");
+            }
+            let count = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), count, "{element}: {names:?}");
+        }
+    }
+
+    #[test]
+    fn every_inertia_of_a_thin_wire_is_one_that_the_engine_takes() {
+        for (radius, links) in [(0.06e-3, 16), (0.075e-3, 64), (0.02e-3, 64)] {
+            let mut rig = Rig::default();
+            (rig.whiskers[0].shaft.radius, rig.whiskers[0].shaft.links) = (radius, links);
+            let xml = mjcf(&rig, None, Pose::default()).unwrap();
+            for inertias in values(&xml, "diaginertia") {
+                let moments: Vec<f64> = inertias.split(' ').map(|moment| moment.parse().unwrap()).collect();
+                let [x, y, z] = moments[..] else { panic!("three moments, found {inertias}") };
+                assert!(x.min(y).min(z) >= LEAST_INERTIA && x + y >= z && y + z >= x && z + x >= y, "{inertias}");
+            }
+        }
+    }
 }

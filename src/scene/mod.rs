@@ -6,6 +6,7 @@
 
 mod clearance;
 mod expectation;
+mod gap;
 mod mjcf;
 mod scenario;
 mod solid;

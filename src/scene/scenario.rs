@@ -33,8 +33,8 @@ impl Scene {
     /// Reads a scenario.
     ///
     /// # Errors
-    /// Everything that is wrong with it, in the order of the text: at least one diagnostic, all of them errors. A text
-    /// that is no YAML is reported alone.
+    /// Everything that is wrong with it, up to [`FAULT_LIMIT`](crate::diagnostic::FAULT_LIMIT), in the order of the text:
+    /// at least one diagnostic, all of them errors. A text that is no YAML is reported alone.
     ///
     /// ```
     /// use vibrissa::diagnostic::Source;
@@ -138,7 +138,7 @@ mod tests {
      speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
-      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 mm, radius: 5 um, density: 6 kg/m^3, young_modulus: 7 GPa,
+      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, density: 6 g/cm^3, young_modulus: 7 GPa,
        damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad,
@@ -160,7 +160,7 @@ mod tests {
                 name: "a".to_owned(),
                 base_body: Point2::new(0.001, 0.002),
                 direction_body: 3.0,
-                shaft: Shaft { length: 4e-3, radius: 5e-6, density: 6.0, young_modulus: 7e9, damping: 8e-3, links: 9 },
+                shaft: Shaft { length: 0.04, radius: 5e-5, density: 6e3, young_modulus: 7e9, damping: 8e-3, links: 9 },
                 hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
             }],
             physics: Physics {

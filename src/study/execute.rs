@@ -6,8 +6,7 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
-use crate::percept::BindError;
-use crate::run::{Control, Run, drive};
+use crate::run::{BindError, Control, Run, drive};
 use crate::scene::{Scene, SolidError, mjcf};
 
 /// The worlds that a run can take place in.

@@ -5,6 +5,7 @@ use std::sync::{Arc, Once};
 use mujoco_rs::logging::set_log_handler;
 use mujoco_rs::prelude::{MjData, MjModel};
 use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
+use mujoco_rs::wrappers::mj_model::MjtObjBase;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
@@ -16,15 +17,15 @@ use crate::signal::{Command, Sample};
 
 use super::{Fault, World};
 
-/// What each of MuJoCo's warning counters means, in their order.
+/// What each of MuJoCo's warning counters means and what to do about it, in their order.
 const WARNINGS: [&str; 7] = [
-    "an inertia matrix became singular",
-    "more contacts than there is memory for",
-    "more constraints than there is memory for",
-    "a position is not a number or too large",
-    "a velocity is not a number or too large",
-    "an acceleration is not a number or too large",
-    "a command is not a number or too large",
+    "an inertia matrix became singular; give the rig heavier parts",
+    "there are more contacts than memory for them; make `links` smaller",
+    "there are more constraints than memory for them; make `links` smaller",
+    "a position is too large or not a number; make `physics.step` smaller",
+    "a velocity is too large or not a number; make `physics.step` smaller",
+    "an acceleration is too large or not a number; make `physics.step` smaller or the shaft less stiff",
+    "a command is too large or not a number",
 ];
 
 /// Why a MuJoCo world could not be built.
@@ -61,11 +62,15 @@ impl MujocoWorld {
     /// [`MujocoError`] when the object has no solid or MuJoCo refuses the model.
     pub fn new(rig: &Rig, object: Option<&Contour>, start: Pose, seed: u64) -> Result<Self, MujocoError> {
         route_engine_messages();
+        let refused = |error: &dyn std::fmt::Display| MujocoError::Model(error.to_string());
         let xml = mjcf(rig, object, start)?;
-        let model = MjModel::from_xml_string(&xml).map_err(|error| MujocoError::Model(error.to_string()))?;
-        let geom = model.name_to_id(mujoco_rs::wrappers::mj_model::MjtObjBase::mjOBJ_GEOM, "platform/body");
-        let mut data = MjData::try_new(Arc::new(model)).map_err(|error| MujocoError::Model(error.to_string()))?;
-        data.reset_keyframe(0).map_err(|error| MujocoError::Model(error.to_string()))?;
+        let model = MjModel::from_xml_string(&xml).map_err(|error| refused(&error))?;
+        let platform_geom = model
+            .name_to_id(MjtObjBase::mjOBJ_GEOM, "platform/body")
+            .and_then(|id| i32::try_from(id).ok())
+            .ok_or_else(|| refused(&"it has no geom for the platform"))?;
+        let mut data = MjData::try_new(Arc::new(model)).map_err(|error| refused(&error))?;
+        data.reset_keyframe(0).map_err(|error| refused(&error))?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
         Ok(Self {
@@ -77,7 +82,7 @@ impl MujocoWorld {
             steps_done: 0,
             noise: Normal::new(0.0, sensing.angle_noise).ok().filter(|_| sensing.angle_noise > 0.0),
             random: ChaCha8Rng::seed_from_u64(seed),
-            platform_geom: geom.and_then(|id| i32::try_from(id).ok()).unwrap_or(-1),
+            platform_geom,
             body_touched: false,
         })
     }
@@ -89,31 +94,38 @@ impl MujocoWorld {
     fn step(&mut self) -> Result<(), Fault> {
         self.data.step();
         self.steps_done += 1;
+        // First: after a silent reset, contacts are those of another place.
+        self.check_warnings()?;
         for contact in self.data.contact() {
-            let depth = -contact.dist;
+            let (time, depth, limit) = (self.time(), -contact.dist, self.rig.physics.penetration_limit);
             let is_body = contact.geom.contains(&self.platform_geom);
             self.body_touched |= is_body && depth >= 0.0;
-            if depth > self.rig.physics.penetration_limit {
-                let body = if is_body { "the platform" } else { "a whisker" }.to_owned();
-                let limit = self.rig.physics.penetration_limit;
-                return Err(Fault::Penetration { time: self.time(), body, depth, limit });
+            if depth > limit {
+                return Err(if is_body {
+                    Fault::Crash { time, depth }
+                } else {
+                    Fault::Penetration { time, depth, limit }
+                });
             }
         }
         Ok(())
     }
 
     /// MuJoCo resets its state when it diverges and goes on as if nothing had been; only its counters tell.
-    fn check(&self) -> Result<(), Fault> {
-        let warned = self.data.warning().iter().zip(WARNINGS).find(|(warning, _)| warning.number > 0);
-        let cause = match warned {
-            Some((_, cause)) => cause,
-            None if self.data.qpos().iter().any(|position| !position.is_finite()) => "a position is not a number",
-            None => return Ok(()),
-        };
-        Err(Fault::Diverged { time: self.time(), cause: cause.to_owned() })
+    fn check_warnings(&self) -> Result<(), Fault> {
+        let mut warned = self.data.warning().iter().zip(WARNINGS);
+        warned.find(|(warning, _)| warning.number > 0).map_or(Ok(()), |(_, cause)| self.diverged(cause))
+    }
+
+    fn diverged(&self, cause: &'static str) -> Result<(), Fault> {
+        Err(Fault::Diverged { time: self.time(), cause })
     }
 
     fn sample(&mut self) -> Sample {
+        if self.rig.sensing.forces {
+            // After a step, what sensors hold belongs to the state before it.
+            self.data.forward();
+        }
         let positions = self.data.qpos();
         let mut sample = Sample {
             time: self.time(),
@@ -148,7 +160,9 @@ impl World for MujocoWorld {
             let sample = self.sample();
             self.samples.push(sample);
         }
-        self.check()?;
+        if self.data.qpos().iter().any(|position| !position.is_finite()) {
+            self.diverged(WARNINGS[3])?;
+        }
         Ok(&self.samples)
     }
 
@@ -171,6 +185,7 @@ fn quantised(value: f64, resolution: f64) -> f64 {
 /// The version of the linked MuJoCo.
 #[must_use]
 pub fn engine_version() -> &'static str {
+    route_engine_messages();
     mujoco_rs::mujoco_version()
 }
 

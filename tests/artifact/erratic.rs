@@ -73,7 +73,8 @@ impl Senses for Erratic {
 /// finite or is beyond the rig's limits.
 pub(crate) fn run(program: Program) {
     let rig = Rig::default();
-    let mut steering = Steering::new(&rig, &program.whiskers);
+    let whiskers: Vec<usize> = (0..program.whiskers.len()).map(|index| index % rig.whiskers.len()).collect();
+    let mut steering = Steering::new(&rig, &whiskers);
     let mut senses = Erratic { whiskers: program.whiskers.len(), tick: 0, said: Cell::new(0) };
     let mut machine = Machine::new(Arc::new(program));
     for tick in 0..100 {

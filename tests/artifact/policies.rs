@@ -4,7 +4,7 @@ use std::path::Path;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::machine::Artifact;
-use vibrissa::policy::compile_to_artifact;
+use vibrissa::policy::compile_with_warnings;
 
 /// A policy that reads, computes and does a bit of everything.
 pub(crate) const EVERYTHING: &str = r#"
@@ -20,7 +20,15 @@ law touch(w: whisker, s: speed) {
   else { steer w along v at s facing angle(w.contour.end - body.position) }
 }
 initial Start
-state Start { stop  when a.touching -> Touch(a, fast, vector(1, 2))  when b.touching for 100 ms -> Touch(b, -fast, vector(0, 1)) }
+state Start {
+  var closest = 1 m
+  var last = a
+  entry { set closest = min(closest, |a.tip - body.position|)  record last }
+  if b.touching { set last = b }
+  set closest = lowpass(closest, 5 Hz) + pid(closest - 10 mm, 2, 1 Hz, 0.1 s, 50 mm)
+  stop
+  exit { record last }
+  when a.touching -> Touch(a, fast, vector(1, 2))  when b.touching for 100 ms -> Touch(b, -fast, vector(0, 1)) }
 state Touch(w: whisker, s: speed, v: vector) {
   do touch(w, s)
   if w == b { steer w along unit(v) at s turning 1 rad/s * clamp(sqrt(free), 0, min(sin(body.yaw), cos(body.yaw))) }
@@ -35,7 +43,8 @@ always when cross(body.position, vector(1, 0)) > 1e6 m -> Failure("too far")
 /// A text's artifact.
 pub(crate) fn artifact(name: &str, text: &str) -> Artifact {
     let source = Source::new(name, text);
-    compile_to_artifact(&source).unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain)))
+    let compiled = compile_with_warnings(&source);
+    compiled.unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain))).artifact
 }
 
 /// The artifact of [`EVERYTHING`].
@@ -59,7 +68,10 @@ pub(crate) fn all() -> Vec<Artifact> {
         if example.starts_with("machine") {
             return artifact("language.md", example);
         }
-        artifact("language.md", &format!("machine example {example} initial Still state Still {{ stop }}"))
+        artifact(
+            "language.md",
+            &format!("machine example whisker bound {example} initial Still state Still {{ stop }}"),
+        )
     });
     let all: Vec<Artifact> = files.chain(examples).chain([everything()]).collect();
     assert!(all.len() >= 4);

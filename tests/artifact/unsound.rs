@@ -28,7 +28,7 @@ fn whisker_argument(program: &Program) -> u16 {
 #[test]
 fn registers_are_bounded() {
     let last = |program: &Program| u16::try_from(program.image.len() - 1).unwrap();
-    let changes: [fn(&mut Op, u16); 7] = [
+    let changes: [fn(&mut Op, u16); 13] = [
         |op, end| *op = Op::Copy { to: end + 1, a: 3 },
         |op, end| *op = Op::Copy { to: 5, a: end + 1 },
         |op, end| *op = Op::Norm { to: 5, a: end },
@@ -36,6 +36,12 @@ fn registers_are_bounded() {
         |op, _| *op = Op::BodyPosition { to: u16::MAX },
         |op, end| *op = Op::SteerBodyFacing { along: end, speed: 0, heading: 0 },
         |op, end| *op = Op::Record { whisker: end + 1 },
+        |op, end| *op = Op::LowPass { to: 5, a: 3, b: 3, memory: end - 1 },
+        |op, end| *op = Op::LowPass { to: 5, a: 3, b: end + 1, memory: end - 2 },
+        |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 2, memory: end - 3 },
+        |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 3, memory: end - 2 },
+        |op, end| *op = Op::Clear { memory: end, count: 2 },
+        |op, _| *op = Op::Clear { memory: u16::MAX, count: 4 },
     ];
     for change in changes {
         let told = refusal(|program| {
@@ -71,6 +77,9 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
     told(|program| program.states[1].body.end = u32::try_from(program.code.len()).unwrap() + 1);
     told(|program| program.states[1].body.start = program.states[1].body.end + 1);
     told(|program| program.states[1].body.start -= 1);
+    told(|program| program.states[0].entry.end = u32::MAX);
+    told(|program| program.states[0].entry.start -= 1);
+    told(|program| program.states[0].exit.end += 1);
     told(|program| {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
@@ -87,6 +96,18 @@ fn a_tick_does_no_code_twice() {
         }
     });
     assert!(told.contains("operations a tick"), "{told}");
+    let told = refusal(|program| {
+        let longest = program.states[1].body.clone();
+        for state in &mut program.states {
+            (state.entry, state.exit) = (longest.clone(), longest.clone());
+        }
+    });
+    assert!(told.contains("operations a tick"), "{told}");
+    let told = refusal(|program| {
+        let clear = find(program, |op| matches!(op, Op::Clear { .. }));
+        program.code[clear] = Op::Clear { memory: 2, count: 5 };
+    });
+    assert!(told.contains("5 registers to clear at once"), "{told}");
 }
 
 #[test]
@@ -122,6 +143,9 @@ fn what_is_read_as_a_whisker_only_ever_holds_one() {
     }
     told(&|program, whisker| replace(program, Op::Time { to: whisker }));
     told(&|program, whisker| replace(program, Op::BodyPosition { to: whisker - 1 }));
+    told(&|program, whisker| replace(program, Op::LowPass { to: whisker + 1, a: 3, b: 3, memory: whisker - 2 }));
+    told(&|program, whisker| replace(program, Op::Pid { to: whisker, a: 3, gains: 3, memory: whisker + 1 }));
+    told(&|program, whisker| replace(program, Op::Clear { memory: whisker, count: 1 }));
     told(&|program, whisker| {
         // Through another register: what is copied counts too.
         let through = whisker + 1;
@@ -143,6 +167,17 @@ fn parameters_stay_what_they_are() {
         program.code[plain] = Op::Copy { to: 0, a: 3 };
     });
     assert!(told.contains("changes the parameter `fast`"), "{told}");
+    for op in [
+        Op::Clear { memory: 1, count: 3 },
+        Op::LowPass { to: 9, a: 3, b: 3, memory: 1 },
+        Op::Pid { to: 9, a: 3, gains: 3, memory: 1 },
+    ] {
+        let told = refusal(|program| {
+            let plain = find(program, |op| matches!(op, Op::Add { .. }));
+            program.code[plain] = op;
+        });
+        assert!(told.contains("changes the parameter `free`"), "{told}");
+    }
     let changes: [fn(&mut Program); 5] = [
         |program| program.image[0] = 0.3,
         |program| program.parameters[0].default = -1.0,

@@ -82,6 +82,21 @@ impl<'f> Compiler<'f> {
                 let dimension = self.dimension(a.checked_mul(b), span)?;
                 scalar(dimension, self.product(function, register(0), register(1)))
             }
+            (Function::LowPass, &[Type::Scalar(dimension), Type::Scalar(Dimension::FREQUENCY)]) => {
+                let memory = self.memory(3);
+                let (a, b) = (register(0), register(1));
+                scalar(dimension, self.code.scalar(|to| Op::LowPass { to, a, b, memory }))
+            }
+            (
+                Function::Pid,
+                &[Type::Scalar(error), Type::Scalar(p), Type::Scalar(i), Type::Scalar(d), Type::Scalar(limit)],
+            ) if is_pid(error, p, i, d, limit) => {
+                let (memory, gains) = (self.memory(4), self.code.place(4));
+                for gain in 0..4 {
+                    self.code.copy(gains + gain, register(usize::from(gain) + 1), 1);
+                }
+                scalar(limit, self.code.scalar(|to| Op::Pid { to, a: register(0), gains, memory }))
+            }
             _ => {
                 let found: Vec<String> = types.iter().map(ToString::to_string).collect();
                 let message = match found.as_slice() {
@@ -92,6 +107,13 @@ impl<'f> Compiler<'f> {
                 None
             }
         }
+    }
+
+    /// Fresh registers for the memory of a stateful function, which the state being written resets when it is entered.
+    fn memory(&mut self, count: u16) -> u16 {
+        let memory = self.code.place(count);
+        self.memories.push((memory, count));
+        memory
     }
 
     /// The dot or the cross product of two vectors.
@@ -182,6 +204,15 @@ pub(super) fn count(values: usize) -> String {
     }
 }
 
+/// Whether the gains of a PID controller make of the error what the limit is.
+fn is_pid(error: Dimension, p: Dimension, i: Dimension, d: Dimension, limit: Dimension) -> bool {
+    let integrated = error.checked_mul(Dimension::TIME);
+    let changing = error.checked_div(Dimension::TIME);
+    p.checked_mul(error) == Some(limit)
+        && integrated.is_some_and(|integrated| i.checked_mul(integrated) == Some(limit))
+        && changing.is_some_and(|changing| d.checked_mul(changing) == Some(limit))
+}
+
 /// The dimension whose square is `dimension`, if there is one.
 fn square_root(dimension: Dimension) -> Option<Dimension> {
     let Dimension { length, angle, time, mass } = dimension;
@@ -201,5 +232,10 @@ fn expectation(function: Function) -> &'static str {
         Function::Rotate => "it takes a vector and an angle",
         Function::Turn => "it takes two angles and gives the shorter turn from the first to the second",
         Function::Dot | Function::Cross => "it takes two vectors",
+        Function::LowPass => "it takes a number and a frequency",
+        Function::Pid => {
+            "it takes the error, gains for its value, its integral and its change, and the output's limit; each gain times what \
+             it is for has the dimension of the limit"
+        }
     }
 }

@@ -13,8 +13,8 @@ mod structure;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::Program;
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
+use crate::machine::{Program, Register};
 
 use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
 use super::hint::did_you_mean;
@@ -22,21 +22,32 @@ use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
 use scope::{Meaning, Scope};
 
+/// A program, and what else is known of it once it is written.
+pub(super) struct Lowered {
+    pub(super) program: Program,
+    /// What each state is entered with: names, types and places.
+    pub(super) arguments: Vec<Vec<(String, Value)>>,
+}
+
 /// Checks a file and writes its program.
-pub(super) fn lower(file: &File) -> Result<Program, Vec<Diagnostic>> {
+pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     let program = structure::file(&mut compiler, file);
+    let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
+    states.sort_by_key(|state| state.index);
     let mut diagnostics = compiler.diagnostics;
     diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.code));
     diagnostics.dedup();
     match program {
-        Some(program) if diagnostics.is_empty() => Ok(program),
+        Some(program) if diagnostics.is_empty() => {
+            let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
+            let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
+            Ok(Lowered { program, arguments: arguments.collect() })
+        }
         _ => Err(diagnostics),
     }
 }
 
-/// Faults after which the compiler stops looking for more.
-const FAULT_LIMIT: usize = 50;
 /// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
 /// exhaust the stack.
 const DEPTH_LIMIT: usize = 250;
@@ -69,6 +80,12 @@ struct Compiler<'f> {
     writing: Vec<&'f str>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
+    /// The memory that the state being written has declared.
+    variables: Vec<&'f str>,
+    /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
+    memories: Vec<(Register, u16)>,
+    /// Why commands are not allowed in what is being written, if they are not.
+    commandless: Option<&'static str>,
     /// How deep the walk through the syntax tree is, and how many nodes it has visited.
     depth: usize,
     work: usize,
@@ -89,6 +106,9 @@ impl<'f> Compiler<'f> {
             broken: HashSet::new(),
             writing: Vec::new(),
             doing: &[],
+            variables: Vec::new(),
+            memories: Vec::new(),
+            commandless: None,
             depth: 0,
             work: 0,
             outgrown: None,

@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::machine;
 use crate::policy::ast::{Bound, Parameter};
-use crate::units::{Dimension, format_si, parse_unit};
+use crate::units::{Dimension, format_si, parse_unit, units_of};
 
 use super::Compiler;
 
@@ -23,7 +23,7 @@ impl<'f> Compiler<'f> {
                         let diagnostic =
                             Diagnostic::error("P0301", message, bound.span, format!("is {}", found.phrase()))
                                 .note(parameter.value.span, format!("is {}", dimension.phrase()));
-                        self.report(diagnostic.hint("give the value and the upper end of the range a unit each"));
+                        self.report(diagnostic.hint(units_hint(dimension, found)));
                         return None;
                     }
                 }
@@ -56,5 +56,15 @@ impl<'f> Compiler<'f> {
             (value, dimension) = (unit.to_si(value), unit.dimension());
         }
         Some((if bound.negative { -value } else { value }, dimension))
+    }
+}
+
+/// What to do about a value and a range in two dimensions.
+fn units_hint(value: Dimension, range: Dimension) -> String {
+    let units = |dimension| units_of(dimension).join(", ");
+    match (value, range) {
+        (Dimension::NUMBER, other) => format!("give the value a unit, such as {}", units(other)),
+        (other, Dimension::NUMBER) => format!("give the upper end of the range a unit, such as {}", units(other)),
+        _ => format!("write both in {}, or both in {}", units(value), units(range)),
     }
 }

@@ -1,10 +1,10 @@
 //! Names and what they stand for.
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, suggest};
 use crate::policy::ast::{Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::hint::did_you_mean;
-use crate::policy::types::Value;
+use crate::policy::types::{Type, Value};
 use crate::units::parse_unit;
 
 use super::Compiler;
@@ -74,7 +74,16 @@ impl<'f> Compiler<'f> {
         } else {
             let known = scope.names.iter().map(|(known, _)| known.text.as_str());
             let known = known.chain(self.globals.keys().copied()).chain(self.derived.keys().copied());
-            did_you_mean(diagnostic, text, known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time"]))
+            let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time"]);
+            let diagnostic = did_you_mean(diagnostic, text, known);
+            let is_whisker =
+                |(_, meaning): &(&&str, &Meaning)| meaning.is_some_and(|value| value.r#type == Type::Whisker);
+            let whiskers = self.globals.iter().filter(is_whisker).map(|(&known, _)| known);
+            match suggest(text, whiskers) {
+                Some(whisker) => diagnostic
+                    .hint(format!("to use another whisker of the rig, bind it too: `whisker {whisker}, {text}`")),
+                None => diagnostic,
+            }
         };
         self.report(diagnostic);
     }

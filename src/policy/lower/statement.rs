@@ -30,6 +30,7 @@ impl<'f> Compiler<'f> {
                 let meaning = self.expression(scope, value);
                 self.bind(scope, name, meaning);
             }
+            Statement::Set { name, value } => self.set(scope, name, value)?,
             Statement::If { branches, otherwise } => self.conditional(scope, branches, otherwise),
             Statement::Do { law, values, span } => self.apply(scope, law, values, *span)?,
             Statement::Record(whisker) => {
@@ -37,9 +38,45 @@ impl<'f> Compiler<'f> {
                 self.code.push(Op::Record { whisker });
             }
             Statement::Steer(steer) => self.steer(scope, steer)?,
-            Statement::Hold => self.code.push(Op::Hold),
-            Statement::Stop => self.code.push(Op::Stop),
+            Statement::Hold(span) => self.command(*span, Op::Hold)?,
+            Statement::Stop(span) => self.command(*span, Op::Stop)?,
         }
+        Some(())
+    }
+
+    /// Writes a command, unless there can be none here.
+    fn command(&mut self, span: Span, op: Op) -> Option<()> {
+        if let Some(place) = self.commandless {
+            let message = format!("{place} gives no command");
+            self.report(
+                Diagnostic::error("P0407", message, span, "a command")
+                    .hint("what the state does every tick commands; the tick that enters a state runs that too"),
+            );
+            return None;
+        }
+        self.code.push(op);
+        Some(())
+    }
+
+    fn set(&mut self, scope: &Scope<'f>, name: &'f Name, value: &'f Expression) -> Option<()> {
+        let meaning = scope.get(&name.text);
+        if !self.writing.is_empty() || !self.variables.contains(&name.text.as_str()) {
+            self.expression(scope, value);
+            let message = format!("`{}` cannot be set", name.text);
+            let diagnostic = Diagnostic::error("P0406", message, name.span, "not memory of this state");
+            let diagnostic = did_you_mean(diagnostic, &name.text, self.variables.iter().copied());
+            self.report(diagnostic.hint(format!(
+                "only what a state declares with `var {} = \u{2026}` can be set, and only in that state itself",
+                name.text
+            )));
+            return None;
+        }
+        let Some(variable) = meaning.flatten() else {
+            self.expression(scope, value);
+            return None;
+        };
+        let value = self.expect(scope, value, variable.r#type)?;
+        self.code.copy(variable.register, value.register, value.r#type.width());
         Some(())
     }
 
@@ -98,12 +135,12 @@ impl<'f> Compiler<'f> {
         };
         let (whisker, along) = (whisker?, along?);
         let (Value { register: speed, .. }, Value { register: turned, .. }) = (speed?, turn?);
-        self.code.push(match (whisker, &steer.turn) {
+        let op = match (whisker, &steer.turn) {
             (None, Turn::Facing(_)) => Op::SteerBodyFacing { along, speed, heading: turned },
             (None, Turn::Turning(_)) => Op::SteerBodyTurning { along, speed, rate: turned },
             (Some(whisker), Turn::Facing(_)) => Op::SteerWhiskerFacing { whisker, along, speed, heading: turned },
             (Some(whisker), Turn::Turning(_)) => Op::SteerWhiskerTurning { whisker, along, speed, rate: turned },
-        });
-        Some(())
+        };
+        self.command(steer.span, op)
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{self, Block, Program};
+use crate::machine::{self, Block, Op, Program};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
@@ -151,14 +151,57 @@ impl<'f> Compiler<'f> {
     }
 
     fn state(&mut self, state: &'f State, mut scope: Scope<'f>, timers: &mut usize) -> machine::State {
+        self.variables(&mut scope, state);
         self.doing = &state.body;
         let transitions = state.transitions.iter();
         let transitions = transitions.filter_map(|transition| self.transition(&scope, transition, timers)).collect();
         self.doing = &[];
         let start = self.code.here();
         self.statements(&mut scope, &state.body);
+        let body = self.code.since(start);
+
+        self.commandless = Some("leaving a state");
+        let start = self.code.here();
+        self.statements(&mut scope, &state.exit);
+        let exit = self.code.since(start);
+        let entry = self.entry(&mut scope, state);
+        self.commandless = None;
+        self.variables.clear();
         self.watch_growth(state.name.span);
-        machine::State { name: Arc::from(state.name.text.as_str()), body: self.code.since(start), transitions }
+        machine::State { name: Arc::from(state.name.text.as_str()), entry, body, exit, transitions }
+    }
+
+    /// Gives a state's memory its places. The values are written into the entry, which comes last, when it is known what
+    /// else there is to reset.
+    fn variables(&mut self, scope: &mut Scope<'f>, state: &'f State) {
+        for (name, value) in &state.memory {
+            let mark = self.code.mark();
+            let value = self.expression(scope, value);
+            self.code.rewind(mark);
+            let memory = value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) });
+            self.bind(scope, name, memory);
+            self.variables.push(&name.text);
+        }
+        self.memories.clear();
+    }
+
+    /// Writes what a state does when it is entered.
+    fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
+        self.commandless = Some("entering a state");
+        let start = self.code.here();
+        for (name, value) in &state.memory {
+            // A fault of the value has been reported when its place was made.
+            if let Some(memory) = scope.get(&name.text).flatten()
+                && let Some(value) = self.expression(scope, value)
+            {
+                self.code.copy(memory.register, value.register, value.r#type.width());
+            }
+        }
+        for (memory, count) in std::mem::take(&mut self.memories) {
+            self.code.push(Op::Clear { memory, count });
+        }
+        self.statements(scope, &state.entry);
+        self.code.since(start)
     }
 
     fn transition(

@@ -6,10 +6,10 @@ use svg::Node;
 use svg::node::element::{Group, Path};
 
 use super::map::{DOT, OUTLINE, UNTRACED, pose_style};
-use super::outline::Outline;
 use super::scale::round_step;
-use super::style::{self, Anchor, error_colour, line, text};
 use crate::report::number::{mean_std, millimetres};
+use crate::report::outline::Outline;
+use crate::report::style::{self, Anchor, error_colour, line, text};
 use crate::run::Trace;
 use crate::score::{ErrorFigures, Score};
 

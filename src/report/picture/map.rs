@@ -7,10 +7,10 @@ use std::ops::Range;
 
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
-use super::outline::Outline;
 use super::scale::Scale;
-use super::style::{self, Anchor, line, px, text};
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
+use crate::report::outline::Outline;
+use crate::report::style::{self, Anchor, line, px, text};
 use crate::rig::Rig;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
@@ -237,8 +237,12 @@ fn poses(trace: &Trace) -> Vec<Pose> {
     chosen.into_iter().map(|index| poses[index]).collect()
 }
 
+/// A platform further off than this (m) has lost its place; a scale that shows it would show nothing else.
+const HORIZON: f64 = 1e6;
+
 fn has_place(tick: &TickRecord) -> bool {
-    tick.body.position.x.is_finite() && tick.body.position.y.is_finite() && tick.body.heading.is_finite()
+    let within = |coordinate: f64| coordinate.abs() <= HORIZON;
+    within(tick.body.position.x) && within(tick.body.position.y) && tick.body.heading.is_finite()
 }
 
 /// The points that bound what is drawn of a rig (world).

@@ -2,9 +2,7 @@
 
 mod legend;
 mod map;
-mod outline;
 mod scale;
-mod style;
 mod timeline;
 
 use std::iter;
@@ -14,8 +12,8 @@ use svg::node::element::{Rectangle, TSpan, Text, Title};
 
 use self::legend::Legend;
 use self::map::Map;
-use self::style::{Anchor, px, text};
 use self::timeline::Timeline;
+use super::style::{self, Anchor, px, text};
 use crate::run::{Run, Trace};
 use crate::scene::{Outcome, Scene};
 use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};

@@ -6,9 +6,9 @@ use std::ops::Range;
 
 use svg::node::element::{Group, Rectangle};
 
-use super::outline::Outline;
 use super::scale::{Scale, round_step};
-use super::style::{self, Anchor, error_colour, line, px, text, width_of};
+use crate::report::outline::Outline;
+use crate::report::style::{self, Anchor, error_colour, line, px, text, width_of};
 use crate::run::Trace;
 use crate::score::{ErrorFigures, Tip};
 

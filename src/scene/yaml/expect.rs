@@ -7,6 +7,9 @@ use super::reader::Reader;
 use crate::scene::{Expectation, Metric, Outcome};
 use crate::units::Dimension;
 
+/// What a scenario expects that does not say: that its runs complete.
+pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
+
 /// Reads `expect`.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {
     let mut fields = Fields::of(reader, &entry.value, "an expectation", entry.key.span)?;
@@ -14,6 +17,8 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
     if let Some(entry) = fields.entry("outcome") {
         let index = reader.choice(&entry.value, "an outcome", &Outcome::ALL.map(Outcome::name));
         expectations.extend(index.and_then(|index| Outcome::ALL.get(index)).copied().map(Expectation::Outcome));
+    } else {
+        expectations.push(COMPLETION);
     }
     for metric in Metric::ALL {
         let key = if metric.dimension() == Dimension::NUMBER {

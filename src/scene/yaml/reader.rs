@@ -3,7 +3,7 @@
 use super::fault;
 use super::fields::list;
 use super::node::{Entry, Node, Placed};
-use crate::diagnostic::{Diagnostic, Source, Span, suggest};
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span, suggest};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
@@ -29,9 +29,11 @@ impl<'s> Reader<'s> {
         self.source
     }
 
-    /// Puts a fault on the list.
+    /// Puts a fault on the list, unless that is full.
     pub(super) fn report(&mut self, fault: Diagnostic) {
-        self.faults.push(fault);
+        if self.faults.len() < FAULT_LIMIT {
+            self.faults.push(fault);
+        }
     }
 
     /// The faults, in the order of the text.

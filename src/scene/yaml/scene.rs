@@ -51,7 +51,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     let stop = fields.required("stop", "{time: 120 s}").and_then(|entry| stop::read(reader, entry));
     let expect = match fields.entry("expect") {
         Some(entry) => expect::read(reader, entry),
-        None => Some(Vec::new()),
+        None => Some(vec![expect::COMPLETION]),
     };
     let policy = match fields.entry("policy") {
         Some(entry) => policy(reader, entry).map(Some),
@@ -66,6 +66,9 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     if let Some(object) = &object {
         check_solid(reader, object);
     }
+    if let (Some(rig), Some(stop)) = (&rig, &stop) {
+        stop::check(reader, stop, rig.sensing.control_rate);
+    }
     let (rig, object, start) = (rig?, object?, start?);
     check_clearance(reader, &rig, &start, &object);
     Some(Scene {
@@ -74,7 +77,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         rig,
         object: object.value,
         start: start.value,
-        stop: stop?,
+        stop: stop?.value,
         expect: expect?,
         policy: policy?,
         seed: seed?,
@@ -107,10 +110,19 @@ fn policy(reader: &mut Reader<'_>, entry: &Entry) -> Option<PathBuf> {
 fn check_solid(reader: &mut Reader<'_>, object: &Placed<Contour>) {
     let (message, label, hint) = match Solid::from_contour(&object.value) {
         Ok(_) => return,
-        Err(SolidError::Open) => ("the object has no inside", "an open contour", "close it with `closed: true`"),
-        Err(SolidError::Concave) => {
-            ("the object is concave", "turns both ways", "one solid can only be convex yet; fill the hollows")
+        Err(SolidError::Open) => {
+            ("the object has no inside", "an open contour".to_owned(), "close it with `closed: true`")
         }
+        Err(SolidError::Concave) => (
+            "the object is concave",
+            "turns both ways".to_owned(),
+            "one solid can only be convex yet; fill the hollows",
+        ),
+        Err(SolidError::Corners { count, limit }) => (
+            "the object has too many corners to be simulated",
+            format!("{count} corners, must be at most {limit}"),
+            "leave out vertices that hardly turn, or use arcs",
+        ),
     };
     reader.report(Diagnostic::error(fault::SHAPE, message, object.span, label).hint(hint));
 }

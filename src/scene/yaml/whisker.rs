@@ -5,10 +5,11 @@ use super::fields::Fields;
 use super::key::Key;
 use super::node::{Entry, Node};
 use super::reader::Reader;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::rig::{Hinge, Rig, Shaft, Whisker};
+use crate::scene::mjcf::{LEAST_INERTIA, link_inertia};
 use crate::signal::MAX_WHISKERS;
-use crate::units::Dimension;
+use crate::units::{Dimension, format_si};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -84,7 +85,7 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
         }
         None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
     };
-    let shaft = shaft(reader, &mut fields);
+    let shaft = shaft(reader, &mut fields, name.span);
     let hinge = match fields.entry("hinge") {
         Some(entry) => hinge(reader, entry),
         None => Some(Hinge::default()),
@@ -99,7 +100,9 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
     })
 }
 
-fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Shaft {
+/// Reads the keys of the shaft of the whisker whose name stands at `place`.
+fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, place: Span) -> Shaft {
+    let fault_count = reader.fault_count();
     let mut shaft = Shaft::default();
     fields.set(reader, &LENGTH, &mut shaft.length);
     fields.set(reader, &RADIUS, &mut shaft.radius);
@@ -111,7 +114,27 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Shaft {
     {
         shaft.links = links;
     }
+    if reader.fault_count() == fault_count {
+        check_inertia(reader, &shaft, place);
+    }
     shaft
+}
+
+/// Checks that a link's moment of inertia is one that the simulator takes. Its mass is then too: no link is longer than
+/// 250 mm, so that one that is too light is too easy to turn as well.
+fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
+    let inertia = link_inertia(shaft);
+    if inertia >= LEAST_INERTIA {
+        return;
+    }
+    let kilogram_metres = |moment| format_si(moment, Dimension::INERTIA);
+    let label = format!(
+        "a link has {} about its middle, and needs {}",
+        kilogram_metres(inertia),
+        kilogram_metres(LEAST_INERTIA)
+    );
+    let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated", place, label);
+    reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
 }
 
 fn hinge(reader: &mut Reader<'_>, entry: &Entry) -> Option<Hinge> {

@@ -1,4 +1,4 @@
-//! Colours and type of the picture.
+//! Colours and type of the pictures.
 
 use std::cmp::Ordering;
 
@@ -6,6 +6,9 @@ use svg::node::element::{Line, Text};
 
 /// A font that every system has.
 pub(super) const FONT: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
+
+/// A font for programs that every system has.
+pub(super) const CODE_FONT: &str = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
 
 /// Text and outlines.
 pub(super) const INK: &str = "#1f2933";

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::geometry::{Point2, Vector2};
 
-/// Keypoints that the curve goes through.
+/// Keypoints that the curve is fitted to.
 const WINDOW: usize = 7;
 /// Least distance between keypoints (m).
 const SPACING: f64 = 1e-3;
@@ -14,7 +14,7 @@ const SPACING: f64 = 1e-3;
 /// It is the parabola, in the length along the keypoints, that fits the newest seven best; keypoints lie at least a
 /// millimetre apart. The curve's end is where the tip is, its tangent there is the direction of travel.
 #[derive(Debug, Clone, Default)]
-pub struct ContourSpline {
+pub struct LocalContour {
     /// The newest keypoints, oldest first.
     keypoints: [Point2; WINDOW],
     count: usize,
@@ -28,7 +28,7 @@ struct End {
     curvature: f64,
 }
 
-impl ContourSpline {
+impl LocalContour {
     /// Forgets everything.
     pub fn clear(&mut self) {
         *self = Self::default();

@@ -24,6 +24,11 @@ impl Outline {
         self.push("A", &[radius, radius, 0.0, 0.0, f64::from(u8::from(!left)), x, y]);
     }
 
+    /// Goes to a point along a cubic curve with these control points.
+    pub(super) fn curve_to(&mut self, first: (f64, f64), second: (f64, f64), (x, y): (f64, f64)) {
+        self.push("C", &[first.0, first.1, second.0, second.1, x, y]);
+    }
+
     /// Goes back to where it started.
     pub(super) fn close(&mut self) {
         self.0.push('Z');

@@ -1,0 +1,55 @@
+//! `vibrissa fmt`
+
+use std::path::Path;
+
+use similar::TextDiff;
+
+use crate::diagnostic::Source;
+use crate::policy::format;
+
+use super::arguments::FmtArguments;
+use super::exit::{Exit, Failure};
+use super::{input, output};
+
+pub(super) fn fmt(arguments: &FmtArguments) -> Result<Exit, Failure> {
+    let mut exit = Exit::Done;
+    for path in &arguments.policies {
+        exit = match (fmt_one(path, arguments.check)?, exit) {
+            (Exit::Done, exit) | (_, exit @ Exit::Unusable) => exit,
+            (worse, _) => worse,
+        };
+    }
+    Ok(exit)
+}
+
+fn fmt_one(path: &Path, check: bool) -> Result<Exit, Failure> {
+    let standard = path == Path::new("-");
+    let source = if standard { input::read_standard()? } else { input::read(path)? };
+    let formatted = match format(&source) {
+        Ok(formatted) => formatted,
+        Err(faults) => {
+            output::diagnostics(&source, &faults);
+            return Ok(Exit::Unusable);
+        }
+    };
+    if check {
+        output::text(difference(&source, &formatted))?;
+        return Ok(if formatted == source.text { Exit::Done } else { Exit::Unexpected });
+    }
+    if standard {
+        output::text(formatted)?;
+    } else if formatted != source.text {
+        std::fs::write(path, formatted).map_err(Failure::rewrite(path))?;
+        output::message(format_args!("formatted {}", source.name));
+    }
+    Ok(Exit::Done)
+}
+
+/// A unified diff from what there is to what should be; nothing where there is no difference.
+fn difference(source: &Source, formatted: &str) -> String {
+    let formatted_name = format!("{} (formatted)", source.name);
+    TextDiff::from_lines(source.text.as_str(), formatted)
+        .unified_diff()
+        .header(&source.name, &formatted_name)
+        .to_string()
+}

@@ -1,0 +1,81 @@
+//! Operations that remember: a low-pass filter, a PID controller.
+//!
+//! Their memory is registers that hold zero until the first use, and again whenever their state is entered. Each takes the
+//! time from the last use to this one, so that a late tick is filtered as what it is.
+
+/// Started (1) or not (0), time of the last use (s), filtered value.
+type LowPassMemory = [f64; 3];
+/// Started (1) or not (0), time of the last use (s), integrated error, last error.
+type PidMemory = [f64; 4];
+
+/// One step of a first-order low-pass filter with its −3 dB point at `cutoff` (Hz); it starts at the first value that it
+/// gets.
+pub(super) fn low_pass(memory: LowPassMemory, now: f64, value: f64, cutoff: f64) -> (LowPassMemory, f64) {
+    let [started, before, filtered] = memory;
+    let filtered = if started > 0.5 {
+        // Exact for a value that stays as it is between two uses.
+        let share = -(-std::f64::consts::TAU * cutoff * (now - before)).exp_m1();
+        filtered + share * (value - filtered)
+    } else {
+        value
+    };
+    ([1.0, now, filtered], filtered)
+}
+
+/// One step of a PID controller with the gains `[p, i, d, limit]`. The output stays within ± `limit`; while it is at the
+/// limit the integral does not grow.
+pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f64; 4]) -> (PidMemory, f64) {
+    let [started, before, integral, last] = memory;
+    let passed = if started > 0.5 { now - before } else { 0.0 };
+    let grown = integral + error * passed;
+    let change = if passed > 0.0 { (error - last) / passed } else { 0.0 };
+    let output = p * error + i * grown + d * change;
+    let integral = if output.abs() <= limit.abs() { grown } else { integral };
+    // Not `clamp`, which panics on a limit that is not a number; that one must show in the output.
+    let limited = if output.abs() <= limit.abs() { output } else { limit.abs() * output.signum() };
+    ([1.0, now, integral, error], limited)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{low_pass, pid};
+
+    #[test]
+    fn a_step_passes_a_low_pass_filter_as_an_exponential_whatever_the_ticks() {
+        let (mut memory, first) = low_pass([0.0; 3], 0.0, 0.0, 2.0);
+        assert!(first.abs() < 1e-15);
+        let mut now = 0.0;
+        for passed in [0.01, 0.5, 1e-4, 0.033, 0.2] {
+            now += passed;
+            let filtered;
+            (memory, filtered) = low_pass(memory, now, 1.0, 2.0);
+            assert!((filtered - (1.0 - (-std::f64::consts::TAU * 2.0 * now).exp())).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_pid_controller_adds_its_three_parts() {
+        let (memory, output) = pid([0.0; 4], 1.0, 0.5, [2.0, 3.0, 5.0, 100.0]);
+        assert!((output - 1.0).abs() < 1e-12, "at first there is neither past nor change");
+        let (_, output) = pid(memory, 1.1, 0.7, [2.0, 3.0, 5.0, 100.0]);
+        assert!((output - (1.4 + 3.0 * 0.07 + 5.0 * 2.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_pid_controller_at_its_limit_does_not_wind_up() {
+        let mut memory = [0.0; 4];
+        for tick in 0..1000 {
+            let output;
+            (memory, output) = pid(memory, f64::from(tick), 1.0, [1.0, 1.0, 0.0, 2.0]);
+            assert!(output <= 2.0);
+        }
+        assert!(pid(memory, 1000.0, -2.0, [1.0, 1.0, 0.0, 2.0]).1 < 0.0);
+    }
+
+    #[test]
+    fn what_is_not_a_number_shows() {
+        assert!(low_pass([1.0, 0.0, 0.0], 0.1, f64::NAN, 1.0).1.is_nan());
+        assert!(pid([1.0, 0.0, 0.0, 0.0], 0.1, f64::NAN, [1.0, 0.0, 0.0, 1.0]).1.is_nan());
+        assert!(pid([1.0, 0.0, 0.0, 0.0], 0.1, 1.0, [1.0, 0.0, 0.0, f64::NAN]).1.is_nan());
+    }
+}

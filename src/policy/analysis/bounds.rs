@@ -1,0 +1,188 @@
+//! Abstract interpretation: what a condition can be in a region.
+
+use crate::machine::{Block, Op, Register};
+
+use super::interval::Interval;
+use super::model::Model;
+use super::region::Region;
+use super::unknown::{Source, Unknown, scalar, vector};
+
+/// Evaluates code over intervals.
+pub(super) struct Bounds<'m> {
+    pub(super) model: &'m Model<'m>,
+    /// What the code at hand has written, each with the number of the evaluation that wrote it.
+    cells: Vec<(u32, Interval)>,
+    evaluation: u32,
+    /// Operations evaluated so far.
+    pub(super) work: usize,
+}
+
+impl<'m> Bounds<'m> {
+    pub(super) fn new(model: &'m Model<'m>) -> Self {
+        Self { model, cells: vec![(0, Interval::ANYTHING); model.program.image.len()], evaluation: 0, work: 0 }
+    }
+
+    /// What `register` can hold after `code` in a region; `None` if the code does more than to compute.
+    pub(super) fn value(&mut self, code: &Block, register: Register, region: &mut Region<'_>) -> Option<Interval> {
+        self.evaluation += 1;
+        self.work += code.len() + 1;
+        let ops = self.model.program.code.get(code.start as usize..code.end as usize)?;
+        for op in ops {
+            if self.step(*op, region).is_none() {
+                region.is_partial = true;
+                return None;
+            }
+        }
+        Some(self.at(register, region))
+    }
+
+    /// Whether the code at hand has written a register.
+    pub(super) fn is_written(&self, register: Register) -> bool {
+        self.cells.get(usize::from(register)).is_some_and(|&(evaluation, _)| evaluation == self.evaluation)
+    }
+
+    /// What a register may hold that the code at hand has written.
+    pub(super) fn cell(&self, register: Register) -> Interval {
+        self.cells.get(usize::from(register)).map_or(Interval::ANYTHING, |&(_, value)| value)
+    }
+
+    /// The one whisker that a register means, if it means but one.
+    pub(super) fn whisker(&self, register: Register, region: &mut Region<'_>) -> Option<usize> {
+        let mut whiskers = self.whiskers(register, region);
+        whiskers.next().filter(|_| whiskers.next().is_none())
+    }
+
+    /// What a register may hold.
+    pub(super) fn at(&self, register: Register, region: &mut Region<'_>) -> Interval {
+        match self.cells.get(usize::from(register)) {
+            Some(&(evaluation, value)) if evaluation == self.evaluation => value,
+            _ => region.register(register),
+        }
+    }
+
+    fn vector_at(&self, register: Register, region: &mut Region<'_>) -> [Interval; 2] {
+        [self.at(register, region), self.at(register + 1, region)]
+    }
+
+    pub(super) fn put(&mut self, register: Register, value: Interval) {
+        if let Some(cell) = self.cells.get_mut(usize::from(register)) {
+            *cell = (self.evaluation, value);
+        }
+    }
+
+    fn put_vector(&mut self, register: Register, [x, y]: [Interval; 2]) {
+        self.put(register, x);
+        self.put(register + 1, y);
+    }
+
+    /// One operation; `None` if it does more than to compute.
+    fn step(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let mut one = |bounds: &mut Self, to, a, operation: fn(Interval) -> Interval| {
+            let value = operation(bounds.at(a, region));
+            bounds.put(to, value);
+        };
+        match op {
+            Op::Copy { to, a } => one(self, to, a, |a| a),
+            Op::Negate { to, a } => one(self, to, a, Interval::negate),
+            Op::Absolute { to, a } => one(self, to, a, Interval::absolute),
+            Op::Sign { to, a } => one(self, to, a, Interval::sign),
+            Op::SquareRoot { to, a } => one(self, to, a, Interval::square_root),
+            Op::Sine { to, a } => one(self, to, a, Interval::sine),
+            Op::Cosine { to, a } => one(self, to, a, Interval::cosine),
+            Op::Wrap { to, a } => one(self, to, a, Interval::wrapped),
+            Op::Not { to, a } => one(self, to, a, Interval::not),
+            Op::Add { .. }
+            | Op::Subtract { .. }
+            | Op::Multiply { .. }
+            | Op::Divide { .. }
+            | Op::Minimum { .. }
+            | Op::Maximum { .. }
+            | Op::Less { .. }
+            | Op::LessOrEqual { .. }
+            | Op::Equal { .. }
+            | Op::And { .. }
+            | Op::Or { .. } => self.two(op, region)?,
+            Op::Norm { to, a } => {
+                let value = Interval::norm(self.vector_at(a, region));
+                self.put(to, value);
+            }
+            Op::Unit { to, a } => {
+                let value = Interval::unit(self.vector_at(a, region));
+                self.put_vector(to, value);
+            }
+            Op::Angle { to, a } => {
+                let value = Interval::angle(self.vector_at(a, region));
+                self.put(to, value);
+            }
+            Op::Rotate { to, a, b } => {
+                let value = Interval::rotate(self.vector_at(a, region), self.at(b, region));
+                self.put_vector(to, value);
+            }
+            Op::Time { to } => self.put(to, region.range(Unknown::Time)),
+            Op::Body { to, quantity } => self.put(to, region.range(Unknown::Body(quantity))),
+            Op::BodyPosition { to } => {
+                self.put_vector(to, [0, 1].map(|axis| region.range(Unknown::BodyPosition(axis))));
+            }
+            Op::Whisker { to, whisker, quantity } => {
+                let whiskers = self.whiskers(whisker, region);
+                let values = whiskers.map(|whisker| scalar(region, whisker, quantity));
+                let value = values.reduce(Interval::join).unwrap_or(Interval::ANYTHING);
+                self.put(to, value);
+            }
+            Op::WhiskerVector { to, whisker, quantity } => {
+                let whiskers = self.whiskers(whisker, region);
+                let values = whiskers.map(|whisker| vector(region, whisker, quantity));
+                let value = values.reduce(|[x, y], [u, v]| [x.join(u), y.join(v)]).unwrap_or([Interval::ANYTHING; 2]);
+                self.put_vector(to, value);
+            }
+            Op::TipAt { to, .. } => {
+                // Where tips would be is up to the rig's whiskers.
+                region.is_partial = true;
+                self.put_vector(to, [Interval::ANYTHING; 2]);
+            }
+            Op::LowPass { to, .. } | Op::Pid { to, .. } => {
+                // What they give is up to what went before.
+                region.is_partial = true;
+                self.put(to, Interval::ANYTHING);
+            }
+            Op::Clear { .. }
+            | Op::JumpUnless { .. }
+            | Op::Jump { .. }
+            | Op::Record { .. }
+            | Op::SteerBodyFacing { .. }
+            | Op::SteerBodyTurning { .. }
+            | Op::SteerWhiskerFacing { .. }
+            | Op::SteerWhiskerTurning { .. }
+            | Op::Hold
+            | Op::Stop => return None,
+        }
+        Some(())
+    }
+
+    /// An operation on two numbers or truths; `None` for any other.
+    fn two(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let (to, a, b, operation): (_, _, _, fn(Interval, Interval) -> Interval) = match op {
+            Op::Add { to, a, b } => (to, a, b, Interval::add),
+            Op::Subtract { to, a, b } => (to, a, b, Interval::subtract),
+            Op::Multiply { to, a, b } => (to, a, b, Interval::multiply),
+            Op::Divide { to, a, b } => (to, a, b, Interval::divide),
+            Op::Minimum { to, a, b } => (to, a, b, Interval::minimum),
+            Op::Maximum { to, a, b } => (to, a, b, Interval::maximum),
+            Op::Less { to, a, b } => (to, a, b, Interval::less),
+            Op::LessOrEqual { to, a, b } => (to, a, b, Interval::less_or_equal),
+            Op::Equal { to, a, b } => (to, a, b, Interval::equal),
+            Op::And { to, a, b } => (to, a, b, Interval::and),
+            Op::Or { to, a, b } => (to, a, b, Interval::or),
+            _ => return None,
+        };
+        let value = operation(self.at(a, region), self.at(b, region));
+        self.put(to, value);
+        Some(())
+    }
+
+    /// The whiskers that a register can mean.
+    fn whiskers(&self, register: Register, region: &mut Region<'_>) -> impl Iterator<Item = usize> + use<> {
+        let range = self.at(register, region);
+        (0..self.model.program.whiskers.len()).filter(move |&index| (range.low..=range.high).contains(&(index as f64)))
+    }
+}

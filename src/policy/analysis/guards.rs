@@ -1,0 +1,73 @@
+//! Guards that never or always hold, and times that do nothing.
+
+use crate::diagnostic::Diagnostic;
+use crate::machine;
+use crate::policy::ast;
+
+use super::interval::Interval;
+use super::model::Edge;
+use super::region::Region;
+use super::search::{Found, Goal, Search};
+
+/// Warns of guards whose condition never or always holds, and of times that have passed when they begin. Tells of each
+/// transition whether it can ever be due.
+pub(super) fn guards(search: &mut Search<'_>, edges: &[Edge<'_>], warnings: &mut Vec<Diagnostic>) -> Vec<bool> {
+    edges.iter().map(|edge| guard(search, edge, warnings)).collect()
+}
+
+fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic>) -> bool {
+    if let Some(condition) = edge.condition() {
+        if search.find(&[Goal::holds(condition)]) == Found::Nothing {
+            warnings.push(
+                Diagnostic::warning("P0508", "this guard never holds", edge.guard_span(), "never holds").hint(
+                    "it fails for all that can be felt; a parameter counts with its range, or with its value if it \
+                     has none",
+                ),
+            );
+            return false;
+        }
+        if !is_true(edge) && search.find(&[Goal::fails(condition)]) == Found::Nothing {
+            warnings.push(
+                Diagnostic::warning("P0509", "this guard always holds", edge.guard_span(), "always holds")
+                    .hint("it holds for every value that can be felt; write `true` if it is meant to"),
+            );
+        }
+    }
+    let time = delay(search, edge);
+    if let Some(span) = time_span(edge)
+        && !time.nan
+        && time.high <= 0.0
+    {
+        let (message, hint) = match edge.guard {
+            machine::Guard::After { .. } => {
+                ("this time has passed at once", "write `when true` to go on at once, or a longer time")
+            }
+            machine::Guard::When { .. } => ("this duration does nothing", "leave it out, or write a longer one"),
+        };
+        warnings.push(Diagnostic::warning("P0510", message, span, "never more than 0 s").hint(hint));
+    }
+    true
+}
+
+/// How long after its condition begins to hold, or its state is entered, a transition is due (s).
+pub(super) fn delay(search: &mut Search<'_>, edge: &Edge<'_>) -> Interval {
+    let (code, register) = match edge.guard {
+        machine::Guard::When { lasting: None, .. } => return Interval::point(0.0),
+        machine::Guard::When { code, lasting: Some((register, _)), .. } => (code, *register),
+        machine::Guard::After { code, time } => (code, *time),
+    };
+    let mut region = Region::whole(search.model);
+    search.bounds.value(code, register, &mut region).unwrap_or(Interval::ANYTHING)
+}
+
+fn time_span(edge: &Edge<'_>) -> Option<crate::diagnostic::Span> {
+    match &edge.written.guard {
+        ast::Guard::When { lasting, .. } => lasting.as_ref().map(|lasting| lasting.span),
+        ast::Guard::After(time) => Some(time.span),
+    }
+}
+
+/// Whether the guard is written `true`.
+fn is_true(edge: &Edge<'_>) -> bool {
+    matches!(&edge.written.guard, ast::Guard::When { condition, .. } if condition.kind == ast::Kind::Truth(true))
+}

@@ -1,0 +1,149 @@
+//! A policy as the analysis sees it: the syntax tree for places and names, the program for meaning.
+
+use crate::diagnostic::Span;
+use crate::machine::{self, Program, Register};
+use crate::policy::ast::{self, File};
+use crate::policy::lower::Lowered;
+use crate::policy::types::{Type, Value};
+
+use super::flow::Flow;
+use super::interval::Interval;
+use super::unknown::Domain;
+
+/// A policy as the analysis sees it.
+pub(super) struct Model<'a> {
+    pub(super) file: &'a File,
+    pub(super) program: &'a Program,
+    pub(super) always: Vec<Edge<'a>>,
+    /// Of every state, in the program's order.
+    pub(super) states: Vec<Node<'a>>,
+    flow: Flow,
+}
+
+/// A state.
+pub(super) struct Node<'a> {
+    pub(super) name: &'a ast::Name,
+    pub(super) edges: Vec<Edge<'a>>,
+    /// What it is entered with.
+    pub(super) arguments: &'a [(String, Value)],
+}
+
+/// A transition: what it does and where it is written.
+#[derive(Clone, Copy)]
+pub(super) struct Edge<'a> {
+    pub(super) guard: &'a machine::Guard,
+    pub(super) target: &'a machine::Target,
+    pub(super) written: &'a ast::Transition,
+}
+
+/// What a register is called, and its type.
+pub(super) struct Named<'a> {
+    pub(super) name: &'a str,
+    pub(super) r#type: Type,
+    /// Where the value begins: a vector has two registers.
+    pub(super) first: Register,
+}
+
+impl<'a> Edge<'a> {
+    /// Where the guard's condition or time stands.
+    pub(super) fn guard_span(&self) -> Span {
+        match &self.written.guard {
+            ast::Guard::When { condition, .. } => condition.span,
+            ast::Guard::After(time) => time.span,
+        }
+    }
+
+    /// Where the transition stands, from its guard on.
+    pub(super) fn span(&self) -> Span {
+        self.guard_span().to(self.written.target.span)
+    }
+
+    /// The state that it leads to; `None` for a failure.
+    pub(super) fn leads_to(&self) -> Option<usize> {
+        match self.target {
+            machine::Target::State { state, .. } => Some(*state),
+            machine::Target::Failure(_) => None,
+        }
+    }
+
+    /// The condition, unless the guard is a time alone.
+    pub(super) fn condition(&self) -> Option<Condition<'a>> {
+        match self.guard {
+            machine::Guard::When { code, truth, .. } => Some(Condition { code, truth: *truth }),
+            machine::Guard::After { .. } => None,
+        }
+    }
+
+    /// Whether it is due as soon as its condition holds.
+    pub(super) fn is_immediate(&self) -> bool {
+        matches!(self.guard, machine::Guard::When { lasting: None, .. })
+    }
+}
+
+/// Code that computes a truth.
+#[derive(Clone, Copy)]
+pub(super) struct Condition<'a> {
+    pub(super) code: &'a machine::Block,
+    pub(super) truth: Register,
+}
+
+impl<'a> Model<'a> {
+    pub(super) fn new(file: &'a File, lowered: &'a Lowered) -> Self {
+        let program = &lowered.program;
+        let states = file.states.iter().zip(&program.states).zip(&lowered.arguments);
+        let states = states.map(|((written, state), arguments)| Node {
+            name: &written.name,
+            edges: edges(&state.transitions, &written.transitions),
+            arguments,
+        });
+        Self {
+            file,
+            program,
+            always: edges(&program.always, &file.always),
+            states: states.collect(),
+            flow: Flow::new(program),
+        }
+    }
+
+    /// What a register is called.
+    pub(super) fn named(&self, register: Register) -> Option<Named<'_>> {
+        if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
+            let r#type = Type::Scalar(parameter.dimension);
+            return Some(Named { name: &parameter.name, r#type, first: register });
+        }
+        let arguments = self.states.iter().flat_map(|state| state.arguments);
+        let mut arguments = arguments.map(|(name, value)| (name, value, value.register));
+        arguments
+            .find(|(_, value, first)| (*first..first + value.r#type.width()).contains(&register))
+            .map(|(name, value, first)| Named { name, r#type: value.r#type, first })
+    }
+
+    /// Whether a register holds the same while a state lasts: a constant, or a parameter.
+    pub(super) fn is_steady(&self, register: Register) -> bool {
+        !self.flow.is_written(register)
+    }
+
+    /// What a register holds when nothing in the code at hand has written it; `None` if that is always the same.
+    pub(super) fn domain(&self, register: Register) -> Option<Domain> {
+        if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
+            return parameter.range.map(|(low, high)| Domain::Range(Interval::new(low, high)));
+        }
+        if !self.flow.is_written(register) {
+            return None;
+        }
+        let values = self.flow.values(self.program, register);
+        Some(match (values, self.named(register).map(|named| named.r#type)) {
+            (Some(values), _) => Domain::Values(values),
+            (None, Some(Type::Whisker | Type::Contour)) => {
+                Domain::Values((0..self.program.whiskers.len()).map(|index| index as f64).collect())
+            }
+            (None, Some(Type::Truth)) => Domain::Values(vec![0.0, 1.0]),
+            (None, _) => Domain::Range(Interval::ANYTHING),
+        })
+    }
+}
+
+fn edges<'a>(transitions: &'a [machine::Transition], written: &'a [ast::Transition]) -> Vec<Edge<'a>> {
+    let pairs = transitions.iter().zip(written);
+    pairs.map(|(transition, written)| Edge { guard: &transition.guard, target: &transition.target, written }).collect()
+}

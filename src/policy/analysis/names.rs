@@ -1,0 +1,92 @@
+//! The names that parts of a policy use.
+
+use std::collections::HashSet;
+
+use crate::policy::ast::{Expression, Guard, Kind, Statement, Transition, Turn};
+
+/// Names that are used.
+#[derive(Debug, Default)]
+pub(super) struct Names<'a>(HashSet<&'a str>);
+
+impl<'a> Names<'a> {
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.0.contains(name)
+    }
+
+    /// The names that `add` adds to none.
+    pub(super) fn of(add: impl FnOnce(&mut Self)) -> Self {
+        let mut names = Self::default();
+        add(&mut names);
+        names
+    }
+
+    /// Adds all names of `other`.
+    pub(super) fn extend(&mut self, other: Self) {
+        self.0.extend(other.0);
+    }
+
+    pub(super) fn transitions(&mut self, transitions: &'a [Transition]) {
+        for Transition { guard, target } in transitions {
+            match guard {
+                Guard::When { condition, lasting } => {
+                    self.expression(condition);
+                    self.expressions(lasting);
+                }
+                Guard::After(time) => self.expression(time),
+            }
+            self.expressions(&target.values);
+        }
+    }
+
+    pub(super) fn statements(&mut self, statements: &'a [Statement]) {
+        for statement in statements {
+            match statement {
+                Statement::Let { value, .. } | Statement::Set { value, .. } => self.expression(value),
+                Statement::If { branches, otherwise } => {
+                    for (condition, block) in branches {
+                        self.expression(condition);
+                        self.statements(block);
+                    }
+                    self.statements(otherwise);
+                }
+                Statement::Do { law, values, .. } => {
+                    self.0.insert(&law.text);
+                    self.expressions(values);
+                }
+                Statement::Record(whisker) => self.expression(whisker),
+                Statement::Steer(steer) => {
+                    self.expressions(&steer.whisker);
+                    self.expression(&steer.along);
+                    self.expression(&steer.speed);
+                    match &steer.turn {
+                        Turn::Facing(value) | Turn::Turning(value) => self.expression(value),
+                    }
+                }
+                Statement::Hold(_) | Statement::Stop(_) => {}
+            }
+        }
+    }
+
+    fn expressions(&mut self, expressions: impl IntoIterator<Item = &'a Expression>) {
+        expressions.into_iter().for_each(|expression| self.expression(expression));
+    }
+
+    pub(super) fn expression(&mut self, expression: &'a Expression) {
+        match &expression.kind {
+            Kind::Quantity(_) | Kind::Truth(_) => {}
+            Kind::Root { name, values } => {
+                self.0.insert(&name.text);
+                self.expressions(values.iter().flatten());
+            }
+            Kind::Member { owner, values, .. } => {
+                self.expression(owner);
+                self.expressions(values.iter().flatten());
+            }
+            Kind::Norm(inner) | Kind::Negate(inner) | Kind::Not(inner) => self.expression(inner),
+            Kind::Binary { left, right, .. } => {
+                self.expression(left);
+                self.expression(right);
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Narrowing: backwards through a condition, from what is wanted of it to what the unknowns may then be.
+//!
+//! It only ever leaves out values at which the condition is not as wanted.
+
+use crate::machine::{Op, Register};
+
+use super::bounds::Bounds;
+use super::interval::Interval;
+use super::region::Region;
+use super::search::Goal;
+
+impl Bounds<'_> {
+    /// Narrows a region to where a goal may be met; false if it is met nowhere in it.
+    pub(super) fn narrow(&mut self, goal: Goal<'_>, region: &mut Region<'_>) -> bool {
+        let code = goal.condition.code;
+        let Some(truth) = self.value(code, goal.condition.truth, region) else { return true };
+        if !(if goal.wanted { truth.may_hold() } else { truth.may_fail() }) {
+            return false;
+        }
+        let ops = self.model.program.code.get(code.start as usize..code.end as usize).unwrap_or_default();
+        self.work += ops.len();
+        let wanted = Interval::point(f64::from(u8::from(goal.wanted)));
+        self.want(goal.condition.truth, wanted, region) && ops.iter().rev().all(|op| self.back(*op, region).is_some())
+    }
+
+    /// Keeps of what a register may be only what lies in an interval; false if nothing does.
+    fn want(&mut self, register: Register, wanted: Interval, region: &mut Region<'_>) -> bool {
+        if !self.is_written(register) {
+            return region.narrow_register(register, wanted);
+        }
+        let met = self.at(register, region).meet(wanted);
+        self.put(register, met);
+        met.has_any()
+    }
+
+    /// Goes back through one operation, from its result to its operands; `None` if no operands can give the result.
+    fn back(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let mut want = |bounds: &mut Self, register, wanted| bounds.want(register, wanted, region).then_some(());
+        match op {
+            Op::Copy { to, a } => {
+                let result = self.cell(to);
+                want(self, a, result)
+            }
+            Op::Less { .. } | Op::LessOrEqual { .. } | Op::Equal { .. } => self.back_comparison(op, region),
+            Op::And { .. } | Op::Or { .. } | Op::Not { .. } => self.back_truth(op, region),
+            Op::Whisker { to, whisker, quantity } => {
+                let result = self.cell(to);
+                match self.whisker(whisker, region) {
+                    Some(whisker) => region.narrow_scalar(whisker, quantity, result).then_some(()),
+                    None => Some(()),
+                }
+            }
+            Op::WhiskerVector { to, whisker, quantity } => {
+                let result = [self.cell(to), self.cell(to + 1)];
+                match self.whisker(whisker, region) {
+                    Some(whisker) => region.narrow_vector(whisker, quantity, result).then_some(()),
+                    None => Some(()),
+                }
+            }
+            Op::Time { to } => region.narrow_time(self.cell(to)).then_some(()),
+            Op::Body { to, quantity } => region.narrow_body(quantity, self.cell(to)).then_some(()),
+            Op::BodyPosition { to } => region.narrow_position([self.cell(to), self.cell(to + 1)]).then_some(()),
+            _ => self.back_number(op, region),
+        }
+    }
+
+    fn back_comparison(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let (Op::Less { to, a, b } | Op::LessOrEqual { to, a, b } | Op::Equal { to, a, b }) = op else {
+            return Some(());
+        };
+        let (result, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+        let (up, down) = (|low| Interval::new(low, f64::INFINITY), |high| Interval::new(f64::NEG_INFINITY, high));
+        let (left_wanted, right_wanted) = match op {
+            Op::Equal { .. } if !result.may_fail() => (right.number(), left.number()),
+            Op::Equal { .. } => return Some(()),
+            _ if !result.may_fail() => (down(right.high), up(left.low)),
+            _ if !result.may_hold() && !left.nan && !right.nan => (up(right.low), down(left.high)),
+            _ => return Some(()),
+        };
+        (self.want(a, left_wanted, region) && self.want(b, right_wanted, region)).then_some(())
+    }
+
+    fn back_truth(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let (yes, no) = (Interval::point(1.0), Interval::point(0.0));
+        match op {
+            Op::Not { to, a } => {
+                let result = self.cell(to);
+                let done = match (result.may_hold(), result.may_fail()) {
+                    (true, true) => true,
+                    (holds, _) => self.want(a, if holds { no } else { yes }, region),
+                };
+                done.then_some(())
+            }
+            Op::And { to, a, b } => {
+                let (result, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+                let done = if !result.may_fail() {
+                    self.want(a, yes, region) && self.want(b, yes, region)
+                } else if result.may_hold() {
+                    true
+                } else {
+                    (left.may_fail() || self.want(b, no, region)) && (right.may_fail() || self.want(a, no, region))
+                };
+                done.then_some(())
+            }
+            Op::Or { to, a, b } => {
+                let (result, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+                let done = if !result.may_hold() {
+                    self.want(a, no, region) && self.want(b, no, region)
+                } else if result.may_fail() {
+                    true
+                } else {
+                    (left.may_hold() || self.want(b, yes, region)) && (right.may_hold() || self.want(a, yes, region))
+                };
+                done.then_some(())
+            }
+            _ => Some(()),
+        }
+    }
+
+    /// Goes back through arithmetic. A result that may be no number says nothing of what it came from.
+    fn back_number(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        let mut wants: [Option<(Register, Interval)>; 2] = [None, None];
+        match op {
+            Op::Add { to, a, b } if !self.cell(to).nan => {
+                let (sum, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+                wants = [Some((a, sum.undo(right, Interval::subtract))), Some((b, sum.undo(left, Interval::subtract)))];
+            }
+            Op::Subtract { to, a, b } if !self.cell(to).nan => {
+                let (difference, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+                wants = [
+                    Some((a, difference.undo(right, Interval::add))),
+                    Some((b, difference.negate().undo(left, Interval::add))),
+                ];
+            }
+            Op::Multiply { to, a, b } if !self.cell(to).nan => {
+                let (product, left, right) = (self.cell(to), self.at(a, region), self.at(b, region));
+                wants = [Some((a, product.undo_product(right))), Some((b, product.undo_product(left)))];
+            }
+            Op::Divide { to, a, b } if self.cell(to).is_finite() => {
+                let (quotient, right) = (self.cell(to), self.at(b, region));
+                wants = [Some((a, quotient.undo(right, Interval::multiply))), None];
+            }
+            Op::Negate { to, a } => wants = [Some((a, self.cell(to).negate())), None],
+            Op::Absolute { to, a } => {
+                let (size, value) = (self.cell(to), self.at(a, region));
+                let both = size.negate().join(size);
+                let side = if value.low >= 0.0 {
+                    size
+                } else if value.high <= 0.0 {
+                    size.negate()
+                } else {
+                    both
+                };
+                wants = [Some((a, side)), None];
+            }
+            Op::Minimum { to, a, b } if !self.cell(to).nan => {
+                let least = Interval::new(self.cell(to).low, f64::INFINITY);
+                wants = [Some((a, least)), Some((b, least))];
+            }
+            Op::Maximum { to, a, b } if !self.cell(to).nan => {
+                let most = Interval::new(f64::NEG_INFINITY, self.cell(to).high);
+                wants = [Some((a, most)), Some((b, most))];
+            }
+            Op::Norm { to, a } if !self.cell(to).nan => {
+                let size = self.cell(to).high;
+                let part = Interval::new(-size, size).widened();
+                wants = [Some((a, part)), Some((a + 1, part))];
+            }
+            _ => {}
+        }
+        wants.into_iter().flatten().all(|(register, wanted)| self.want(register, wanted, region)).then_some(())
+    }
+}

@@ -1,0 +1,57 @@
+//! Guards that can hold at once and lead elsewhere, with a witness.
+
+use crate::diagnostic::Diagnostic;
+use crate::policy::ast::{Expression, Kind};
+
+use super::model::Edge;
+use super::search::{Found, Goal, Search};
+
+/// Warns if a transition's guard can hold together with that of one that is tried before it, so that the order alone
+/// decides where to go. `above` is tried before all of `edges`.
+///
+/// There is nothing to warn of where the first leads to a failure (a watch over limits goes first on purpose), where both
+/// lead to the same, or where the second is the rest: it holds wherever the first does. Points at which another one
+/// comes before both do not count.
+pub(super) fn overlap(
+    search: &mut Search<'_>,
+    above: &[Edge<'_>],
+    edges: &[Edge<'_>],
+    index: usize,
+    warnings: &mut Vec<Diagnostic>,
+) {
+    let edge = &edges[index];
+    let Some(second) = edge.condition().filter(|_| edge.is_immediate()) else { return };
+    let earlier: Vec<&Edge<'_>> = above.iter().chain(&edges[..index]).filter(|edge| edge.is_immediate()).collect();
+    for (at, before) in earlier.iter().enumerate() {
+        let Some(first) = before.condition() else { continue };
+        if before.leads_to().is_none() || leads_to_the_same(before, edge) {
+            continue;
+        }
+        let others =
+            earlier.iter().enumerate().filter(|&(other, _)| other != at).filter_map(|(_, edge)| edge.condition());
+        let goals: Vec<Goal<'_>> =
+            [Goal::holds(first), Goal::holds(second)].into_iter().chain(others.map(Goal::fails)).collect();
+        let Found::Witness(point) = search.find(&goals) else { continue };
+        if !matches!(search.find(&[Goal::holds(first), Goal::fails(second)]), Found::Witness(_)) {
+            continue;
+        }
+        let witness = search.describe(&goals, point);
+        warnings.push(
+            Diagnostic::warning("P0512", "two guards can hold at once", edge.span(), "then this is not taken")
+                .note(before.span(), "this comes first and is taken")
+                .hint(format!("both hold at {witness}"))
+                .hint("if that is what you want, say so: `when \u{2026} and not \u{2026}`; if not, change their order"),
+        );
+        // One witness a transition is enough to think again.
+        return;
+    }
+}
+
+/// Whether two transitions lead to the same state with the same values, as far as names tell, or both to a failure.
+fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
+    let same_value = |(a, b): (&Expression, &Expression)| match (&a.kind, &b.kind) {
+        (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,
+        _ => false,
+    };
+    a.leads_to() == b.leads_to() && a.written.target.values.iter().zip(&b.written.target.values).all(same_value)
+}

@@ -1,0 +1,150 @@
+//! The search for values at which conditions hold: regions are split until the abstract interpreter settles them or a
+//! point of one does what is wanted under the real evaluator.
+
+use std::collections::VecDeque;
+
+use crate::machine::{Register, evaluate};
+
+use super::bounds::Bounds;
+use super::model::{Condition, Model};
+use super::point::{Choice, Point};
+use super::region::Region;
+use super::unknown::Unknown;
+
+/// Regions that one search looks at.
+const REGION_LIMIT: usize = 400;
+/// What looking at a region costs besides its operations, in operations.
+const REGION_WORK: usize = 50;
+/// Operations that all searches of a policy may evaluate together, so that no policy takes long.
+const WORK_LIMIT: usize = 1_000_000;
+
+/// A condition, and whether it is to hold or to fail.
+#[derive(Clone, Copy)]
+pub(super) struct Goal<'a> {
+    pub(super) condition: Condition<'a>,
+    pub(super) wanted: bool,
+}
+
+impl<'a> Goal<'a> {
+    pub(super) fn holds(condition: Condition<'a>) -> Self {
+        Self { condition, wanted: true }
+    }
+
+    pub(super) fn fails(condition: Condition<'a>) -> Self {
+        Self { condition, wanted: false }
+    }
+}
+
+/// Accepts a point, given the registers of a machine there; it may run the program once.
+pub(super) type Accept<'a> = dyn Fn(&Point, Vec<f64>) -> bool + 'a;
+
+/// What a search found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Found {
+    /// A point at which every goal is met.
+    Witness(Point),
+    /// There is none.
+    Nothing,
+    /// There may be one.
+    Unclear,
+}
+
+/// The search for values at which conditions hold.
+pub(super) struct Search<'m> {
+    pub(super) model: &'m Model<'m>,
+    pub(super) bounds: Bounds<'m>,
+    registers: Vec<f64>,
+}
+
+impl<'m> Search<'m> {
+    pub(super) fn new(model: &'m Model<'m>) -> Self {
+        Self { model, bounds: Bounds::new(model), registers: model.program.image.clone() }
+    }
+
+    /// Whether all the work that may be done is done.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.bounds.work > WORK_LIMIT
+    }
+
+    /// Looks for a point at which every goal is met.
+    pub(super) fn find(&mut self, goals: &[Goal<'_>]) -> Found {
+        self.find_such(goals, None)
+    }
+
+    /// Looks for a point at which every goal is met and that is accepted, if that is asked for.
+    pub(super) fn find_such(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Found {
+        let mut open = VecDeque::from([Region::whole(self.model)]);
+        let (mut looked_at, mut is_unclear) = (0, false);
+        while let Some(mut region) = open.pop_front() {
+            looked_at += 1;
+            self.bounds.work += REGION_WORK;
+            if looked_at > REGION_LIMIT || self.is_exhausted() {
+                return Found::Unclear;
+            }
+            // Twice, since what one goal narrows can tell more of the others.
+            if !goals.iter().chain(goals).all(|&goal| self.bounds.narrow(goal, &mut region)) {
+                continue;
+            }
+            if !region.is_partial {
+                for choice in [Choice::Plain, Choice::Inside, Choice::Middle, Choice::Low, Choice::High] {
+                    let point = Point::of(&region, self.model, choice);
+                    if self.meets(goals, &point) && self.accepts(&point, accept) {
+                        return Found::Witness(point);
+                    }
+                }
+            }
+            match region.split() {
+                Some(halves) => open.extend(halves),
+                None => is_unclear = true,
+            }
+        }
+        if is_unclear { Found::Unclear } else { Found::Nothing }
+    }
+
+    /// Whether every goal is met at a point, by the real evaluator.
+    pub(super) fn meets(&mut self, goals: &[Goal<'_>], point: &Point) -> bool {
+        let program = self.model.program;
+        let mut senses = point.clone();
+        self.enter(point);
+        let met = goals.iter().all(|goal| {
+            self.bounds.work += goal.condition.code.len() + 1;
+            evaluate(&program.code, goal.condition.code, &mut self.registers, &mut senses);
+            let truth = self.registers[usize::from(goal.condition.truth)] > 0.5;
+            truth == goal.wanted
+        });
+        self.leave(point);
+        met
+    }
+
+    /// Whether a point is accepted, if that is asked for.
+    pub(super) fn accepts(&mut self, point: &Point, accept: Option<&Accept<'_>>) -> bool {
+        let Some(accept) = accept else { return true };
+        self.bounds.work += self.model.program.code.len();
+        accept(point, self.registers(point))
+    }
+
+    /// The registers of a machine at a point.
+    pub(super) fn registers(&mut self, point: &Point) -> Vec<f64> {
+        self.enter(point);
+        let registers = self.registers.clone();
+        self.leave(point);
+        registers
+    }
+
+    fn enter(&mut self, point: &Point) {
+        self.put(point, |_, value| value);
+    }
+
+    fn leave(&mut self, point: &Point) {
+        let image = &self.model.program.image;
+        self.put(point, |register, _| image[usize::from(register)]);
+    }
+
+    fn put(&mut self, point: &Point, value: impl Fn(Register, f64) -> f64) {
+        for (unknown, known) in point.values() {
+            if let Unknown::Register(register) = unknown {
+                self.registers[usize::from(register)] = value(register, known);
+            }
+        }
+    }
+}

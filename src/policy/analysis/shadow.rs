@@ -1,0 +1,80 @@
+//! Transitions that are never taken because another always comes before them.
+
+use crate::diagnostic::Diagnostic;
+use crate::machine::{Guard, Register, TIME_SLACK};
+
+use super::guards::delay;
+use super::interval::Interval;
+use super::model::{Edge, Model};
+use super::search::{Found, Goal, Search};
+
+/// Warns of a transition that is never taken because others of the same source always come before it, and tells whether
+/// it did.
+pub(super) fn shadowed(
+    search: &mut Search<'_>,
+    edges: &[Edge<'_>],
+    can_hold: &[bool],
+    index: usize,
+    warnings: &mut Vec<Diagnostic>,
+) -> bool {
+    let edge = &edges[index];
+    let time = delay(search, edge);
+    let mut immediate = Vec::new();
+    for (other, before) in edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other]) {
+        if before.is_immediate() && (other < index || time.low > TIME_SLACK) {
+            immediate.push(before);
+        }
+        if comes_before(search, (other, before), (index, edge), time) {
+            warnings.push(never_taken(edge).note(before.span(), "comes before it whenever it could be due"));
+            return true;
+        }
+    }
+    // No single one; perhaps those that wait for nothing do together.
+    let goals = edge.condition().map(Goal::holds).into_iter();
+    let goals: Vec<Goal<'_>> =
+        goals.chain(immediate.iter().filter_map(|edge| edge.condition()).map(Goal::fails)).collect();
+    if immediate.len() < 2 || search.find(&goals) != Found::Nothing {
+        return false;
+    }
+    let notes = immediate.iter().map(|before| before.span());
+    warnings.push(notes.fold(never_taken(edge), |warning, span| warning.note(span, "this or another comes before it")));
+    true
+}
+
+/// Whether one transition is always due before, or when, another is, and then taken rather than that.
+fn comes_before(
+    search: &mut Search<'_>,
+    (index, before): (usize, &Edge<'_>),
+    (other, edge): (usize, &Edge<'_>),
+    time: Interval,
+) -> bool {
+    let before_time = delay(search, before);
+    let same =
+        register_of_time(search.model, before).is_some_and(|time| register_of_time(search.model, edge) == Some(time));
+    let is_sooner = before_time.high + TIME_SLACK < time.low;
+    let is_as_soon = index < other && (same || before_time.high <= time.low);
+    if before_time.nan || !(is_sooner || is_as_soon) {
+        return false;
+    }
+    if matches!(before.guard, Guard::After { .. }) {
+        // The times of both begin with the state; none of a condition begins before.
+        return !edge.is_immediate();
+    }
+    let goals: Vec<Goal<'_>> =
+        edge.condition().map(Goal::holds).into_iter().chain(before.condition().map(Goal::fails)).collect();
+    search.find(&goals) == Found::Nothing
+}
+
+/// The register of a transition's time, if what it holds does not change while the state lasts.
+fn register_of_time(model: &Model<'_>, edge: &Edge<'_>) -> Option<Register> {
+    let register = match edge.guard {
+        Guard::When { lasting, .. } => lasting.as_ref()?.0,
+        Guard::After { time, .. } => *time,
+    };
+    model.is_steady(register).then_some(register)
+}
+
+fn never_taken(edge: &Edge<'_>) -> Diagnostic {
+    Diagnostic::warning("P0511", "this transition is never taken", edge.span(), "never taken")
+        .hint("transitions are tried in the order written: put it first, or let the other leave room for it")
+}

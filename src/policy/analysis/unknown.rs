@@ -1,0 +1,220 @@
+//! What is not known when a policy is compiled: parameters, what states are entered with, what is felt.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use crate::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
+
+use super::interval::Interval;
+
+/// Farther than any whisker goes (m).
+const FAR: f64 = 1e6;
+/// More than any body turns (rad).
+const WHIRL: f64 = 1e5;
+/// The least deflection of a whisker that touches (rad).
+pub(super) const TOUCH: f64 = 1e-9;
+
+/// One degree of freedom of all that guards may read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Unknown {
+    /// A parameter, or a value that a state was entered with.
+    Register(Register),
+    Time,
+    Body(BodyScalar),
+    /// One coordinate.
+    BodyPosition(usize),
+    /// The side of a whisker and how it is bent, which go together: one of [`CONTACTS`].
+    Contact(usize),
+    /// The deflection of a whisker that does not touch; only its magnitude counts where it touches.
+    Deflection(usize),
+    /// Whether a whisker's contour is ready.
+    Ready(usize),
+    /// The direction of a whisker's contour (rad).
+    Travel(usize),
+    /// Any other number of a whisker.
+    Whisker(usize, WhiskerScalar),
+    /// One coordinate of any other vector of a whisker.
+    WhiskerVector(usize, WhiskerVector, usize),
+}
+
+/// A whisker's side and its sense, numbered.
+const CONTACTS: [(f64, f64); 6] = [(1.0, 0.0), (-1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+
+/// The values that an unknown may have.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Domain {
+    /// Any of these.
+    Values(Vec<f64>),
+    /// Any within.
+    Range(Interval),
+}
+
+impl Domain {
+    /// All that can be felt. For registers, see the model.
+    pub(super) fn felt(unknown: Unknown) -> Self {
+        let range = |low, high| Self::Range(Interval::new(low, high));
+        match unknown {
+            Unknown::Register(_) => Self::Range(Interval::ANYTHING),
+            Unknown::Time => range(0.0, 1e9),
+            Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-WHIRL, WHIRL),
+            Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
+            Unknown::Deflection(_) => range(-FRAC_PI_2, FRAC_PI_2),
+            Unknown::Ready(_) => Self::Values(vec![1.0, 0.0]),
+            Unknown::Travel(_) => range(-PI, PI),
+            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
+            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => range(-FAR, FAR),
+        }
+    }
+
+    /// The smallest interval around it.
+    pub(super) fn hull(&self) -> Interval {
+        match self {
+            Self::Values(values) => {
+                values.iter().copied().map(Interval::point).reduce(Interval::join).unwrap_or(Interval::NO_NUMBER)
+            }
+            Self::Range(range) => *range,
+        }
+    }
+
+    /// Keeps only what lies in an interval; false if nothing does.
+    pub(super) fn narrow(&mut self, to: Interval) -> bool {
+        match self {
+            Self::Values(values) => {
+                values.retain(|&value| Interval::point(value).meet(to).has_any());
+                !values.is_empty()
+            }
+            Self::Range(range) => {
+                *range = range.meet(to);
+                range.has_any()
+            }
+        }
+    }
+
+    /// Keeps only the contacts of which a number lies in an interval; false if none is left.
+    pub(super) fn keep_contacts(&mut self, quantity: WhiskerScalar, to: Interval) -> bool {
+        let Self::Values(numbers) = self else { return true };
+        numbers.retain(|&number| {
+            numbered(number).is_some_and(|contact| Interval::point(reading(quantity, contact)).meet(to).has_any())
+        });
+        !numbers.is_empty()
+    }
+
+    /// Two parts of it; `None` if there is but one value.
+    pub(super) fn split(&self) -> Option<[Self; 2]> {
+        match self {
+            Self::Values(values) if values.len() > 1 => {
+                let (left, right) = values.split_at(values.len() / 2);
+                Some([Self::Values(left.to_vec()), Self::Values(right.to_vec())])
+            }
+            Self::Range(range) if range.low < range.high => {
+                let middle = middle(*range);
+                let part = |low, high| Self::Range(Interval { low, high, nan: range.nan });
+                (range.low <= middle && middle < range.high)
+                    .then(|| [part(range.low, middle), part(middle.next_up(), range.high)])
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A number well inside of an interval: it parts positive from negative, and halves large ranges by their magnitude.
+pub(super) fn middle(range: Interval) -> f64 {
+    let Interval { low, high, .. } = range;
+    if low < 0.0 && high > 0.0 {
+        0.0
+    } else if high <= 0.0 {
+        -middle(range.negate())
+    } else if high > 4.0 * low.max(1e-6) {
+        // From nothing to far away: the geometric mean, if both ends are of a size that anything has.
+        (low.max(1e-6) * high.min(FAR)).sqrt()
+    } else {
+        low + (high - low) / 2.0
+    }
+}
+
+/// Where a reading finds the values of unknowns.
+pub(super) trait Source {
+    /// What an unknown may be.
+    fn domain(&mut self, unknown: Unknown) -> &Domain;
+
+    /// The interval that holds what an unknown may be.
+    fn range(&mut self, unknown: Unknown) -> Interval {
+        self.domain(unknown).hull()
+    }
+}
+
+/// What a number of a whisker may be.
+pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: WhiskerScalar) -> Interval {
+    match quantity {
+        WhiskerScalar::Touching | WhiskerScalar::Side | WhiskerScalar::Sense => {
+            let values = contacts(source, whisker).map(|contact| Interval::point(reading(quantity, contact)));
+            values.reduce(Interval::join).unwrap_or(Interval::ANYTHING)
+        }
+        WhiskerScalar::Deflection => {
+            let free = source.range(Unknown::Deflection(whisker));
+            let size = free.absolute();
+            let bent = Interval::new(size.low.max(TOUCH), size.high.max(TOUCH));
+            contacts(source, whisker)
+                .map(|(side, sense)| if sense == 0.0 { free } else { bent.multiply(Interval::point(side * sense)) })
+                .reduce(Interval::join)
+                .unwrap_or(Interval::ANYTHING)
+        }
+        WhiskerScalar::ContourReady => source.range(Unknown::Ready(whisker)),
+        WhiskerScalar::ContourCurvature => {
+            let curvature = source.range(Unknown::Whisker(whisker, quantity));
+            once_ready(source, whisker, curvature)
+        }
+        WhiskerScalar::Yaw | WhiskerScalar::Length => source.range(Unknown::Whisker(whisker, quantity)),
+    }
+}
+
+/// What a vector of a whisker may be.
+pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: WhiskerVector) -> [Interval; 2] {
+    match quantity {
+        WhiskerVector::ContourTangent => {
+            let travel = source.range(Unknown::Travel(whisker));
+            [travel.cosine(), travel.sine()].map(|part| once_ready(source, whisker, part))
+        }
+        WhiskerVector::ContourEnd => {
+            // There is an end before there is a tangent, and before the first point there is none.
+            let ready = source.range(Unknown::Ready(whisker));
+            [0, 1].map(|axis| {
+                let end = source.range(Unknown::WhiskerVector(whisker, quantity, axis));
+                Interval { nan: end.nan || (ready.may_fail() && end.single().is_none()), ..end }
+            })
+        }
+        WhiskerVector::Tip | WhiskerVector::TipBase | WhiskerVector::Base => {
+            [0, 1].map(|axis| source.range(Unknown::WhiskerVector(whisker, quantity, axis)))
+        }
+    }
+}
+
+fn contacts(source: &mut impl Source, whisker: usize) -> impl Iterator<Item = (f64, f64)> {
+    let domain = source.domain(Unknown::Contact(whisker));
+    let numbers = if let Domain::Values(numbers) = domain { numbers.as_slice() } else { &[] };
+    numbers.iter().filter_map(|&number| numbered(number))
+}
+
+/// The contact with a number.
+fn numbered(number: f64) -> Option<(f64, f64)> {
+    let mut known = CONTACTS.iter().enumerate().filter(|&(index, _)| (index as f64 - number).abs() < 0.5);
+    known.next().map(|(_, &contact)| contact)
+}
+
+/// What a contact is read as.
+fn reading(quantity: WhiskerScalar, (side, sense): (f64, f64)) -> f64 {
+    match quantity {
+        WhiskerScalar::Side => side,
+        WhiskerScalar::Touching => sense.abs(),
+        _ => sense,
+    }
+}
+
+/// What is no number before the contour is ready.
+fn once_ready(source: &mut impl Source, whisker: usize, value: Interval) -> Interval {
+    let ready = source.range(Unknown::Ready(whisker));
+    match (ready.may_hold(), ready.may_fail()) {
+        (true, false) => value,
+        (true, true) => Interval { nan: true, ..value },
+        _ => Interval::NO_NUMBER,
+    }
+}

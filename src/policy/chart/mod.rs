@@ -1,0 +1,105 @@
+//! The statechart of a policy: its states and transitions with their texts, for people to look at.
+
+mod build;
+
+pub(super) use build::build;
+
+/// States and the transitions between them, in the order of the policy.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chart {
+    /// The machine's name.
+    pub machine: String,
+    /// The states.
+    pub states: Vec<State>,
+    /// The transitions: those of any state first, then those of every state. Those of one origin are tried in this order.
+    pub transitions: Vec<Transition>,
+}
+
+impl Chart {
+    /// The states that lie in `parent`, or in none, with their indices.
+    pub fn inside(&self, parent: Option<usize>) -> impl Iterator<Item = (usize, &State)> {
+        self.states.iter().enumerate().filter(move |(_, state)| state.parent == parent)
+    }
+
+    /// Whether there are transitions of any state.
+    #[must_use]
+    pub fn has_any_state(&self) -> bool {
+        self.transitions.iter().any(|transition| transition.origin == Origin::AnyState)
+    }
+
+    /// Whether a transition leads to failure.
+    #[must_use]
+    pub fn has_failure(&self) -> bool {
+        self.transitions.iter().any(|transition| matches!(transition.target, Target::Failure(_)))
+    }
+}
+
+/// A state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct State {
+    /// Its name.
+    pub name: String,
+    /// What it is entered with.
+    pub arguments: Vec<Argument>,
+    /// Index of the state that it lies in; `None` if it lies in none.
+    pub parent: Option<usize>,
+    /// Whether it is entered first: at the start, or when the state that it lies in is entered.
+    pub initial: bool,
+}
+
+/// An argument of a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Argument {
+    /// Its name.
+    pub name: String,
+    /// Its type, as written.
+    pub type_name: String,
+}
+
+/// A transition. Expressions are texts of the policy, on one line and without comments.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Transition {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// When it is taken.
+    pub guard: Guard,
+    /// Where it leads.
+    pub target: Target,
+}
+
+/// Where a transition comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Origin {
+    /// Every state: an `always` rule.
+    AnyState,
+    /// The state with this index.
+    State(usize),
+}
+
+/// When a transition is taken.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Guard {
+    /// When a condition holds.
+    When {
+        /// The condition.
+        condition: String,
+        /// For how long it must have held.
+        lasting: Option<String>,
+    },
+    /// When the state has been active for this time.
+    After(String),
+}
+
+/// Where a transition leads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// Into a state.
+    State {
+        /// Its index.
+        state: usize,
+        /// The values of its arguments.
+        values: Vec<String>,
+    },
+    /// To the end of the run, in failure, for this reason.
+    Failure(String),
+}

@@ -1,0 +1,172 @@
+//! Where lines end.
+
+use super::line::{INDENT, Kind, Line, Piece, WIDTH};
+use super::spacing::{is_apart, may_break};
+use super::structure::{Place, Structure};
+use super::token::Kind as TokenKind;
+
+/// How much farther in the lines of a statement stand that follow its first.
+const CONTINUATION: usize = 2 * INDENT;
+
+/// The lines of a text.
+pub(super) fn cut<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
+    let mut broken = broken_by_the_author(structure);
+    loop {
+        break_together(structure, &mut broken);
+        let lines = Cutter::new(structure, &broken).cut();
+        if !break_too_long(structure, &lines, &mut broken) {
+            return lines;
+        }
+    }
+}
+
+/// For every block, whether a line ends in it.
+fn broken_by_the_author(structure: &Structure<'_>) -> Vec<bool> {
+    // How many tokens up to each have a line end before them.
+    let ended: Vec<usize> = structure
+        .places
+        .iter()
+        .scan(0, |ended, place| {
+            *ended += usize::from(place.token.line_ends > 0);
+            Some(*ended)
+        })
+        .collect();
+    structure.blocks.iter().map(|block| !block.is_empty() && ended[block.open] < ended[block.close]).collect()
+}
+
+/// Breaks all blocks of a statement of which one is broken.
+fn break_together(structure: &Structure<'_>, broken: &mut [bool]) {
+    let mut statement = vec![false; broken.len()];
+    for (block, &broken) in structure.blocks.iter().zip(&*broken) {
+        statement[block.first] |= broken;
+    }
+    for (block, broken) in structure.blocks.iter().zip(broken) {
+        *broken = statement[block.first] && !block.is_empty();
+    }
+}
+
+/// Breaks the outermost blocks of lines that are too long; whether there was one.
+fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [bool]) -> bool {
+    let mut any = false;
+    for line in lines.iter().filter(|line| line.width() > WIDTH) {
+        let mut behind = line.tokens.start;
+        for place in &structure.places[line.tokens.clone()] {
+            let Some(number) = place.block.filter(|&number| !broken[number]) else { continue };
+            let block = structure.blocks[number];
+            if block.open >= behind && line.tokens.contains(&block.close) && !block.is_empty() {
+                behind = block.close;
+                broken[number] = true;
+                any = true;
+            }
+        }
+    }
+    any
+}
+
+/// Cuts a text whose broken blocks are known.
+struct Cutter<'s, 't> {
+    structure: &'s Structure<'t>,
+    broken: &'s [bool],
+    /// The blocks that are open, the innermost last.
+    open: Vec<usize>,
+    /// How many parentheses of the statement at hand are open.
+    parentheses: usize,
+    lines: Vec<Line<'t>>,
+}
+
+impl<'s, 't> Cutter<'s, 't> {
+    fn new(structure: &'s Structure<'t>, broken: &'s [bool]) -> Self {
+        Self { structure, broken, open: Vec::new(), parentheses: 0, lines: Vec::new() }
+    }
+
+    fn cut(mut self) -> Vec<Line<'t>> {
+        let places = &self.structure.places;
+        // The token before that is no comment.
+        let mut before: Option<&Place<'t>> = None;
+        for (index, place) in places.iter().enumerate() {
+            if place.token.is("}") && place.block.is_some() {
+                self.open.pop();
+            }
+            if place.begins {
+                self.parentheses = 0;
+            }
+            if place.token.is(")") {
+                self.parentheses = self.parentheses.saturating_sub(1);
+            }
+            let neighbour = index.checked_sub(1).map(|index| &places[index]);
+            let on_line = neighbour.filter(|neighbour| !self.ends_line(neighbour, place));
+            if let Some((neighbour, line)) = on_line.zip(self.lines.last_mut()) {
+                line.tokens.end = index + 1;
+                line.has_comment = place.token.kind == TokenKind::Comment;
+                let blanks = if line.has_comment { 2 } else { usize::from(is_apart(neighbour, place)) };
+                line.pieces.push(Piece { blanks, text: place.token.text });
+            } else {
+                let line = self.line(index, before);
+                self.lines.push(line);
+            }
+            if place.token.is("{") {
+                self.open.extend(place.block);
+            }
+            if place.token.is("(") {
+                self.parentheses += 1;
+            }
+            if place.token.kind != TokenKind::Comment {
+                before = Some(place);
+            }
+        }
+        self.lines
+    }
+
+    fn is_broken(&self, block: Option<usize>) -> bool {
+        block.is_none_or(|block| self.broken[block])
+    }
+
+    /// Whether a line ends between two neighbours.
+    fn ends_line(&self, before: &Place<'_>, place: &Place<'_>) -> bool {
+        let ended = place.token.line_ends > 0;
+        if before.token.kind == TokenKind::Comment {
+            true
+        } else if place.token.kind == TokenKind::Comment {
+            ended
+        } else if place.begins {
+            self.is_broken(self.open.last().copied())
+        } else if place.token.is("}") {
+            self.is_broken(place.block)
+        } else {
+            ended && may_break(before, place)
+        }
+    }
+
+    /// The line that begins with the token `index`; `before` is the last token before it that is no comment.
+    fn line(&self, index: usize, before: Option<&Place<'_>>) -> Line<'t> {
+        let place = &self.structure.places[index];
+        let level = self.open.len();
+        let kind = if place.token.kind == TokenKind::Comment {
+            let mut behind =
+                self.structure.places[index..].iter().filter(|place| place.token.kind != TokenKind::Comment);
+            let between = behind.next().is_none_or(|place| place.begins || place.token.is("}"));
+            if between { Kind::Comment } else { Kind::Continuation }
+        } else if place.begins {
+            Kind::Begin
+        } else if place.token.is("}") {
+            Kind::Close
+        } else {
+            Kind::Continuation
+        };
+        let at_level = kind != Kind::Continuation
+            || place.token.is("{")
+            || before.is_some_and(|before| before.token.is("}"))
+            || (place.token.is(")") && self.parentheses == 0);
+        Line {
+            kind,
+            level,
+            indent: INDENT * level + if at_level { 0 } else { CONTINUATION },
+            pieces: vec![Piece { blanks: 0, text: place.token.text }],
+            has_comment: false,
+            blank_before: matches!(kind, Kind::Begin | Kind::Comment)
+                && place.token.line_ends > 1
+                && self.lines.last().is_some_and(|last| last.level >= level),
+            tokens: index..index + 1,
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The formatter: from the text of a policy to the same text, well laid out.
+//!
+//! It works on tokens and keeps every one of them, comments included, in their order. Only where a statement begins it asks
+//! the grammar; so a construct that the grammar gains is laid out like those before it. Where the author broke a statement it
+//! stays broken, a block on one line stays there if it fits, and everything else follows from the tokens alone. That is why
+//! formatting twice gives what formatting once does.
+
+mod align;
+mod cut;
+mod line;
+mod spacing;
+mod statement;
+mod structure;
+mod token;
+
+use crate::diagnostic::{Diagnostic, Source, Span};
+
+use super::grammar;
+
+/// The text of a policy, laid out by the rules of `docs/language.md`.
+///
+/// # Errors
+/// The faults of syntax that keep the text from being read, or that the layout would make the text too long to be read. Names,
+/// types and units need not be right.
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::format};
+/// let source = Source::new("still.fsm", "machine still initial  Still state Still{stop} # at last");
+/// assert_eq!(format(&source)?, "machine still\ninitial Still\nstate Still { stop }  # at last\n");
+/// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
+/// ```
+pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
+    let pairs = grammar::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    let places = structure::structure(token::tokens(&source.text), &statement::starts(pairs));
+    let mut lines = cut::cut(&places);
+    line::separate(&mut lines);
+    align::align(&mut lines);
+    let text = line::render(&lines);
+    if text.len() > grammar::LENGTH_LIMIT {
+        let everything = Span::new(0, source.text.len());
+        return Err(vec![
+            Diagnostic::error(
+                "P0102",
+                "laid out, the policy would be too long",
+                everything,
+                "indented, this has more bytes than a policy may have",
+            )
+            .hint("nest less, so that lines begin farther to the left"),
+        ]);
+    }
+    Ok(text)
+}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn any_text_has_a_layout(text in "(\\PC|\n|\t| |[-a-z0-9:{}()|\"#*/.,<>=]){0,200}", starts in any::<[u8; 8]>()) {
+            let mut starts = starts.map(usize::from);
+            starts.sort_unstable();
+            let tokens = token::tokens(&text);
+            let covered: usize = tokens.iter().map(|token| token.text.len()).sum();
+            prop_assert!(covered <= text.len());
+            let mut lines = cut::cut(&structure::structure(tokens, &starts));
+            line::separate(&mut lines);
+            align::align(&mut lines);
+            line::render(&lines);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Where statements and items begin: the one thing that tokens alone do not tell.
+
+use pest::iterators::Pairs;
+
+use crate::policy::grammar::Rule;
+
+/// The first bytes of all items of a file and of all that stands in its braces, ascending.
+///
+/// Whatever the grammar puts between an opening and a closing brace counts; so this knows no construct by its name.
+pub(super) fn starts(pairs: Pairs<'_, Rule>) -> Vec<usize> {
+    let mut starts = Vec::new();
+    for pair in pairs.flatten() {
+        let mut inside = pair.as_rule() == Rule::file;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::open_brace => inside = true,
+                Rule::close_brace => inside = false,
+                _ if inside => starts.push(part.as_span().start()),
+                _ => {}
+            }
+        }
+    }
+    starts.sort_unstable();
+    starts
+}

@@ -1,0 +1,113 @@
+//! Which tokens belong together: operators and their operands, brackets, blocks, statements.
+
+use super::token::{Kind, Token};
+
+/// Words of the language that stand for a value.
+const VALUES: [&str; 3] = ["body", "true", "false"];
+
+/// What a token is to its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// A parenthesis or a bar that opens.
+    Opens,
+    /// A parenthesis or a bar that closes.
+    Closes,
+    /// A minus that has no operand before it.
+    Prefix,
+    /// A value, or a part of one that another part may follow without a blank.
+    Operand,
+    Other,
+}
+
+/// A token in its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'t> {
+    pub(super) token: Token<'t>,
+    pub(super) role: Role,
+    /// Whether a statement or an item begins here.
+    pub(super) begins: bool,
+    /// Of a brace: the block that it opens or closes.
+    pub(super) block: Option<usize>,
+}
+
+/// What stands between two braces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Block {
+    /// Index of the token that opens it.
+    pub(super) open: usize,
+    /// Index of the token that closes it.
+    pub(super) close: usize,
+    /// The first block of its statement, such as that of the `if` to which this is the `else`; a block by itself is its own.
+    pub(super) first: usize,
+}
+
+impl Block {
+    pub(super) fn is_empty(&self) -> bool {
+        self.close == self.open + 1
+    }
+}
+
+/// The tokens of a text in their places, and its blocks.
+#[derive(Debug)]
+pub(super) struct Structure<'t> {
+    pub(super) places: Vec<Place<'t>>,
+    /// In the order in which they open.
+    pub(super) blocks: Vec<Block>,
+}
+
+/// The structure of a text whose statements and items begin at the bytes `starts`, ascending.
+pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structure<'t> {
+    let mut starts = starts.iter().copied().peekable();
+    let mut before: Option<Place<'t>> = None;
+    let (mut places, mut blocks) = (Vec::with_capacity(tokens.len()), Vec::<Block>::new());
+    // For every block that is open, itself and the first block of the statement at hand.
+    let mut open: Vec<(usize, Option<usize>)> = vec![];
+    let mut first = None;
+    for token in tokens {
+        let index = places.len();
+        if token.kind == Kind::Comment {
+            places.push(Place { token, role: Role::Other, begins: false, block: None });
+            continue;
+        }
+        let mut begins = before.is_none_or(|before| before.token.is("{"));
+        while starts.next_if(|&start| start <= token.start).is_some() {
+            begins = true;
+        }
+        if begins {
+            first = None;
+        }
+        let mut block = None;
+        if token.is("{") {
+            let number = blocks.len();
+            let first_of_statement = *first.get_or_insert(number);
+            blocks.push(Block { open: index, close: index, first: first_of_statement });
+            block = Some(number);
+            open.push((number, first.take()));
+        } else if token.is("}")
+            && let Some((number, first_of_statement)) = open.pop()
+        {
+            blocks[number].close = index;
+            (block, first, begins) = (Some(number), first_of_statement, false);
+        }
+        let after_operand = !begins && before.is_some_and(|before| matches!(before.role, Role::Operand | Role::Closes));
+        let place = Place { token, role: role(&token, after_operand), begins, block };
+        before = Some(place);
+        places.push(place);
+    }
+    Structure { places, blocks }
+}
+
+fn role(token: &Token<'_>, after_operand: bool) -> Role {
+    match token.kind {
+        Kind::Name | Kind::Number | Kind::Unit | Kind::Text => Role::Operand,
+        Kind::Keyword if VALUES.contains(&token.text) => Role::Operand,
+        Kind::Keyword | Kind::Comment => Role::Other,
+        Kind::Mark => match token.text {
+            ")" | "]" => Role::Closes,
+            "|" if after_operand => Role::Closes,
+            "(" | "[" | "|" => Role::Opens,
+            "-" if !after_operand => Role::Prefix,
+            _ => Role::Other,
+        },
+    }
+}

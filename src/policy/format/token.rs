@@ -1,0 +1,124 @@
+//! The tokens of a policy's text. They are those of the grammar, and comments.
+
+use crate::policy::grammar::{is_keyword, is_word};
+
+/// Marks of more than one character.
+const LONG_MARKS: [&str; 6] = ["->", "<=", ">=", "==", "!=", ".."];
+
+/// What a token is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A name.
+    Name,
+    /// A word of the language.
+    Keyword,
+    Number,
+    /// The unit behind a number, with all its factors.
+    Unit,
+    /// A text with its quotation marks.
+    Text,
+    /// A comment without the blanks at its end.
+    Comment,
+    /// A bracket, an operator, a sign that separates.
+    Mark,
+}
+
+/// A token.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Token<'t> {
+    pub(super) kind: Kind,
+    pub(super) text: &'t str,
+    /// Its first byte in the text.
+    pub(super) start: usize,
+    /// Whether something blank stands between it and the token before.
+    pub(super) apart: bool,
+    /// How many lines end between it and the token before.
+    pub(super) line_ends: usize,
+}
+
+impl Token<'_> {
+    pub(super) fn is(&self, mark: &str) -> bool {
+        self.kind == Kind::Mark && self.text == mark
+    }
+}
+
+/// The tokens of any text, whether it is a policy or not.
+pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+    let mut tokens: Vec<Token<'_>> = Vec::new();
+    let mut at = 0;
+    loop {
+        let rest = &text[at..];
+        let blanks = &rest[..rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n']).len()];
+        let rest = &rest[blanks.len()..];
+        let Some(first) = rest.chars().next() else {
+            return tokens;
+        };
+        let after_number =
+            tokens.last().is_some_and(|last| last.kind == Kind::Number) && blanks.bytes().all(|blank| blank == b' ');
+        let (kind, length) = match first {
+            '#' => (Kind::Comment, rest.find('\n').unwrap_or(rest.len())),
+            '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
+            '0'..='9' => (Kind::Number, number(rest)),
+            _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
+            _ if is_word(first) => {
+                let length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
+                (if is_keyword(&rest[..length]) { Kind::Keyword } else { Kind::Name }, length)
+            }
+            _ => {
+                let long = LONG_MARKS.iter().find(|&&mark| rest.starts_with(mark));
+                (Kind::Mark, long.map_or(first.len_utf8(), |mark| mark.len()))
+            }
+        };
+        let start = at + blanks.len();
+        at = start + length;
+        let text = &rest[..length];
+        let text = if kind == Kind::Comment { text.trim_end_matches([' ', '\t', '\r']) } else { text };
+        let line_ends = blanks.bytes().filter(|&blank| blank == b'\n').count();
+        tokens.push(Token { kind, text, start, apart: !blanks.is_empty(), line_ends });
+    }
+}
+
+/// Length of the number that `text` begins with: digits, perhaps a fraction, perhaps an exponent.
+fn number(text: &str) -> usize {
+    let digits = |at: usize| text[at..].bytes().take_while(u8::is_ascii_digit).count();
+    let mut length = digits(0);
+    if text[length..].starts_with('.') && digits(length + 1) > 0 {
+        length += 1 + digits(length + 1);
+    }
+    if text[length..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[length + 1..].starts_with(['+', '-']));
+        let exponent = digits(length + 1 + sign);
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
+}
+
+/// Length of the unit that `text` begins with; 0 if it begins with none.
+fn unit(text: &str) -> usize {
+    let mut length = unit_name(text);
+    while length > 0 && text[length..].starts_with(['/', '*']) {
+        match unit_name(&text[length + 1..]) {
+            0 => break,
+            factor => length += 1 + factor,
+        }
+    }
+    length
+}
+
+/// Length of the one factor of a unit, with its exponent, that `text` begins with; 0 if it begins with none.
+fn unit_name(text: &str) -> usize {
+    let mut length = text.bytes().take_while(u8::is_ascii_alphabetic).count();
+    if is_keyword(&text[..length]) {
+        return 0;
+    }
+    if length > 0 && text[length..].starts_with('^') {
+        let sign = usize::from(text[length + 1..].starts_with('-'));
+        match text[length + 1 + sign..].bytes().take_while(u8::is_ascii_digit).count() {
+            0 => {}
+            digits => length += 1 + sign + digits,
+        }
+    }
+    if text[length..].starts_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_') { 0 } else { length }
+}

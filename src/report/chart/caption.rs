@@ -1,0 +1,83 @@
+//! The labels of transitions with the same ends, as a block of lines.
+
+use svg::node::element::{Group, Rectangle};
+
+use super::label::Label;
+use super::layout::{Place, Size};
+use super::wrap::letters;
+use crate::report::style::{self, Anchor, px, text};
+
+/// Size of the letters (px).
+const LETTERS: f64 = 11.0;
+/// Width of a letter (px); the fonts of programs have letters of one width, about this.
+const LETTER: f64 = 0.61 * LETTERS;
+/// Height of a line (px).
+const LINE_HEIGHT: f64 = 14.5;
+/// Room between the labels of a block (px).
+const GAP: f64 = 4.0;
+/// Room round the block (px): beside, above.
+const MARGIN: (f64, f64) = (6.0, 3.0);
+
+/// A block of labels, one below the other.
+pub(super) struct Caption {
+    entries: Vec<Entry>,
+    /// Letters that the numbers take.
+    numbers: usize,
+}
+
+struct Entry {
+    number: Option<usize>,
+    lines: Vec<(&'static str, String)>,
+}
+
+impl Caption {
+    /// The block of `labels`; what they hand over is in `colour`.
+    pub(super) fn new(labels: &[Label], colour: &'static str) -> Self {
+        let entry = |label: &Label| {
+            let guard = label.guard_lines().into_iter().map(|line| (style::INK, line));
+            let effects = label.effect_lines().into_iter().map(|line| (colour, line));
+            Entry { number: label.number, lines: guard.chain(effects).collect() }
+        };
+        let digits = labels.iter().filter_map(|label| label.number).max().map(|number| number.to_string().len());
+        Self { entries: labels.iter().map(entry).collect(), numbers: digits.map_or(0, |digits| digits + 1) }
+    }
+
+    /// The size of the block (px); zero if there are no labels.
+    pub(super) fn size(&self) -> Size {
+        if self.entries.is_empty() {
+            return (0.0, 0.0);
+        }
+        let lines = self.entries.iter().flat_map(|entry| &entry.lines);
+        let widest = lines.clone().map(|(_, line)| letters(line)).max().unwrap_or(0);
+        let gaps = self.entries.len().saturating_sub(1) as f64;
+        let height = LINE_HEIGHT * lines.count() as f64 + GAP * gaps;
+        (LETTER * (self.numbers + widest) as f64 + 2.0 * MARGIN.0, height + 2.0 * MARGIN.1)
+    }
+
+    /// The block round `centre`, on a ground that interrupts the line behind it.
+    pub(super) fn draw(&self, centre: Place) -> Group {
+        if self.entries.is_empty() {
+            return Group::new();
+        }
+        let (width, height) = self.size();
+        let (left, top) = (centre.0 - 0.5 * width, centre.1 - 0.5 * height);
+        let ground = Rectangle::new().set("x", px(left)).set("y", px(top)).set("width", px(width));
+        let ground = ground.set("height", px(height)).set("rx", 4).set("fill", style::SOLID);
+        let mut group = Group::new().set("font-family", style::CODE_FONT).add(ground);
+        let (left, mut y) = (left + MARGIN.0, top + MARGIN.1 + 0.75 * LINE_HEIGHT);
+        let indented = left + LETTER * self.numbers as f64;
+        for entry in &self.entries {
+            if let Some(number) = entry.number {
+                group = group.add(text(left, y, Anchor::Start, LETTERS, style::GREY, &number.to_string()));
+            }
+            for (colour, line) in &entry.lines {
+                let blanks = line.len() - line.trim_start().len();
+                let x = indented + LETTER * blanks as f64;
+                group = group.add(text(x, y, Anchor::Start, LETTERS, colour, line.trim_start()));
+                y += LINE_HEIGHT;
+            }
+            y += GAP;
+        }
+        group
+    }
+}

@@ -1,0 +1,80 @@
+//! The chart as text for Graphviz.
+
+use super::label::{ANY_STATE, FAILURE, Label, signature};
+use super::lines::Lines;
+use crate::policy::chart::{Chart, Origin, Target};
+use crate::report::style::printable;
+
+/// The node that marks where a run starts. No state's name has a blank in it.
+const START: &str = "start of the run";
+
+/// The chart in Graphviz's language, to be drawn by `dot`. A transition's text stands on its arrow; a failure's reason, or the
+/// values that a state is entered with, follow a `/`.
+#[must_use]
+pub fn chart_dot(chart: &Chart) -> String {
+    let mut lines = Lines::default();
+    lines.block(&format!("digraph {}", quoted(&chart.machine)), |lines| {
+        lines.push("node [shape=box, style=rounded, fontname=\"Helvetica\"]");
+        lines.push("edge [fontname=\"Courier\", fontsize=10]");
+        states(lines, chart, None);
+        if chart.has_any_state() {
+            lines.push(&format!("{} [style=\"rounded,dashed\"]", quoted(ANY_STATE)));
+        }
+        if chart.has_failure() {
+            lines.push(&format!("{} [peripheries=2]", quoted(FAILURE)));
+        }
+        for (index, transition) in chart.transitions.iter().enumerate() {
+            let from = match transition.origin {
+                Origin::AnyState => ANY_STATE,
+                Origin::State(state) => &chart.states[state].name,
+            };
+            let to = match &transition.target {
+                Target::State { state, .. } => &chart.states[*state].name,
+                Target::Failure(_) => FAILURE,
+            };
+            let label = label(&Label::new(chart, index));
+            lines.push(&format!("{} -> {} [label=\"{label}\"]", quoted(from), quoted(to)));
+        }
+    });
+    lines.finish()
+}
+
+/// The states that lie in `parent`, each with those that lie in it.
+fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
+    for (index, state) in chart.inside(parent) {
+        let node = format!("{} [label={}]", quoted(&state.name), quoted(&signature(state)));
+        if chart.inside(Some(index)).next().is_some() {
+            lines.block(&format!("subgraph {}", quoted(&format!("cluster {}", state.name))), |lines| {
+                lines.push(&node);
+                states(lines, chart, Some(index));
+            });
+        } else {
+            lines.push(&node);
+        }
+        if state.initial {
+            let start = parent.map_or(START.to_owned(), |parent| format!("start of {}", chart.states[parent].name));
+            lines.push(&format!("{} [shape=point, width=0.15]", quoted(&start)));
+            lines.push(&format!("{} -> {}", quoted(&start), quoted(&state.name)));
+        }
+    }
+}
+
+/// A label in lines that begin below one another.
+fn label(label: &Label) -> String {
+    let mut lines = label.guard_lines();
+    lines.extend(label.effect_lines());
+    if let (Some(number), Some(first)) = (label.number, lines.first_mut()) {
+        first.insert_str(0, &format!("{number} "));
+    }
+    lines.iter().map(|line| escaped(line) + "\\l").collect()
+}
+
+/// A text in quotes.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", escaped(text))
+}
+
+/// A text in which nothing has a meaning of its own: Graphviz knows escapes and, in labels, XML's entities.
+fn escaped(text: &str) -> String {
+    printable(text).replace('\\', "\\\\").replace('"', "\\\"").replace('&', "&amp;")
+}

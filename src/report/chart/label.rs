@@ -1,0 +1,104 @@
+//! What is written on a transition, and where in a chart it stands.
+
+use super::wrap::wrapped;
+use crate::policy::chart::{Argument, Chart, Guard, State, Target, Transition};
+
+/// What stands for "every state".
+pub(super) const ANY_STATE: &str = "any state";
+
+/// What stands for the end of a run in failure.
+pub(super) const FAILURE: &str = "Failure";
+
+/// What is written on a transition.
+pub(super) struct Label {
+    /// As the how manyth of its origin it is tried, from 1; `None` if it is the only one.
+    pub(super) number: Option<usize>,
+    /// When it is taken.
+    pub(super) guard: String,
+    /// What it hands over: the target's arguments, or the reason of the failure.
+    pub(super) effects: Vec<String>,
+}
+
+impl Label {
+    /// The label of the transition with this index.
+    pub(super) fn new(chart: &Chart, index: usize) -> Self {
+        let transition = &chart.transitions[index];
+        Self { number: number(chart, index), guard: guard(transition), effects: effects(chart, transition) }
+    }
+
+    /// All of it on one line.
+    pub(super) fn line(&self) -> String {
+        let number = self.number.map(|number| number.to_string());
+        let effects = (!self.effects.is_empty()).then(|| format!("/ {}", self.effects.join(", ")));
+        let parts = number.into_iter().chain([self.guard.clone()]).chain(effects);
+        parts.collect::<Vec<_>>().join(" ")
+    }
+
+    /// The guard in short lines.
+    pub(super) fn guard_lines(&self) -> Vec<String> {
+        wrapped(&clauses(&self.guard))
+    }
+
+    /// What it hands over in short lines.
+    pub(super) fn effect_lines(&self) -> Vec<String> {
+        wrapped(&listed(&self.effects))
+    }
+}
+
+/// The clauses of a guard, which read best on a line each.
+fn clauses(guard: &str) -> Vec<String> {
+    let mut clauses = vec![String::new()];
+    for word in guard.split_whitespace() {
+        match clauses.last_mut() {
+            Some(clause) if !["and", "or", "for"].contains(&word) => {
+                clause.push_str(if clause.is_empty() { "" } else { " " });
+                clause.push_str(word);
+            }
+            _ => clauses.push(word.to_owned()),
+        }
+    }
+    clauses
+}
+
+/// The effects with the signs that stand between them.
+fn listed(effects: &[String]) -> Vec<String> {
+    let last = effects.len().saturating_sub(1);
+    let sign = |index| if index < last { "," } else { "" };
+    let before = |index| if index == 0 { "/ " } else { "" };
+    effects.iter().enumerate().map(|(k, effect)| format!("{}{effect}{}", before(k), sign(k))).collect()
+}
+
+/// A state's name and arguments.
+pub(super) fn signature(state: &State) -> String {
+    if state.arguments.is_empty() { state.name.clone() } else { format!("{}({})", state.name, arguments(state)) }
+}
+
+/// A state's arguments with their types.
+pub(super) fn arguments(state: &State) -> String {
+    let typed = |Argument { name, type_name }: &Argument| format!("{name}: {type_name}");
+    state.arguments.iter().map(typed).collect::<Vec<_>>().join(", ")
+}
+
+fn number(chart: &Chart, index: usize) -> Option<usize> {
+    let origin = chart.transitions[index].origin;
+    let of_origin = |transitions: &[Transition]| transitions.iter().filter(|other| other.origin == origin).count();
+    (of_origin(&chart.transitions) > 1).then(|| of_origin(&chart.transitions[..=index]))
+}
+
+fn guard(transition: &Transition) -> String {
+    match &transition.guard {
+        Guard::When { condition, lasting: None } => format!("when {condition}"),
+        Guard::When { condition, lasting: Some(time) } => format!("when {condition} for {time}"),
+        Guard::After(time) => format!("after {time}"),
+    }
+}
+
+fn effects(chart: &Chart, transition: &Transition) -> Vec<String> {
+    match &transition.target {
+        Target::Failure(reason) => vec![format!("\"{reason}\"")],
+        Target::State { state, values } => {
+            let arguments = &chart.states[*state].arguments;
+            arguments.iter().zip(values).map(|(argument, value)| format!("{} = {value}", argument.name)).collect()
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! In which order the vertices of a layer stand.
+
+/// Sweeps over all layers in search of fewer crossings.
+const SWEEPS: usize = 24;
+
+/// Segments between vertices of neighbouring layers: the upper, the lower.
+type Segments = [(usize, usize)];
+
+/// Orders the vertices of each layer, so that few of `segments` cross: by barycentres, layer by layer, down and up in turns, and
+/// by exchanging neighbours. Gives the best order that was met.
+pub(super) fn order(mut layers: Vec<Vec<usize>>, segments: &Segments) -> Vec<Vec<usize>> {
+    let count = layers.iter().map(Vec::len).sum();
+    let mut neighbours = vec![[Vec::new(), Vec::new()]; count];
+    for &(upper, lower) in segments {
+        neighbours[lower][ABOVE].push(upper);
+        neighbours[upper][BELOW].push(lower);
+    }
+    let mut best = (crossings(&layers, &neighbours), layers.clone());
+    for sweep in 0..SWEEPS {
+        let side = if sweep % 2 == 0 { ABOVE } else { BELOW };
+        let mut places = places(&layers, count);
+        let down = 0..layers.len();
+        let sequence: Vec<usize> = if side == ABOVE { down.collect() } else { down.rev().collect() };
+        for index in sequence {
+            let layer = &mut layers[index];
+            let barycentre = |vertex: &usize| {
+                let near = &neighbours[*vertex][side];
+                let sum: usize = near.iter().map(|&near| places[near]).sum();
+                if near.is_empty() { places[*vertex] as f64 } else { sum as f64 / near.len() as f64 }
+            };
+            layer.sort_by(|a, b| barycentre(a).total_cmp(&barycentre(b)));
+            renumber(layer, &mut places);
+        }
+        exchange(&mut layers, &neighbours, &mut places);
+        let found = crossings(&layers, &neighbours);
+        if found < best.0 {
+            best = (found, layers.clone());
+        }
+    }
+    best.1
+}
+
+/// Index of the neighbours above.
+const ABOVE: usize = 0;
+/// Index of the neighbours below.
+const BELOW: usize = 1;
+
+/// The neighbours of each vertex, above and below.
+type Neighbours = [[Vec<usize>; 2]];
+
+/// Exchanges vertices that stand side by side, where that saves crossings.
+fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [usize]) {
+    for layer in layers {
+        for left in 0..layer.len().saturating_sub(1) {
+            let (a, b) = (layer[left], layer[left + 1]);
+            let cost = |a: usize, b: usize, places: &[usize]| {
+                [ABOVE, BELOW]
+                    .map(|side| inversions(&neighbours[a][side], &neighbours[b][side], places))
+                    .iter()
+                    .sum::<usize>()
+            };
+            if cost(b, a, places) < cost(a, b, places) {
+                layer.swap(left, left + 1);
+                places.swap(a, b);
+            }
+        }
+    }
+}
+
+/// How many segments to the neighbours `of_left` cross one to the neighbours `of_right` of a vertex further right.
+fn inversions(of_left: &[usize], of_right: &[usize], places: &[usize]) -> usize {
+    of_left.iter().map(|&a| of_right.iter().filter(|&&b| places[b] < places[a]).count()).sum()
+}
+
+fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {
+    let places = places(layers, neighbours.len());
+    let of_pair = |left: usize, right: usize| inversions(&neighbours[left][BELOW], &neighbours[right][BELOW], &places);
+    let of_layer = |layer: &Vec<usize>| {
+        let pairs =
+            layer.iter().enumerate().flat_map(|(k, &left)| layer[k + 1..].iter().map(move |&right| (left, right)));
+        pairs.map(|(left, right)| of_pair(left, right)).sum::<usize>()
+    };
+    layers.iter().map(of_layer).sum()
+}
+
+/// The place of each vertex in its layer.
+fn places(layers: &[Vec<usize>], count: usize) -> Vec<usize> {
+    let mut places = vec![0; count];
+    for layer in layers {
+        renumber(layer, &mut places);
+    }
+    places
+}
+
+fn renumber(layer: &[usize], places: &mut [usize]) {
+    for (place, &vertex) in layer.iter().enumerate() {
+        places[vertex] = place;
+    }
+}

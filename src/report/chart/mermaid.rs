@@ -1,0 +1,68 @@
+//! The chart as text for Mermaid.
+
+use super::label::{ANY_STATE, FAILURE, Label, signature};
+use super::lines::Lines;
+use crate::policy::chart::{Chart, Origin, Target};
+use crate::report::style::printable;
+
+/// The chart as a `stateDiagram-v2` of Mermaid. A transition's text stands on its arrow; a failure's reason, or the values that
+/// a state is entered with, follow a `/`.
+#[must_use]
+pub fn chart_mermaid(chart: &Chart) -> String {
+    let mut lines = Lines::default();
+    lines.push("stateDiagram-v2");
+    states(&mut lines, chart, None);
+    if chart.has_any_state() {
+        lines.push(&format!("state \"{ANY_STATE}\" as any"));
+    }
+    if chart.has_failure() {
+        lines.push(&format!("state \"{FAILURE}\" as failure"));
+    }
+    for (index, transition) in chart.transitions.iter().enumerate() {
+        let from = match transition.origin {
+            Origin::AnyState => "any".to_owned(),
+            Origin::State(state) => id(state),
+        };
+        let to = match transition.target {
+            Target::State { state, .. } => id(state),
+            Target::Failure(_) => "failure".to_owned(),
+        };
+        lines.push(&format!("{from} --> {to}: {}", escaped(&Label::new(chart, index).line())));
+    }
+    if chart.has_failure() {
+        lines.push("failure --> [*]");
+    }
+    lines.finish()
+}
+
+/// The states that lie in `parent`, each with those that lie in it.
+fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
+    for (index, state) in chart.inside(parent) {
+        let head = format!("state \"{}\" as {}", escaped(&signature(state)), id(index));
+        if chart.inside(Some(index)).next().is_some() {
+            lines.block(&head, |lines| states(lines, chart, Some(index)));
+        } else {
+            lines.push(&head);
+        }
+        if state.initial {
+            lines.push(&format!("[*] --> {}", id(index)));
+        }
+    }
+}
+
+/// Names are no identifiers: some of them, such as `note`, are words of Mermaid's.
+fn id(state: usize) -> String {
+    format!("s{state}")
+}
+
+/// A text in which nothing has a meaning of its own. Mermaid ends a text at `:` and `;`, and takes it for Markdown and HTML;
+/// but it knows entities, with `#` instead of `&#`.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '"' => "#quot;".to_owned(),
+        '<' => "#lt;".to_owned(),
+        _ if c.is_alphanumeric() || " .,()=+-/'|>!".contains(c) => c.to_string(),
+        _ => format!("#{};", u32::from(c)),
+    };
+    printable(text).chars().map(escape).collect()
+}

@@ -1,0 +1,182 @@
+//! The chart as a picture.
+
+use svg::node::element::{Group, Path, Rectangle, Title};
+
+use super::caption::Caption;
+use super::label::Label;
+use super::layout::{Arrow, Node, Place, layout};
+use super::symbol::Symbol;
+use crate::policy::chart::{Chart, Origin, Target};
+use crate::report::outline::Outline;
+use crate::report::style::{self, Anchor, px, text, width_of};
+
+/// The most states and the most transitions that a picture shows.
+const LIMITS: (usize, usize) = (100, 400);
+/// Room round the chart, and above it, for the title (px).
+const MARGIN: f64 = 24.0;
+const HEAD: f64 = 84.0;
+/// Size of the title's letters and of the remark's under it (px).
+const TITLE: f64 = 22.0;
+const REMARK: f64 = 13.0;
+/// How far a transition from a state to itself reaches out, and half of how high it is (px).
+const LOOP: (f64, f64) = (26.0, 8.0);
+/// Length and half the width of an arrow's head (px).
+const ARROWHEAD: (f64, f64) = (8.0, 4.0);
+
+/// Why there is no picture of a chart.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{states} states and {transitions} transitions are too many for a picture, which shows {} and {} at most; \
+     choose the format dot or mermaid",
+    LIMITS.0,
+    LIMITS.1
+)]
+pub struct ChartTooLarge {
+    /// How many states the chart has.
+    pub states: usize,
+    /// How many transitions it has.
+    pub transitions: usize,
+}
+
+/// The chart as a self-contained SVG.
+///
+/// Transitions with the same ends share an arrow. States have the colours that they have in the picture of a run.
+///
+/// # Errors
+/// [`ChartTooLarge`] if nobody could make out anything.
+pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
+    let (states, transitions) = (chart.states.len(), chart.transitions.len());
+    if states > LIMITS.0 || transitions > LIMITS.1 {
+        return Err(ChartTooLarge { states, transitions });
+    }
+    let symbols = symbols(chart);
+    let links = links(chart, &symbols);
+    let (loops, links): (Vec<_>, Vec<_>) = links.into_iter().partition(|link| link.from == link.to);
+    let node = |(index, symbol): (usize, &Symbol)| {
+        let beside = loops.iter().find(|link| link.from == index).map(|link| link.caption.size());
+        Node { size: symbol.size(chart), beside: beside.map_or((0.0, 0.0), |(width, height)| (LOOP.0 + width, height)) }
+    };
+    let nodes: Vec<_> = symbols.iter().enumerate().map(node).collect();
+    let arrows = links.iter().map(|link| Arrow { from: link.from, to: link.to, label: link.caption.size() });
+    let layout = layout(&nodes, &arrows.collect::<Vec<_>>());
+
+    let remark = remark(chart);
+    let least = width_of(&chart.machine, TITLE).max(width_of(remark, REMARK));
+    let (width, height) = (layout.size.0.max(least) + 2.0 * MARGIN, layout.size.1 + HEAD + MARGIN);
+    let mut drawing = Group::new();
+    drawing = drawing.set("transform", format!("translate({} {})", px(0.5 * (width - layout.size.0)), px(HEAD)));
+    for way in &layout.ways {
+        drawing = drawing.add(line(curve(&way.points)));
+        if let [.., before, tip] = way.points[..] {
+            drawing = drawing.add(arrowhead(tip, (0.0, (tip.1 - before.1).signum())));
+        }
+    }
+    for (link, way) in links.iter().zip(&layout.ways) {
+        drawing = drawing.add(link.caption.draw(way.label));
+    }
+    for link in &loops {
+        let ((x, y), width) = layout.nodes[link.from];
+        let (right, out) = (x + 0.5 * width, x + 0.5 * width + LOOP.0);
+        let mut bow = Outline::default();
+        bow.move_to((right, y - LOOP.1));
+        bow.curve_to((out, y - 1.5 * LOOP.1), (out, y + 1.5 * LOOP.1), (right, y + LOOP.1));
+        drawing = drawing.add(line(bow)).add(arrowhead((right, y + LOOP.1), (-1.0, 0.0)));
+        drawing = drawing.add(link.caption.draw((out + 0.5 * link.caption.size().0, y)));
+    }
+    for (symbol, &(centre, width)) in symbols.iter().zip(&layout.nodes) {
+        drawing = drawing.add(symbol.draw(chart, centre, width));
+    }
+    let document = svg::Document::new()
+        .set("width", px(width))
+        .set("height", px(height))
+        .set("viewBox", format!("0 0 {} {}", px(width), px(height)))
+        .set("font-family", style::FONT)
+        .set("role", "img")
+        .add(Title::new(style::printable(&format!("statechart of {}", chart.machine))))
+        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+        .add(text(MARGIN, 40.0, Anchor::Start, TITLE, style::INK, &chart.machine).set("font-weight", 600))
+        .add(text(MARGIN, 62.0, Anchor::Start, REMARK, style::GREY, remark))
+        .add(drawing);
+    Ok(document.to_string())
+}
+
+/// What the numbers mean, if there are any.
+fn remark(chart: &Chart) -> &'static str {
+    let numbered = (0..chart.transitions.len()).any(|index| Label::new(chart, index).number.is_some());
+    if numbered { "numbers: the order in which transitions of one state are tried" } else { "" }
+}
+
+/// The symbols of a chart; the layout begins with the first.
+fn symbols(chart: &Chart) -> Vec<Symbol> {
+    let mut symbols = vec![Symbol::Start];
+    symbols.extend((0..chart.states.len()).map(Symbol::State));
+    symbols.extend(chart.has_any_state().then_some(Symbol::AnyState));
+    symbols.extend(chart.has_failure().then_some(Symbol::Failure));
+    symbols
+}
+
+/// All transitions from one symbol to another, or what leads to an initial state.
+struct Link {
+    from: usize,
+    to: usize,
+    caption: Caption,
+}
+
+fn links(chart: &Chart, symbols: &[Symbol]) -> Vec<Link> {
+    let mut bundles: Vec<(Symbol, Symbol, Vec<usize>)> = Vec::new();
+    for (index, state) in chart.states.iter().enumerate().filter(|(_, state)| state.initial) {
+        bundles.push((state.parent.map_or(Symbol::Start, Symbol::State), Symbol::State(index), Vec::new()));
+    }
+    for (index, transition) in chart.transitions.iter().enumerate() {
+        let from = match transition.origin {
+            Origin::AnyState => Symbol::AnyState,
+            Origin::State(state) => Symbol::State(state),
+        };
+        let to = match transition.target {
+            Target::State { state, .. } => Symbol::State(state),
+            Target::Failure(_) => Symbol::Failure,
+        };
+        let same_ends = |bundle: &&mut (Symbol, Symbol, Vec<usize>)| bundle.0 == from && bundle.1 == to;
+        match bundles.iter_mut().find(same_ends) {
+            Some(bundle) => bundle.2.push(index),
+            None => bundles.push((from, to, vec![index])),
+        }
+    }
+    let place = |symbol: Symbol| symbols.iter().position(|other| *other == symbol);
+    let link = |(from, to, transitions): (Symbol, Symbol, Vec<usize>)| {
+        let labels: Vec<_> = transitions.iter().map(|&index| Label::new(chart, index)).collect();
+        let colour = if to == Symbol::Failure { style::ALARM } else { style::GREY };
+        Some(Link { from: place(from)?, to: place(to)?, caption: Caption::new(&labels, colour) })
+    };
+    bundles.into_iter().filter_map(link).collect()
+}
+
+/// A line through points, in all of which it is vertical.
+fn curve(points: &[Place]) -> Outline {
+    let mut curve = Outline::default();
+    let mut before: Option<Place> = None;
+    for &(x, y) in points {
+        match before {
+            None => curve.move_to((x, y)),
+            Some((from, _)) if (from - x).abs() < 0.01 => curve.line_to((x, y)),
+            Some((from, top)) => curve.curve_to((from, 0.5 * (top + y)), (x, 0.5 * (top + y)), (x, y)),
+        }
+        before = Some((x, y));
+    }
+    curve
+}
+
+fn line(outline: Outline) -> Path {
+    outline.stroked(style::PLATFORM, 1.3)
+}
+
+/// The head of an arrow that reaches `tip` in a direction (a unit vector).
+fn arrowhead(tip: Place, direction: Place) -> Path {
+    let (length, half) = ARROWHEAD;
+    let back = (tip.0 - length * direction.0, tip.1 - length * direction.1);
+    let side = (-half * direction.1, half * direction.0);
+    let mut head = Outline::default();
+    head.polyline([(back.0 + side.0, back.1 + side.1), tip, (back.0 - side.0, back.1 - side.1)]);
+    head.close();
+    head.filled(style::PLATFORM)
+}

@@ -1,0 +1,81 @@
+//! The editors' grammar knows the words of the language, and no others.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+use vibrissa::units::{Dimension, parse_unit, units_of};
+
+const LANGUAGE: &str = include_str!("../grammar/fsm.pest");
+const EDITORS: &str = include_str!("../editors/vscode/syntaxes/fsm.tmLanguage.json");
+
+fn words<'t>(words: impl IntoIterator<Item = &'t str>) -> BTreeSet<String> {
+    words.into_iter().map(str::to_owned).collect()
+}
+
+/// The words that a rule of the editors' grammar lists, and those of the rules in it.
+fn listed(rule: &Value) -> BTreeSet<String> {
+    let inner = rule["patterns"].as_array().into_iter().flatten().flat_map(listed);
+    let list = rule["match"].as_str().and_then(|list| list.split_once(r")\b")?.0.rsplit_once('('));
+    let own = list.map(|(_, list)| words(list.split('|'))).unwrap_or_default();
+    inner.chain(own).collect()
+}
+
+fn rule(name: &str) -> Value {
+    serde_json::from_str::<Value>(EDITORS).unwrap()["repository"][name].take()
+}
+
+#[test]
+fn the_editors_keywords_are_those_of_the_language() {
+    let (_, rule_behind) = LANGUAGE.split_once("\nkeyword = @{").unwrap();
+    let (keywords, _) = rule_behind.split_once("!word_part").unwrap();
+    let keywords = words(keywords.split('"').skip(1).step_by(2));
+    assert!(keywords.len() >= 30 && keywords.contains("state"), "{keywords:?}");
+    assert_eq!(listed(&rule("keywords")), keywords);
+}
+
+#[test]
+fn the_editors_units_are_those_of_the_language() {
+    let listed = listed(&rule("units"));
+    assert!(listed.iter().all(|unit| parse_unit(unit).is_ok()), "{listed:?}");
+    let dimensions = [
+        Dimension::LENGTH,
+        Dimension::ANGLE,
+        Dimension::TIME,
+        Dimension::MASS,
+        Dimension::FREQUENCY,
+        Dimension::FORCE,
+        Dimension::PRESSURE,
+    ];
+    let units: BTreeSet<String> = dimensions.into_iter().flat_map(units_of).collect();
+    assert_eq!(listed, units);
+}
+
+#[test]
+fn every_rule_that_the_editors_grammar_includes_is_there() {
+    fn included(value: &Value, into: &mut BTreeSet<String>) {
+        into.extend(value["include"].as_str().map(str::to_owned));
+        let inner =
+            value.as_object().into_iter().flat_map(|map| map.values()).chain(value.as_array().into_iter().flatten());
+        inner.for_each(|inner| included(inner, into));
+    }
+    let grammar: Value = serde_json::from_str(EDITORS).unwrap();
+    let mut names = BTreeSet::new();
+    included(&grammar, &mut names);
+    assert!(names.len() >= 10);
+    for name in names {
+        assert!(grammar["repository"][name.strip_prefix('#').unwrap()].is_object(), "{name}");
+    }
+}
+
+#[test]
+fn the_files_of_the_extension_are_there() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/editors/vscode");
+    let json = |file: &str| -> Value {
+        serde_json::from_str(&std::fs::read_to_string(format!("{folder}/{file}")).unwrap()).unwrap()
+    };
+    let contributes = &json("package.json")["contributes"];
+    assert_eq!(contributes["languages"][0]["extensions"], serde_json::json!([".fsm"]));
+    assert_eq!(json(contributes["languages"][0]["configuration"].as_str().unwrap())["comments"]["lineComment"], "#");
+    assert_eq!(json(contributes["grammars"][0]["path"].as_str().unwrap())["scopeName"], "source.fsm");
+}
