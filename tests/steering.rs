@@ -64,6 +64,32 @@ proptest! {
 }
 
 #[test]
+fn no_command_exceeds_the_platforms_limits() {
+    let (mut steering, rig) = steering();
+    let along_world = Vector2::new(0.0, 1.0);
+    for mover in [Mover::Body, Mover::Whisker(0)] {
+        for (speed, rate) in [(1e300, -1e300), (-1e300, 1e300)] {
+            let action = Action::Steer { mover, along_world, speed, turn: Turn::Rate(rate) };
+            let command = steering.command(&action, Pose::default());
+            assert!((command.velocity_world.norm() - rig.platform.speed_limit).abs() < 1e-12);
+            assert!((command.yaw_rate - rig.platform.yaw_rate_limit * rate.signum()).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_pose_that_is_not_a_number_stands_still() {
+    let (mut steering, _) = steering();
+    let lost = Pose { position: Point2::origin(), heading: f64::NAN };
+    let along_world = Vector2::new(0.0, 1.0);
+    for (mover, turn) in [(Mover::Body, Turn::Facing(0.0)), (Mover::Whisker(1), Turn::Rate(0.1))] {
+        let action = Action::Steer { mover, along_world, speed: 0.05, turn };
+        assert_eq!(steering.command(&action, lost), Command::STOP);
+        assert_ne!(steering.command(&action, Pose::default()), Command::STOP, "and goes on when the pose is back");
+    }
+}
+
+#[test]
 fn no_direction_stands_still_holding_repeats_and_stopping_stops() {
     let (mut steering, _) = steering();
     let body = Pose::default();

@@ -24,6 +24,8 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
+    /// Compile a policy into a file that runs without its text
+    Compile(CompileArguments),
     /// Draw the statechart of a policy
     Graph(GraphArguments),
     /// Lay out policies, in place
@@ -38,7 +40,7 @@ pub(super) struct RunArguments {
     /// Scenario files, one run each
     #[arg(value_name = "SCENARIO", required = true)]
     pub(super) scenarios: Vec<PathBuf>,
-    /// Policy to run instead of the one that a scenario names
+    /// Policy, or compiled machine, to run instead of the policy that a scenario names
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
@@ -61,7 +63,7 @@ pub(super) struct RunArguments {
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_STATUS)]
 pub(super) struct CheckArguments {
-    /// Policy files
+    /// Policy files or compiled machines
     #[arg(value_name = "POLICY", required = true)]
     pub(super) policies: Vec<PathBuf>,
     /// Take warnings for errors: exit status 2
@@ -70,6 +72,20 @@ pub(super) struct CheckArguments {
     /// Print only JSON: an array of policies with their diagnostics
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct CompileArguments {
+    /// Policy file, or a compiled machine to set parameters of
+    #[arg(value_name = "POLICY")]
+    pub(super) policy: PathBuf,
+    /// File to write, usually NAME.machine
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) out: PathBuf,
+    /// Set a parameter of the policy for good, with its unit: --set "speed=80 mm/s"
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
+    pub(super) settings: Vec<Setting>,
 }
 
 #[derive(Debug, Args)]

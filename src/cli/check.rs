@@ -5,13 +5,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::diagnostic::{Record, records};
-use crate::machine::{Program, State};
+use crate::diagnostic::{Position, Record, records};
+use crate::machine::{Artifact, FORMAT, State};
 use crate::policy::compile_with_warnings;
 use crate::units::format_si;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
+use super::input::PolicyFile;
 use super::{input, output};
 
 /// What is known of one policy.
@@ -20,6 +21,8 @@ struct Checked {
     file: String,
     /// `null` if the policy is at fault.
     machine: Option<Summary>,
+    /// What a compiled machine comes from; `null` for a policy's text.
+    compiled: Option<Compiled>,
     diagnostics: Vec<Record>,
 }
 
@@ -34,6 +37,14 @@ struct Summary {
 }
 
 #[derive(Debug, Serialize)]
+struct Compiled {
+    file: String,
+    text_sha256: String,
+    compiler: String,
+    format: u32,
+}
+
+#[derive(Debug, Serialize)]
 struct ParameterSummary {
     name: String,
     value: String,
@@ -43,6 +54,9 @@ struct ParameterSummary {
 #[derive(Debug, Serialize)]
 struct StateSummary {
     name: String,
+    /// Where it is in the policy's text.
+    #[serde(flatten)]
+    place: Position,
     initial: bool,
     transitions: usize,
     /// The most operations that a tick in this state does without leaving it.
@@ -61,9 +75,12 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
 }
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
-    let source = input::read(path)?;
+    let source = match input::policy_file(path)?.value {
+        PolicyFile::Text(source) => source,
+        PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
+    };
     let (machine, diagnostics) = match compile_with_warnings(&source) {
-        Ok(compiled) => (Some(summary(&compiled.program)), compiled.warnings),
+        Ok(compiled) => (Some(summary(&compiled.artifact)), compiled.warnings),
         Err(faults) => (None, faults),
     };
     if !json {
@@ -72,17 +89,36 @@ fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
             output::result(describe(&source.name, machine))?;
         }
     }
-    Ok(Checked { file: source.name.clone(), machine, diagnostics: records(&source, &diagnostics) })
+    Ok(Checked { file: source.name.clone(), machine, compiled: None, diagnostics: records(&source, &diagnostics) })
 }
 
-fn summary(program: &Program) -> Summary {
-    let parameter = |parameter: &crate::machine::Parameter| ParameterSummary {
+fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
+    let file = path.display().to_string();
+    let machine = summary(artifact);
+    let origin = &artifact.origin;
+    if !json {
+        output::result(describe(&file, &machine))?;
+        output::result(format_args!("compiled from {} by vibrissa {}", origin.file, origin.compiler))?;
+    }
+    let compiled = Compiled {
+        file: origin.file.clone(),
+        text_sha256: input::hex(&origin.text_sha256),
+        compiler: origin.compiler.clone(),
+        format: FORMAT,
+    };
+    Ok(Checked { file, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() })
+}
+
+fn summary(artifact: &Artifact) -> Summary {
+    let Artifact { program, places, .. } = artifact;
+    let parameter = |(parameter, &value): (&crate::machine::Parameter, &f64)| ParameterSummary {
         name: parameter.name.clone(),
-        value: format_si(parameter.default, parameter.dimension),
+        value: format_si(value, parameter.dimension),
         range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
     };
     let state = |(index, state): (usize, &State)| StateSummary {
         name: state.name.to_string(),
+        place: places.states[index].name,
         initial: index == program.initial,
         transitions: state.transitions.len(),
         operations: program.operations(index),
@@ -90,7 +126,7 @@ fn summary(program: &Program) -> Summary {
     Summary {
         name: program.name.clone(),
         whiskers: program.whiskers.clone(),
-        parameters: program.parameters.iter().map(parameter).collect(),
+        parameters: program.parameters.iter().zip(&program.image).map(parameter).collect(),
         states: program.states.iter().enumerate().map(state).collect(),
         memory_bytes: std::mem::size_of_val(program.image.as_slice()),
     }

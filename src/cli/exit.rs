@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::diagnostic::{Diagnostic, Source};
-use crate::machine::SetError;
+use crate::machine::{ArtifactError, SetError};
 use crate::report::ChartTooLarge;
 use crate::scene::SolidError;
 use crate::study::ExecuteError;
@@ -46,6 +46,10 @@ pub(super) enum Failure {
     Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
+    #[error("{}: {cause}", path.display())]
+    Artifact { path: PathBuf, cause: ArtifactError },
+    #[error("{} would overwrite what it is made from; choose another place with --out", path.display())]
+    OntoItself { path: PathBuf },
     #[error("{} names no policy; give one with --policy", scenario.display())]
     NoPolicy { scenario: PathBuf },
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
@@ -73,6 +77,11 @@ impl Failure {
     pub(super) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         |cause| Self::Write { path, cause }
+    }
+
+    pub(super) fn artifact(path: &Path) -> impl FnOnce(ArtifactError) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Artifact { path, cause }
     }
 
     pub(super) fn rewrite(path: &Path) -> impl FnOnce(std::io::Error) -> Self {

@@ -6,15 +6,16 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::Source;
+use crate::diagnostic::{Diagnostic, Source};
+use crate::machine::{ARTIFACT_LIMIT, Artifact};
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, compile_with_warnings};
 use crate::scene::Scene;
 
 use super::exit::Failure;
 
-/// The most bytes that are read of a file: as many as the largest scenario may have. Policies are smaller still.
-const SIZE_LIMIT: u64 = 1 << 20;
+/// The most bytes that a text may have: as many as the largest scenario may have. Policies are smaller still.
+const SIZE_LIMIT: usize = 1 << 20;
 
 /// Something read from a file, with a hash of the file's text.
 pub(super) struct Loaded<T> {
@@ -27,12 +28,20 @@ pub(super) fn read(path: &Path) -> Result<Source, Failure> {
     Ok(Source::new(path.display().to_string(), text))
 }
 
-/// Reads no more than tells that a file is too large: a device never ends.
-fn read_text(from: impl Read) -> Result<String, Error> {
+/// Reads no more than tells that there are more than `limit` bytes: a device never ends.
+fn read_bytes(from: impl Read, limit: usize) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
-    let count = from.take(SIZE_LIMIT + 1).read_to_end(&mut bytes)?;
+    from.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn read_text(from: impl Read) -> Result<String, Error> {
+    read_bytes(from, SIZE_LIMIT).and_then(text)
+}
+
+fn text(bytes: Vec<u8>) -> Result<String, Error> {
     let unusable = |cause| Error::new(ErrorKind::InvalidData, cause);
-    if count as u64 > SIZE_LIMIT {
+    if bytes.len() > SIZE_LIMIT {
         return Err(unusable(
             "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
         ));
@@ -56,19 +65,43 @@ pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
     }
 }
 
-/// A policy and its text.
-pub(super) struct Policy {
-    pub(super) source: Source,
-    pub(super) compiled: Compiled,
+/// What a file that is given for a policy holds.
+pub(super) enum PolicyFile {
+    Text(Source),
+    Machine(Box<Artifact>),
 }
 
+/// Reads a policy's text or a compiled machine.
+pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
+    let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
+    let hash = Sha256::new().chain_update(&bytes);
+    let value = if Artifact::is_in(&bytes) {
+        PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
+    } else {
+        let text = text(bytes).map_err(Failure::read(path))?;
+        PolicyFile::Text(Source::new(path.display().to_string(), text))
+    };
+    Ok(Loaded { value, hash })
+}
+
+/// A policy that is ready to run.
+pub(super) struct Policy {
+    pub(super) artifact: Artifact,
+    /// Its text and what the text is warned of, unless it was compiled before.
+    pub(super) warned: Option<(Source, Vec<Diagnostic>)>,
+}
+
+/// Reads a policy's text and compiles it, or a compiled machine.
 pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
-    let source = read(path)?;
-    let hash = Sha256::new().chain_update(&source.text);
-    match compile_with_warnings(&source) {
-        Ok(compiled) => Ok(Loaded { value: Policy { source, compiled }, hash }),
-        Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
-    }
+    let Loaded { value, hash } = policy_file(path)?;
+    let value = match value {
+        PolicyFile::Machine(artifact) => Policy { artifact: *artifact, warned: None },
+        PolicyFile::Text(source) => match compile_with_warnings(&source) {
+            Ok(Compiled { artifact, warnings }) => Policy { artifact, warned: Some((source, warnings)) },
+            Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
+        },
+    };
+    Ok(Loaded { value, hash })
 }
 
 pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
@@ -78,5 +111,10 @@ pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
 
 /// The first sixteen hexadecimal digits of a hash: enough to tell files apart.
 pub(super) fn short(hash: &[u8]) -> String {
-    hash.iter().take(8).fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"))
+    hex(&hash[..hash.len().min(8)])
+}
+
+/// Bytes in hexadecimal digits.
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"))
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod compile;
 mod exit;
 mod fmt;
 mod graph;
@@ -21,6 +22,7 @@ pub fn main(arguments: &Arguments) -> Exit {
     let done = match &arguments.command {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),

@@ -31,8 +31,8 @@ struct Job {
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     // Whatever is wrong with the last scenario should show before the first has run.
-    let mut warned = BTreeSet::new();
-    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments, &mut warned));
+    let mut told = BTreeSet::new();
+    let jobs = arguments.scenarios.iter().map(|path| job(path, arguments, &mut told));
     let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
     check_names(&jobs)?;
     if let Some(directory) = &arguments.out {
@@ -80,8 +80,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-/// Prepares a run. Tells the warnings of its policy, unless the policy is among those `warned` of.
-fn job(path: &Path, arguments: &RunArguments, warned: &mut BTreeSet<PathBuf>) -> Result<Job, Failure> {
+/// Prepares a run. Tells the warnings of its policy, unless the policy is among those `told` of.
+fn job(path: &Path, arguments: &RunArguments, told: &mut BTreeSet<PathBuf>) -> Result<Job, Failure> {
     let scenario = input::scenario(path)?;
     let scene = scenario.value;
     let policy_path = match (&arguments.policy, &scene.policy) {
@@ -89,11 +89,13 @@ fn job(path: &Path, arguments: &RunArguments, warned: &mut BTreeSet<PathBuf>) ->
         (None, Some(policy)) => path.parent().unwrap_or(Path::new("")).join(policy),
         (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
     };
-    let Loaded { value: Policy { source, compiled }, hash: mut policy_hash } = input::policy(&policy_path)?;
-    if warned.insert(policy_path) {
-        output::diagnostics(&source, &compiled.warnings);
+    let Loaded { value: Policy { artifact, warned }, hash: mut policy_hash } = input::policy(&policy_path)?;
+    if let Some((source, warnings)) = &warned
+        && told.insert(policy_path)
+    {
+        output::diagnostics(source, warnings);
     }
-    let mut program = compiled.program;
+    let mut program = artifact.program;
     for setting in &arguments.settings {
         program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
         policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));

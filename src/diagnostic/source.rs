@@ -1,6 +1,6 @@
 //! A text with a name, and places in it.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A stretch of a [`Source`], in bytes.
@@ -33,7 +33,7 @@ impl From<Range<usize>> for Span {
 }
 
 /// A place in a text as a person counts: from 1, columns in characters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Position {
     /// The line, from 1.
     pub line: usize,

@@ -2,21 +2,28 @@
 //!
 //! A [`Program`] is flat code over a file of registers. A [`Machine`] runs it: every tick reads [`Senses`], takes the
 //! transitions that are due, and gives one [`Action`]. A tick does a bounded amount of work (jumps only go forward, chains of
-//! transitions are limited) and allocates nothing.
+//! transitions are limited) and allocates nothing. An [`Artifact`] is a program as bytes.
 
 mod action;
+mod artifact;
 mod evaluate;
 mod op;
+mod operands;
 mod program;
 mod senses;
+mod source_map;
 mod stateful;
 mod tick;
+mod verify;
 
 pub(crate) use evaluate::evaluate;
 pub(crate) use tick::TIME_SLACK;
 
 pub use action::{Action, Mover, Turn};
+pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use op::{Block, Op, Register, Wide};
-pub use program::{Guard, Parameter, Program, SetError, State, Target, Transition};
+pub use program::{CODE_LIMIT, Guard, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition};
 pub use senses::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+pub use source_map::{SourceMap, StatePlace};
 pub use tick::{CHAIN_LIMIT, Failure, Machine, Outcome, Tick};
+pub use verify::Unsound;

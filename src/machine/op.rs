@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use super::senses::{BodyScalar, WhiskerScalar, WhiskerVector};
 
 /// A place in the register file.
@@ -14,7 +16,7 @@ pub type Wide = u16;
 pub type Block = Range<u32>;
 
 /// One operation. `to` is where the result goes; truths are 1 and 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "operands are named alike throughout: to, a, b, and what the variant says")]
 pub enum Op {
     /// `to = a`

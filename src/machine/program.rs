@@ -2,15 +2,23 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::units::{Dimension, format_si};
 
 use super::op::{Block, Op, Register};
 
+/// The most operations that a program may have.
+pub const CODE_LIMIT: usize = 50_000;
+/// The most registers that a program may have.
+pub const REGISTER_LIMIT: usize = 60_000;
+
 /// A compiled policy.
 ///
 /// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
-/// them out; [`Program::image`] is what they hold at the start of a run.
-#[derive(Debug, Clone, PartialEq)]
+/// them out; [`Program::image`] is what they hold at the start of a run. A program that does not come from the compiler or an
+/// [`Artifact`](super::Artifact) is safe to run if it passes [`Program::verify`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Program {
     /// The machine's name.
     pub name: String,
@@ -33,7 +41,7 @@ pub struct Program {
 }
 
 /// A number that a run may set within a range.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
@@ -46,7 +54,7 @@ pub struct Parameter {
 }
 
 /// A state.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Its name.
     pub name: Arc<str>,
@@ -61,7 +69,7 @@ pub struct State {
 }
 
 /// A way out of a state.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Transition {
     /// When it is taken.
     pub guard: Guard,
@@ -70,7 +78,7 @@ pub struct Transition {
 }
 
 /// When a transition is taken.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Guard {
     /// When a condition holds.
     When {
@@ -99,7 +107,7 @@ impl Guard {
 }
 
 /// Where a transition leads.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
     /// Into a state.
     State {
@@ -158,7 +166,8 @@ fn article(noun: &str) -> &'static str {
 }
 
 impl Guard {
-    fn code(&self) -> &Block {
+    /// What computes it.
+    pub(super) fn code(&self) -> &Block {
         match self {
             Self::When { code, .. } | Self::After { code, .. } => code,
         }

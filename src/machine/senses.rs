@@ -1,5 +1,7 @@
 //! What a machine can ask of perception.
 
+use serde::{Deserialize, Serialize};
+
 use crate::geometry::Vector2;
 
 /// Perception as a machine sees it. Values are asked for only when the active state needs them.
@@ -29,14 +31,14 @@ pub trait Senses {
 }
 
 /// Numbers that belong to the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyScalar {
     /// Heading in the world frame (rad).
     Yaw,
 }
 
 /// Numbers and truths that belong to a whisker.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WhiskerScalar {
     /// Filtered base angle (rad, counter-clockwise positive).
     Deflection,
@@ -57,7 +59,7 @@ pub enum WhiskerScalar {
 }
 
 /// Vectors that belong to a whisker.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WhiskerVector {
     /// Place of the tip's contact in the world frame (m).
     Tip,

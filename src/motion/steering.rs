@@ -13,6 +13,8 @@ pub struct Steering {
     /// Where every whisker that the policy binds has its base, in the body frame (m).
     bases_body: Vec<Vector2>,
     yaw_controller: PiController,
+    speed_limit: f64,
+    yaw_rate_limit: f64,
     period: f64,
     last: Command,
 }
@@ -28,6 +30,8 @@ impl Steering {
         Self {
             bases_body: whiskers.iter().map(|&index| rig.whiskers[index].base_body.coords).collect(),
             yaw_controller: PiController::new(yaw.proportional, yaw.integral, yaw.limit),
+            speed_limit: rig.platform.speed_limit,
+            yaw_rate_limit: rig.platform.yaw_rate_limit,
             period: 1.0 / rig.sensing.control_rate,
             last: Command::STOP,
         }
@@ -38,6 +42,9 @@ impl Steering {
     /// The body always moves at the speed asked for. Turning swings a whisker's base about the body; the body's direction, but
     /// not its speed, makes up for that. To make up for all of it, the body would have to be fastest just when a contour is
     /// least known and the platform turns most; swiping then loses its object within a second.
+    ///
+    /// Speed and yaw rate never exceed the platform's limits. Whatever the action and the pose are, the command is finite: where
+    /// it would not be, as when the pose is not a number, the platform stands still.
     pub fn command(&mut self, action: &Action, body: Pose) -> Command {
         match *action {
             Action::Hold => {}
@@ -46,6 +53,7 @@ impl Steering {
                 self.last = Command::STOP;
             }
             Action::Steer { mover, along_world, speed, turn } => {
+                let speed = speed.clamp(-self.speed_limit, self.speed_limit);
                 let yaw_rate = match turn {
                     Turn::Rate(rate) => {
                         self.yaw_controller.reset();
@@ -53,6 +61,7 @@ impl Steering {
                     }
                     Turn::Facing(heading) => self.yaw_controller.next(turn_between(body.heading, heading), self.period),
                 };
+                let yaw_rate = yaw_rate.clamp(-self.yaw_rate_limit, self.yaw_rate_limit);
                 let velocity = at_speed(speed, along_world);
                 let velocity_world = match mover {
                     Mover::Body => velocity,
@@ -62,7 +71,8 @@ impl Steering {
                         at_speed(speed.abs(), velocity - swing)
                     }
                 };
-                self.last = Command { velocity_world, yaw_rate };
+                let command = Command { velocity_world, yaw_rate };
+                self.last = if command.is_finite() { command } else { Command::STOP };
             }
         }
         self.last

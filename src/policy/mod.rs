@@ -6,6 +6,7 @@
 //! its description for users.
 
 mod analysis;
+mod artifact;
 mod ast;
 mod builtins;
 pub mod chart;
@@ -20,13 +21,13 @@ mod types;
 pub use format::format;
 
 use crate::diagnostic::{Diagnostic, Source};
-use crate::machine::Program;
+use crate::machine::{Artifact, Program};
 
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compiled {
-    /// The machine's program.
-    pub program: Program,
+    /// The program, and where it comes from.
+    pub artifact: Artifact,
     /// What is probably not meant, in the order of the text (the first fifty).
     pub warnings: Vec<Diagnostic>,
 }
@@ -61,7 +62,7 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
     let (file, lowered) = front(source)?;
     let warnings = analysis::warnings(&file, &lowered);
-    Ok(Compiled { program: lowered.program, warnings })
+    Ok(Compiled { artifact: artifact::artifact(source, &file, lowered.program), warnings })
 }
 
 fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {

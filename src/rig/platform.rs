@@ -19,6 +19,10 @@ pub struct Platform {
     pub inertia: f64,
     /// Time constant with which the servos take up a commanded velocity or yaw rate (s).
     pub servo: f64,
+    /// Greatest speed of the centre of mass (m/s); no command asks for more.
+    pub speed_limit: f64,
+    /// Greatest yaw rate (rad/s); no command asks for more.
+    pub yaw_rate_limit: f64,
     /// The controller that turns the platform to a heading.
     pub yaw: YawController,
 }
@@ -48,6 +52,8 @@ impl Default for Platform {
             mass: 0.51,
             inertia: 0.0015,
             servo: 0.05,
+            speed_limit: 1.0,
+            yaw_rate_limit: std::f64::consts::PI,
             yaw: YawController::default(),
         }
     }
@@ -60,7 +66,7 @@ pub struct YawController {
     pub proportional: f64,
     /// Growth of the yaw rate for a unit of error (1/s²).
     pub integral: f64,
-    /// Greatest yaw rate (rad/s).
+    /// Greatest yaw rate (rad/s) that it asks for.
     pub limit: f64,
 }
 

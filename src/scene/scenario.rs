@@ -135,7 +135,7 @@ mod tests {
         let text = "
   platform:
     {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms,
-     yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
+     speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
       {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, density: 6 g/cm^3, young_modulus: 7 GPa,
@@ -152,6 +152,8 @@ mod tests {
                 mass: 2.0,
                 inertia: 3.0,
                 servo: 0.004,
+                speed_limit: 8.0,
+                yaw_rate_limit: 9.0,
                 yaw: YawController { proportional: 5.0, integral: 6.0, limit: 7.0 },
             },
             whiskers: vec![Whisker {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 /// A physical dimension: the exponents of length, angle, time and mass.
 ///
 /// Angle is a dimension of its own, so that an angle cannot pass for a plain number, nor a stiffness in N m/rad for a
@@ -13,7 +15,7 @@ use std::fmt;
 /// assert_eq!(Dimension::SPEED.to_string(), "speed");
 /// assert_eq!(Dimension::SPEED.si_unit(), "m/s");
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub struct Dimension {
     /// Exponent of length (m).
     pub length: i8,

@@ -2,12 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::machine::{Block, Op, Register};
-
-/// The most operations that a program may have; laws that use laws that use laws can multiply.
-const LENGTH_LIMIT: usize = 50_000;
-/// The most registers that a program may have.
-const REGISTER_LIMIT: usize = 60_000;
+use crate::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
 
 /// The code and the registers of a program in the making.
 #[derive(Debug)]
@@ -73,7 +68,7 @@ impl Code {
 
     /// Writes one operation.
     pub(super) fn push(&mut self, op: Op) {
-        if self.ops.len() >= LENGTH_LIMIT {
+        if self.ops.len() >= CODE_LIMIT {
             self.full = true;
         } else if !self.full {
             self.ops.push(op);

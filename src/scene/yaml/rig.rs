@@ -17,6 +17,8 @@ const CENTRE_OF_MASS: Key = Key::new("centre_of_mass", Dimension::LENGTH, (0.0, 
 const MASS: Key = Key::new("mass", Dimension::MASS, (1e-3, 100.0), "0.51 kg");
 const INERTIA: Key = Key::new("inertia", Dimension::INERTIA, (1e-9, 100.0), "0.0015 kg m^2");
 const SERVO: Key = Key::new("servo", Dimension::TIME, (1e-3, 10.0), "50 ms");
+const SPEED_LIMIT: Key = Key::new("speed_limit", Dimension::SPEED, (1e-3, 100.0), "1 m/s");
+const YAW_RATE_LIMIT: Key = Key::new("yaw_rate_limit", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "180 deg/s");
 
 const YAW_PROPORTIONAL: Key = Key::new("proportional", Dimension::FREQUENCY, (0.0, 100.0), "2 Hz");
 const YAW_INTEGRAL: Key = Key::new("integral", Dimension::new(0, 0, -2, 0), (0.0, 1000.0), "0.8 Hz^2");
@@ -63,6 +65,8 @@ fn platform(reader: &mut Reader<'_>, entry: &Entry, platform: &mut Platform) {
     fields.set(reader, &MASS, &mut platform.mass);
     fields.set(reader, &INERTIA, &mut platform.inertia);
     fields.set(reader, &SERVO, &mut platform.servo);
+    fields.set(reader, &SPEED_LIMIT, &mut platform.speed_limit);
+    fields.set(reader, &YAW_RATE_LIMIT, &mut platform.yaw_rate_limit);
     if let Some(entry) = fields.entry("yaw") {
         yaw(reader, entry, &mut platform.yaw);
     }

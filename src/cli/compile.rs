@@ -1,0 +1,27 @@
+//! `vibrissa compile`
+
+use super::arguments::CompileArguments;
+use super::exit::{Exit, Failure};
+use super::input::Policy;
+use super::{input, output};
+
+pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
+    let (policy, out) = (&arguments.policy, &arguments.out);
+    let Policy { mut artifact, warned } = input::policy(policy)?.value;
+    if let Some((source, warnings)) = &warned {
+        output::diagnostics(source, warnings);
+    }
+    for setting in &arguments.settings {
+        artifact.program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
+    }
+    let bytes = artifact.to_bytes().map_err(Failure::artifact(policy))?;
+    if let (Ok(from), Ok(to)) = (policy.canonicalize(), out.canonicalize())
+        && from == to
+    {
+        return Err(Failure::OntoItself { path: out.clone() });
+    }
+    std::fs::write(out, &bytes).map_err(Failure::write(out))?;
+    let (machine, size) = (&artifact.program.name, bytes.len());
+    output::result(format_args!("{}: machine {machine}, {size} bytes", out.display()))?;
+    Ok(Exit::Done)
+}

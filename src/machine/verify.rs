@@ -1,0 +1,304 @@
+//! What a program must keep to, so that running it cannot go wrong: wherever the program comes from.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::signal::MAX_WHISKERS;
+
+use super::op::{Block, Op, Register};
+use super::operands::{Place, number};
+use super::program::{CODE_LIMIT, Guard, Program, REGISTER_LIMIT, State, Target, Transition};
+
+/// The most states that a program may have, and the most transitions.
+const STRUCTURE_LIMIT: usize = 50_000;
+/// The most registers that one operation may clear, as many as the largest memory has: operations do a bounded amount of work.
+const CLEAR_LIMIT: u16 = 4;
+
+/// Why a program is not safe to run.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Unsound {
+    /// There is too much of something.
+    #[error("it has {count} {what}, {limit} at most are allowed")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How much there is.
+        count: usize,
+        /// How much there may be.
+        limit: usize,
+    },
+    /// Something is named by an index that nothing has.
+    #[error("it names {what} {index} of {count}")]
+    Index {
+        /// What is named.
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A block is no part of the code, or shares a part with another block.
+    #[error("its block of code from {start} to {end} lies outside of the code or crosses another block")]
+    Block {
+        /// The first operation.
+        start: u32,
+        /// The one behind the last.
+        end: u32,
+    },
+    /// A jump leads back or out of its block.
+    #[error("its jump at {at} leads to {target}, which is not ahead in the same block")]
+    Jump {
+        /// Where the jump is.
+        at: u32,
+        /// Where it leads.
+        target: u32,
+    },
+    /// A tick in a state would do the same code more than once.
+    #[error("its state {state} does {operations} operations a tick, more than there are")]
+    Work {
+        /// Index of the state.
+        state: usize,
+        /// Operations of all its blocks and of the rules that hold always.
+        operations: usize,
+    },
+    /// A timer of a rule that holds always is used by a state, or the other way round.
+    #[error("its timer {0} belongs to another guard")]
+    Timer(usize),
+    /// A register that is read as a whisker can hold something else.
+    #[error("its register {0} is read as a whisker, but can hold something else")]
+    Whisker(Register),
+    /// Whiskers are read, and none is bound.
+    #[error("it reads whiskers, but binds none; bind one, as in `whisker r0`")]
+    NoWhisker,
+    /// The code changes a parameter.
+    #[error("its code changes the parameter `{0}`")]
+    ParameterWritten(String),
+    /// A number at the start of a run is infinite or not a number.
+    #[error("its register {0} starts with a number that is not finite")]
+    NotFinite(usize),
+    /// A parameter's range is none, or its value is outside of it.
+    #[error("its parameter `{0}` is outside of its range")]
+    OutOfRange(String),
+    /// A name is not one that the language could give.
+    #[error("{0:?} is no name")]
+    Name(String),
+    /// Two things have one name.
+    #[error("the name `{0}` is given twice")]
+    SameName(String),
+    /// A reason for a failure is not one line of plain text.
+    #[error("the reason {0:?} has characters that cannot be shown; reword it")]
+    Reason(String),
+}
+
+impl Program {
+    /// Checks all that running the program relies on.
+    ///
+    /// A program that passes does no more work in a tick than its code is long, for each transition taken, and touches only
+    /// registers, states, timers and whiskers that there are; its parameters stay what they were set to. That its commands are
+    /// finite is seen to by [`Machine::tick`](super::Machine::tick), that they are bounded by steering.
+    ///
+    /// # Errors
+    /// [`Unsound`] with the first thing that is wrong. Of the policies that compile, two kinds give such a program: one
+    /// with a state for a whisker and no whisker, and one with a control character in a reason.
+    pub fn verify(&self) -> Result<(), Unsound> {
+        // Taken apart, so that a field that is new is not forgotten.
+        let Self { name, whiskers, parameters, states, initial, always, code, image, timers: _ } = self;
+        let transitions = always.len() + states.iter().map(|state| state.transitions.len()).sum::<usize>();
+        for (what, count, limit) in [
+            ("whiskers", whiskers.len(), MAX_WHISKERS),
+            ("states", states.len(), STRUCTURE_LIMIT),
+            ("transitions", transitions, STRUCTURE_LIMIT),
+            ("operations", code.len(), CODE_LIMIT),
+            ("registers", image.len(), REGISTER_LIMIT),
+            ("parameters", parameters.len(), image.len()),
+        ] {
+            if count > limit {
+                return Err(Unsound::TooMany { what, count, limit });
+            }
+        }
+        is_name(name)?;
+        let values = parameters.iter().map(|parameter| parameter.name.as_str());
+        distinct(values.chain(whiskers.iter().map(String::as_str)).chain(states.iter().map(|state| &*state.name)))?;
+        self.verify_numbers()?;
+        within("state", *initial, states.len())?;
+        self.verify_transitions()?;
+        self.verify_blocks()?;
+        self.verify_operands()
+    }
+
+    fn verify_numbers(&self) -> Result<(), Unsound> {
+        if let Some(register) = self.image.iter().position(|value| !value.is_finite()) {
+            return Err(Unsound::NotFinite(register));
+        }
+        for (parameter, value) in self.parameters.iter().zip(&self.image) {
+            let holds = match parameter.range {
+                None => parameter.default.is_finite(),
+                Some((low, high)) => {
+                    let range = low..=high;
+                    low.is_finite() && high.is_finite() && range.contains(value) && range.contains(&parameter.default)
+                }
+            };
+            if !holds {
+                return Err(Unsound::OutOfRange(parameter.name.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks what guards and targets name. A transition starts the timers of states anew and leaves those of `always`, which
+    /// come first, running.
+    fn verify_transitions(&self) -> Result<(), Unsound> {
+        let timed = |transitions: &[Transition]| transitions.iter().filter(|one| one.guard.is_timed()).count();
+        let lasting = timed(&self.always);
+        let most = lasting + self.states.iter().map(|state| timed(&state.transitions)).sum::<usize>();
+        if !(lasting..=most).contains(&self.timers) {
+            return Err(Unsound::TooMany { what: "timers", count: self.timers, limit: most });
+        }
+        self.always.iter().try_for_each(|rule| self.verify_transition(rule, 0..lasting))?;
+        let mut transitions = self.states.iter().flat_map(|state| &state.transitions);
+        transitions.try_for_each(|transition| self.verify_transition(transition, lasting..self.timers))
+    }
+
+    fn verify_transition(&self, transition: &Transition, timers: std::ops::Range<usize>) -> Result<(), Unsound> {
+        let registers = match &transition.guard {
+            Guard::When { truth, lasting: Some((duration, timer)), .. } => {
+                if !timers.contains(timer) {
+                    return Err(Unsound::Timer(*timer));
+                }
+                [*truth, *duration]
+            }
+            Guard::When { truth: only, lasting: None, .. } | Guard::After { time: only, .. } => [*only; 2],
+        };
+        for register in registers {
+            within("register", usize::from(register), self.image.len())?;
+        }
+        match &transition.target {
+            Target::State { state, .. } => within("state", *state, self.states.len()),
+            Target::Failure(reason) if reason.chars().any(char::is_control) => Err(Unsound::Reason(reason.to_string())),
+            Target::Failure(_) => Ok(()),
+        }
+    }
+
+    fn verify_blocks(&self) -> Result<(), Unsound> {
+        let of_transition = |transition: &Transition| {
+            let arguments = match &transition.target {
+                Target::State { arguments, .. } => arguments.clone(),
+                Target::Failure(_) => 0..0,
+            };
+            [transition.guard.code().clone(), arguments]
+        };
+        let of_state = |state: &State| {
+            let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
+            state.transitions.iter().flat_map(of_transition).chain(own).collect::<Vec<Block>>()
+        };
+        let always: Vec<Block> = self.always.iter().flat_map(of_transition).collect();
+        let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
+        let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
+        blocks.sort_by_key(|block| (block.start, block.end));
+        blocks.dedup();
+
+        let mut free = 0;
+        for Block { start, end } in blocks {
+            if start > end || end as usize > self.code.len() || (start < end && start < free) {
+                return Err(Unsound::Block { start, end });
+            }
+            free = free.max(end);
+            for at in start..end {
+                if let Some(target) = self.code[at as usize].operands().target
+                    && !(at < target && target <= end)
+                {
+                    return Err(Unsound::Jump { at, target });
+                }
+            }
+        }
+        // Between two transitions each of a state's blocks is done once at most.
+        for (index, state) in states.iter().enumerate() {
+            let operations = always.iter().chain(state).map(ExactSizeIterator::len).sum::<usize>();
+            if operations > self.code.len() {
+                return Err(Unsound::Work { state: index, operations });
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that every operand is in a register that there is, that no parameter is written, and that registers that are
+    /// read as whiskers only ever hold the index of one: they start with one, and nothing but copies of such registers goes
+    /// into them.
+    fn verify_operands(&self) -> Result<(), Unsound> {
+        let mut copied_from: HashMap<Register, Vec<Register>> = HashMap::new();
+        let mut pending = Vec::new();
+        for op in &self.code {
+            let operands = op.operands();
+            let whisker = operands.whisker.map_or_else(Default::default, number);
+            for place in operands.reads.into_iter().chain(operands.writes).chain([whisker]) {
+                if let Some(last) = place.registers().last() {
+                    within("register", last, self.image.len())?;
+                }
+            }
+            for written in operands.writes.map(Place::registers) {
+                if let Some(parameter) = self.parameters.get(written.start)
+                    && !written.is_empty()
+                {
+                    return Err(Unsound::ParameterWritten(parameter.name.clone()));
+                }
+            }
+            match *op {
+                Op::Copy { to, a } => copied_from.entry(to).or_default().push(a),
+                Op::Clear { count, .. } if count > CLEAR_LIMIT => {
+                    let (count, limit) = (count.into(), CLEAR_LIMIT.into());
+                    return Err(Unsound::TooMany { what: "registers to clear at once", count, limit });
+                }
+                _ => {}
+            }
+            pending.extend(operands.whisker);
+        }
+
+        let mut whiskers = HashSet::new();
+        while let Some(register) = pending.pop() {
+            if whiskers.insert(register) {
+                pending.extend(copied_from.get(&register).into_iter().flatten());
+            }
+        }
+        if self.whiskers.is_empty() && !whiskers.is_empty() {
+            return Err(Unsound::NoWhisker);
+        }
+        for &register in &whiskers {
+            let index = self.image[usize::from(register)];
+            let is_index = index.fract() == 0.0 && (0.0..self.whiskers.len() as f64).contains(&index);
+            if !is_index || usize::from(register) < self.parameters.len() {
+                return Err(Unsound::Whisker(register));
+            }
+        }
+        for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. })) {
+            for register in op.operands().writes.into_iter().flat_map(Place::registers) {
+                if let Ok(register) = Register::try_from(register)
+                    && whiskers.contains(&register)
+                {
+                    return Err(Unsound::Whisker(register));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn within(what: &'static str, index: usize, count: usize) -> Result<(), Unsound> {
+    if index < count { Ok(()) } else { Err(Unsound::Index { what, index, count }) }
+}
+
+/// Names are letters, digits and underscores, and do not start with a digit.
+fn is_name(name: &str) -> Result<(), Unsound> {
+    let holds = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        && name.bytes().next().is_some_and(|first| !first.is_ascii_digit());
+    if holds { Ok(()) } else { Err(Unsound::Name(name.to_owned())) }
+}
+
+fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Result<(), Unsound> {
+    let mut known = HashSet::new();
+    for name in names {
+        is_name(name)?;
+        if !known.insert(name) {
+            return Err(Unsound::SameName(name.to_owned()));
+        }
+    }
+    Ok(())
+}

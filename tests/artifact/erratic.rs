@@ -1,0 +1,90 @@
+//! Senses without sense, and what a machine must keep to whatever they say.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use vibrissa::geometry::{Point2, Pose, Vector2};
+use vibrissa::machine::{BodyScalar, Machine, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::motion::Steering;
+use vibrissa::rig::Rig;
+
+/// Numbers that go wrong easily, among some that do not.
+const NUMBERS: [f64; 14] =
+    [0.0, 1.0, -1.0, 3e-4, -2e-3, 0.05, 1.5, -0.0, 1e-310, 1e18, -1e308, f64::MAX, f64::INFINITY, f64::NAN];
+
+/// Senses that say now this, now that, but know how many whiskers there are.
+struct Erratic {
+    whiskers: usize,
+    tick: usize,
+    said: Cell<usize>,
+}
+
+impl Erratic {
+    fn number(&self) -> f64 {
+        self.said.set(self.said.get() + 1);
+        // Half of the ticks are of sound mind.
+        let choice = self.said.get().wrapping_mul(0x9E37_79B9) >> 7;
+        NUMBERS[choice % if self.tick.is_multiple_of(2) { 8 } else { NUMBERS.len() }]
+    }
+
+    fn vector(&self) -> Vector2 {
+        Vector2::new(self.number(), self.number())
+    }
+
+    fn check(&self, whisker: usize) {
+        assert!(whisker < self.whiskers, "whisker {whisker} of {}", self.whiskers);
+    }
+}
+
+impl Senses for Erratic {
+    fn time(&self) -> f64 {
+        self.tick as f64 / 30.0
+    }
+
+    fn body(&self, _: BodyScalar) -> f64 {
+        self.number()
+    }
+
+    fn body_position(&self) -> Vector2 {
+        self.vector()
+    }
+
+    fn whisker(&self, whisker: usize, _: WhiskerScalar) -> f64 {
+        self.check(whisker);
+        self.number()
+    }
+
+    fn whisker_vector(&self, whisker: usize, _: WhiskerVector) -> Vector2 {
+        self.check(whisker);
+        self.vector()
+    }
+
+    fn tip_at(&self, whisker: usize, _: f64) -> Vector2 {
+        self.check(whisker);
+        self.vector()
+    }
+
+    fn record(&mut self, whisker: usize) {
+        self.check(whisker);
+    }
+}
+
+/// Runs a program for a hundred ticks: it must not panic, ask for a whisker that it has not, or give a command that is not
+/// finite or is beyond the rig's limits.
+pub(crate) fn run(program: Program) {
+    let rig = Rig::default();
+    let whiskers: Vec<usize> = (0..program.whiskers.len()).map(|index| index % rig.whiskers.len()).collect();
+    let mut steering = Steering::new(&rig, &whiskers);
+    let mut senses = Erratic { whiskers: program.whiskers.len(), tick: 0, said: Cell::new(0) };
+    let mut machine = Machine::new(Arc::new(program));
+    for tick in 0..100 {
+        senses.tick = tick;
+        let action = machine.tick(&mut senses).action;
+        let body = Pose { position: Point2::from(senses.vector()), heading: senses.number() };
+        let command = steering.command(&action, body);
+        assert!(command.is_finite(), "{action:?} at {body:?} gives {command:?}");
+        assert!(command.velocity_world.norm() <= rig.platform.speed_limit * (1.0 + 1e-12), "{command:?}");
+        assert!(command.yaw_rate.abs() <= rig.platform.yaw_rate_limit, "{command:?}");
+        assert!(!machine.state_name().is_empty());
+    }
+}

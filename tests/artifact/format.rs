@@ -1,0 +1,27 @@
+//! The layout that the format's number stands for.
+
+use std::fmt::Debug;
+
+use serde::de::DeserializeOwned;
+use vibrissa::machine::{BodyScalar, FORMAT, Op, WhiskerScalar, WhiskerVector};
+
+/// The variants of an enum with the numbers that stand for them in an artifact.
+fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
+    (0..128_u8)
+        .map_while(|number| postcard::from_bytes::<T>(&[&[number][..], &[0; 32]].concat()).ok())
+        .enumerate()
+        .map(|(number, variant)| format!("{number} {variant:?}"))
+        .collect()
+}
+
+/// Where this fails and artifacts have been handed out, raise [`FORMAT`]: what they say would be taken for something else.
+#[test]
+fn the_numbers_of_operations_and_quantities_belong_to_the_format() {
+    let lists = [numbered::<Op>(), numbered::<BodyScalar>(), numbered::<WhiskerScalar>(), numbered::<WhiskerVector>()];
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path("../../snapshots/artifact");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    let text = lists.map(|list| list.join("\n")).join("\n\n");
+    settings.bind(|| insta::assert_snapshot!(format!("format_{FORMAT}"), text));
+}

@@ -1,0 +1,254 @@
+//! Programs that no policy compiles to, one for every promise that running relies on.
+
+use vibrissa::machine::{Artifact, ArtifactError, Guard, Op, Program, Target, WhiskerScalar};
+
+use super::{erratic, policies};
+
+/// What a changed program is refused with.
+fn refusal(change: impl FnOnce(&mut Program)) -> String {
+    let mut artifact = policies::everything();
+    change(&mut artifact.program);
+    let error = artifact.to_bytes().unwrap_err();
+    assert!(matches!(error, ArtifactError::Unsound(_)), "{error}");
+    error.to_string()
+}
+
+/// Index of the first operation of a kind.
+fn find(program: &Program, is_kind: impl Fn(&Op) -> bool) -> usize {
+    program.code.iter().position(is_kind).unwrap()
+}
+
+/// The register of the argument `w` of the state `Touch`.
+fn whisker_argument(program: &Program) -> u16 {
+    let record = find(program, |op| matches!(op, Op::Record { .. }));
+    let Op::Record { whisker } = program.code[record] else { panic!("a record") };
+    whisker
+}
+
+#[test]
+fn registers_are_bounded() {
+    let last = |program: &Program| u16::try_from(program.image.len() - 1).unwrap();
+    let changes: [fn(&mut Op, u16); 13] = [
+        |op, end| *op = Op::Copy { to: end + 1, a: 3 },
+        |op, end| *op = Op::Copy { to: 5, a: end + 1 },
+        |op, end| *op = Op::Norm { to: 5, a: end },
+        |op, end| *op = Op::BodyPosition { to: end },
+        |op, _| *op = Op::BodyPosition { to: u16::MAX },
+        |op, end| *op = Op::SteerBodyFacing { along: end, speed: 0, heading: 0 },
+        |op, end| *op = Op::Record { whisker: end + 1 },
+        |op, end| *op = Op::LowPass { to: 5, a: 3, b: 3, memory: end - 1 },
+        |op, end| *op = Op::LowPass { to: 5, a: 3, b: end + 1, memory: end - 2 },
+        |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 2, memory: end - 3 },
+        |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 3, memory: end - 2 },
+        |op, end| *op = Op::Clear { memory: end, count: 2 },
+        |op, _| *op = Op::Clear { memory: u16::MAX, count: 4 },
+    ];
+    for change in changes {
+        let told = refusal(|program| {
+            let end = last(program);
+            let plain = find(program, |op| matches!(op, Op::Add { .. }));
+            change(&mut program.code[plain], end);
+        });
+        assert!(told.contains("names register"), "{told}");
+    }
+    let told = refusal(|program| {
+        let end = last(program);
+        let Guard::When { truth, .. } = &mut program.always[1].guard else { panic!("a condition") };
+        *truth = end + 1;
+    });
+    assert!(told.contains("names register"), "{told}");
+}
+
+#[test]
+fn jumps_lead_ahead_and_stay_in_their_block() {
+    for by in [-1_i64, 0, 1000] {
+        let told = refusal(|program| {
+            let at = find(program, |op| matches!(op, Op::JumpUnless { .. }));
+            let Op::JumpUnless { target, .. } = &mut program.code[at] else { panic!("a jump") };
+            *target = u32::try_from(i64::try_from(at).unwrap() + by).unwrap();
+        });
+        assert!(told.contains("its jump at"), "{told}");
+    }
+}
+
+#[test]
+fn blocks_are_parts_of_the_code_that_do_not_cross() {
+    let told = |change: fn(&mut Program)| assert!(refusal(change).contains("its block of code"));
+    told(|program| program.states[1].body.end = u32::try_from(program.code.len()).unwrap() + 1);
+    told(|program| program.states[1].body.start = program.states[1].body.end + 1);
+    told(|program| program.states[1].body.start -= 1);
+    told(|program| program.states[0].entry.end = u32::MAX);
+    told(|program| program.states[0].entry.start -= 1);
+    told(|program| program.states[0].exit.end += 1);
+    told(|program| {
+        let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
+        *arguments = 0..u32::try_from(program.code.len()).unwrap();
+    });
+}
+
+#[test]
+fn a_tick_does_no_code_twice() {
+    let told = refusal(|program| {
+        let longest = program.states[1].body.clone();
+        for transition in program.states.iter_mut().flat_map(|state| &mut state.transitions) {
+            let (Guard::When { code, .. } | Guard::After { code, .. }) = &mut transition.guard;
+            *code = longest.clone();
+        }
+    });
+    assert!(told.contains("operations a tick"), "{told}");
+    let told = refusal(|program| {
+        let longest = program.states[1].body.clone();
+        for state in &mut program.states {
+            (state.entry, state.exit) = (longest.clone(), longest.clone());
+        }
+    });
+    assert!(told.contains("operations a tick"), "{told}");
+    let told = refusal(|program| {
+        let clear = find(program, |op| matches!(op, Op::Clear { .. }));
+        program.code[clear] = Op::Clear { memory: 2, count: 5 };
+    });
+    assert!(told.contains("5 registers to clear at once"), "{told}");
+}
+
+#[test]
+fn states_and_timers_are_bounded_and_timers_keep_to_their_kind() {
+    assert!(refusal(|program| program.initial = 2).contains("names state 2 of 2"));
+    assert!(refusal(|program| program.states.clear()).contains("of 0"));
+    let told = refusal(|program| {
+        let Target::State { state, .. } = &mut program.states[0].transitions[0].target else { panic!("a state") };
+        *state = 9;
+    });
+    assert!(told.contains("names state 9 of 2"), "{told}");
+    assert!(refusal(|program| program.timers = usize::MAX).contains("timers"));
+    assert!(refusal(|program| program.timers = 0).contains("timers"));
+    let told = refusal(|program| {
+        let Guard::When { lasting: Some((_, timer)), .. } = &mut program.always[0].guard else { panic!("a duration") };
+        *timer += 1;
+    });
+    assert!(told.contains("its timer 1"), "{told}");
+}
+
+#[test]
+fn what_is_read_as_a_whisker_only_ever_holds_one() {
+    let told = |change: &dyn Fn(&mut Program, u16)| {
+        let told = refusal(|program| change(program, whisker_argument(program)));
+        assert!(told.contains("read as a whisker"), "{told}");
+    };
+    let replace = |program: &mut Program, op| {
+        let plain = find(program, |op| matches!(op, Op::Add { .. }));
+        program.code[plain] = op;
+    };
+    for index in [2.0, -1.0, 0.5, 1e300] {
+        told(&|program, whisker| program.image[usize::from(whisker)] = index);
+    }
+    told(&|program, whisker| replace(program, Op::Time { to: whisker }));
+    told(&|program, whisker| replace(program, Op::BodyPosition { to: whisker - 1 }));
+    told(&|program, whisker| replace(program, Op::LowPass { to: whisker + 1, a: 3, b: 3, memory: whisker - 2 }));
+    told(&|program, whisker| replace(program, Op::Pid { to: whisker, a: 3, gains: 3, memory: whisker + 1 }));
+    told(&|program, whisker| replace(program, Op::Clear { memory: whisker, count: 1 }));
+    told(&|program, whisker| {
+        // Through another register: what is copied counts too.
+        let through = whisker + 1;
+        replace(program, Op::Copy { to: whisker, a: through });
+        let other = find(program, |op| matches!(op, Op::Multiply { .. }));
+        program.code[other] = Op::Time { to: through };
+    });
+    told(&|program, whisker| replace(program, Op::Copy { to: whisker, a: 1 }));
+    told(&|program, _| replace(program, Op::Whisker { to: 9, whisker: 1, quantity: WhiskerScalar::Yaw }));
+    told(&|program, _| {
+        program.whiskers.pop();
+    });
+}
+
+#[test]
+fn parameters_stay_what_they_are() {
+    let told = refusal(|program| {
+        let plain = find(program, |op| matches!(op, Op::Add { .. }));
+        program.code[plain] = Op::Copy { to: 0, a: 3 };
+    });
+    assert!(told.contains("changes the parameter `fast`"), "{told}");
+    for op in [
+        Op::Clear { memory: 1, count: 3 },
+        Op::LowPass { to: 9, a: 3, b: 3, memory: 1 },
+        Op::Pid { to: 9, a: 3, gains: 3, memory: 1 },
+    ] {
+        let told = refusal(|program| {
+            let plain = find(program, |op| matches!(op, Op::Add { .. }));
+            program.code[plain] = op;
+        });
+        assert!(told.contains("changes the parameter `free`"), "{told}");
+    }
+    let changes: [fn(&mut Program); 5] = [
+        |program| program.image[0] = 0.3,
+        |program| program.parameters[0].default = -1.0,
+        |program| program.parameters[0].range = Some((1.0, 0.0)),
+        |program| program.parameters[0].range = Some((f64::NEG_INFINITY, f64::INFINITY)),
+        |program| program.parameters[0].range = Some((f64::NAN, f64::NAN)),
+    ];
+    for change in changes {
+        assert!(refusal(change).contains("`fast` is outside of its range"));
+    }
+    assert!(refusal(|program| program.parameters[1].default = f64::NAN).contains("`free`"));
+}
+
+#[test]
+fn the_image_is_finite() {
+    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(refusal(|program| *program.image.last_mut().unwrap() = number).contains("not finite"));
+    }
+}
+
+#[test]
+fn names_and_reasons_are_plain() {
+    for name in ["", "9", "a b", "a\n", "\u{1b}[2J", "\u{fc}ber"] {
+        assert!(refusal(|program| program.name = name.to_owned()).contains("is no name"), "{name:?}");
+        assert!(refusal(|program| program.whiskers[1] = name.to_owned()).contains("is no name"), "{name:?}");
+        assert!(refusal(|program| program.states[1].name = name.into()).contains("is no name"), "{name:?}");
+        assert!(refusal(|program| program.parameters[1].name = name.to_owned()).contains("is no name"), "{name:?}");
+    }
+    assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` is given twice"));
+    let told = refusal(|program| program.always[0].target = Target::Failure("\u{1b}[2J".into()));
+    assert!(told.contains(r"\u{1b}"), "{told}");
+    for text in ["a\nb".to_owned(), "long".repeat(100)] {
+        let mut artifact = policies::everything();
+        artifact.origin.file = text;
+        assert!(matches!(artifact.to_bytes(), Err(ArtifactError::Origin(_))));
+    }
+}
+
+#[test]
+fn counts_are_bounded() {
+    let told = |change: fn(&mut Program)| assert!(refusal(change).contains("at most are allowed"));
+    told(|program| program.whiskers = (0..9).map(|index| format!("w{index}")).collect());
+    told(|program| program.code.resize(50_001, Op::Stop));
+    told(|program| program.image.resize(60_001, 0.0));
+    told(|program| program.states.resize(50_001, program.states[0].clone()));
+    told(|program| program.always.resize(50_001, program.always[0].clone()));
+    told(|program| program.image.truncate(1));
+}
+
+#[test]
+fn of_a_policy_without_whiskers_the_states_for_one_are_refused_with_what_to_do() {
+    let text = "machine m initial A state A { stop } state B(w: whisker) { record w }";
+    let error = policies::artifact("m.fsm", text).to_bytes().unwrap_err();
+    assert!(error.to_string().contains("bind one, as in `whisker r0`"), "{error}");
+}
+
+#[test]
+fn a_source_map_fits_its_program() {
+    let mut artifact = policies::everything();
+    artifact.places.states[1].transitions.pop();
+    assert_eq!(artifact.to_bytes(), Err(ArtifactError::Places));
+}
+
+#[test]
+fn the_largest_machine_fits_into_an_artifact_and_runs() {
+    let mut artifact = policies::everything();
+    let program = &mut artifact.program;
+    let (from, free) = (u32::try_from(program.code.len()).unwrap(), u16::try_from(program.image.len()).unwrap());
+    program.image.resize(60_000, -1.0 / 3.0);
+    program.code.resize(50_000, Op::Rotate { to: 59_998, a: free, b: 59_000 });
+    program.states[0].body = from..50_000;
+    let bytes = artifact.to_bytes().unwrap();
+    erratic::run(Artifact::from_bytes(&bytes).unwrap().program);
+}
