@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, OffsetError, OffsetError, Point2, circle, polygon, regular_polygon, rounded_rectangle};
+use vibrissa::geometry::{Contour, OffsetError, Point2, circle, polygon, regular_polygon, rounded_rectangle};
 
 use crate::{oracle, random};
 
