@@ -268,7 +268,7 @@ proptest! {
     #[test]
     fn any_sensible_whisker_has_a_tip_model(
         length in 0.02..0.3_f64, radius in 0.03e-3..1e-3_f64, links in 4_usize..64, ratio in 20.0..1e6_f64,
-        sweep in prop_oneof![5.0..60.0_f64, -60.0..-5.0_f64], side in prop_oneof![Just(1.0), Just(-1.0)],
+        sweep in prop_oneof![5.0..90.0_f64, -90.0..-5.0_f64], side in prop_oneof![Just(1.0), Just(-1.0)],
     ) {
         let mut whisker = with_links(links);
         (whisker.shaft.length, whisker.shaft.radius) = (length, radius);

@@ -31,8 +31,8 @@ pub enum OffsetError {
     },
     /// What was computed does not stand its check.
     #[error(
-        "no sound parallel contour was found at {distance} m: the contour is about to touch itself, split or vanish there, \
-         so try a distance that differs by a micrometre"
+        "no sound parallel contour was found at {distance} m: it may be about to touch itself, split or vanish there; try \
+         another distance"
     )]
     Unsound {
         /// The distance (m).
@@ -64,8 +64,8 @@ impl Contour {
     /// ```
     ///
     /// # Errors
-    /// If the distance is not finite, or it is so near to one at which the parallel contour touches itself that rounding
-    /// decides its form.
+    /// If the distance is not finite, or no parallel contour was found that stands its check: mostly where rounding
+    /// decides its form, because it is about to touch itself, but for some rare contours over a range of distances.
     pub fn offset(&self, distance: f64) -> Result<Vec<Self>, OffsetError> {
         if !distance.is_finite() {
             return Err(OffsetError::NotFinite { distance });

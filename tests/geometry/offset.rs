@@ -8,6 +8,8 @@ use vibrissa::geometry::{Contour, OffsetError, Point2, circle, polygon, regular_
 use crate::{oracle, random};
 
 const EXACT: f64 = 1e-7;
+/// The most offsets that may be refused in 2000 cases, those of kept counterexamples among them.
+const REFUSALS: u32 = 4;
 
 /// The point at the distance from the contour on the way from a point's nearest point to that point.
 fn at_distance(contour: &Contour, point: Point2, distance: f64) -> Option<Point2> {
@@ -30,7 +32,8 @@ fn at_free_end(contour: &Contour, point: Point2) -> bool {
 fn check(contour: &Contour, distance: f64, points: &[Point2]) -> Result<(), TestCaseError> {
     let found = match contour.offset(distance) {
         Ok(found) => found,
-        // As documented, at one distance in many thousands; the property needs its number of sound ones all the same.
+        // A known defect: some contours are refused over a range of distances, not only where a parallel touches itself.
+        // A refusal is never a wrong contour; `REFUSALS` bounds how many there may be.
         Err(error @ OffsetError::Unsound { .. }) => return Err(TestCaseError::reject(error.to_string())),
         Err(error) => return Err(TestCaseError::fail(format!("{error}"))),
     };
@@ -57,7 +60,7 @@ fn check(contour: &Contour, distance: f64, points: &[Point2]) -> Result<(), Test
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig { max_global_rejects: REFUSALS, ..ProptestConfig::with_cases(2000) })]
 
     #[test]
     fn the_parallels_of_a_closed_contour_are_all_the_points_at_that_distance(
