@@ -3,6 +3,7 @@
 #![cfg(feature = "sim")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,7 +29,7 @@ fn thesis() -> Program {
 }
 
 fn run(scene: &Scene, program: Program, seed: u64) -> (Run, Score) {
-    let run = execute(scene, Arc::new(program), WorldKind::Mujoco, seed, |_| {}).unwrap();
+    let run = execute(scene, Arc::new(program), WorldKind::Mujoco, seed, |_| ControlFlow::Continue(())).unwrap();
     let score = Score::new(&run, &scene.object);
     (run, score)
 }

@@ -28,6 +28,8 @@ pub(super) enum Command {
     Compile(CompileArguments),
     /// Draw the statechart of a policy
     Graph(GraphArguments),
+    /// Run the tests that policies carry
+    Test(TestArguments),
     /// Lay out policies, in place
     Fmt(FmtArguments),
     /// Print the MuJoCo model of a scenario
@@ -58,6 +60,9 @@ pub(super) struct RunArguments {
     /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,
+    /// Run again whenever a scenario or policy is saved; print a line for every simulated second
+    #[arg(long, conflicts_with = "json")]
+    pub(super) watch: bool,
 }
 
 #[derive(Debug, Args)]
@@ -111,6 +116,26 @@ pub(super) enum ChartFormat {
     Mermaid,
     /// Text for Graphviz
     Dot,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
+pub(super) struct TestArguments {
+    /// Policy files
+    #[arg(value_name = "POLICY", required = true)]
+    pub(super) policies: Vec<PathBuf>,
+    /// Run only tests whose title has this text in it
+    #[arg(long, value_name = "TEXT")]
+    pub(super) filter: Option<String>,
+    /// World to run in
+    #[arg(long, value_enum, default_value_t = World::Mujoco)]
+    pub(super) world: World,
+    /// Write a picture and the result of every test's run into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: an array of tests with their results
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -7,9 +7,9 @@ use super::{input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let (policy, out) = (&arguments.policy, &arguments.out);
-    let Policy { mut artifact, warned } = input::policy(policy)?.value;
-    if let Some((source, warnings)) = &warned {
-        output::diagnostics(source, warnings);
+    let Policy { mut artifact, text } = input::policy(policy)?.value;
+    if let Some(text) = &text {
+        output::diagnostics(&text.source, &text.warnings);
     }
     for setting in &arguments.settings {
         artifact.program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;

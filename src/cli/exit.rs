@@ -52,6 +52,12 @@ pub(super) enum Failure {
     OntoItself { path: PathBuf },
     #[error("{} names no policy; give one with --policy", scenario.display())]
     NoPolicy { scenario: PathBuf },
+    #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]
+    NoText { policy: PathBuf },
+    #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
+    NoSuchTest { filter: String },
+    #[error("cannot watch files: {0}")]
+    Watch(#[from] notify::Error),
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
     SameName { first: PathBuf, second: PathBuf, name: String },
     #[error("--set: {0}")]

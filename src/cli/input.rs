@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ARTIFACT_LIMIT, Artifact};
 use crate::policy::chart::Chart;
-use crate::policy::{self, Compiled, compile_with_warnings};
+use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
 use crate::scene::Scene;
 
 use super::exit::Failure;
@@ -87,17 +87,26 @@ pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
 /// A policy that is ready to run.
 pub(super) struct Policy {
     pub(super) artifact: Artifact,
-    /// Its text and what the text is warned of, unless it was compiled before.
-    pub(super) warned: Option<(Source, Vec<Diagnostic>)>,
+    /// `None` if it was compiled before.
+    pub(super) text: Option<PolicyText>,
+}
+
+/// The text of a policy that compiled.
+pub(super) struct PolicyText {
+    pub(super) source: Source,
+    pub(super) warnings: Vec<Diagnostic>,
+    pub(super) tests: Vec<PolicyTest>,
 }
 
 /// Reads a policy's text and compiles it, or a compiled machine.
 pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
     let value = match value {
-        PolicyFile::Machine(artifact) => Policy { artifact: *artifact, warned: None },
+        PolicyFile::Machine(artifact) => Policy { artifact: *artifact, text: None },
         PolicyFile::Text(source) => match compile_with_warnings(&source) {
-            Ok(Compiled { artifact, warnings }) => Policy { artifact, warned: Some((source, warnings)) },
+            Ok(Compiled { artifact, tests, warnings }) => {
+                Policy { artifact, text: Some(PolicyText { source, warnings, tests }) }
+            }
             Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
         },
     };

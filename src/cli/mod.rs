@@ -7,9 +7,12 @@ mod exit;
 mod fmt;
 mod graph;
 mod input;
+mod job;
 mod mjcf;
 mod output;
 mod run;
+mod test;
+mod watch;
 
 pub use arguments::Arguments;
 pub use exit::Exit;
@@ -20,10 +23,12 @@ use arguments::Command;
 #[must_use]
 pub fn main(arguments: &Arguments) -> Exit {
     let done = match &arguments.command {
+        Command::Run(arguments) if arguments.watch => watch::watch(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
+        Command::Test(arguments) => test::test(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };

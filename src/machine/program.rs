@@ -195,27 +195,32 @@ impl Program {
             return Err(SetError::Unknown { name: name.to_owned(), known });
         };
         let parameter = &self.parameters[index];
-        if parameter.dimension != dimension {
-            return Err(SetError::Dimension {
-                name: name.to_owned(),
-                expected: parameter.dimension.to_string(),
-                found: dimension.to_string(),
-            });
-        }
-        if !value.is_finite() {
-            return Err(SetError::NotFinite { name: name.to_owned() });
-        }
-        if let Some((low, high)) = parameter.range
-            && !(low..=high).contains(&value)
-        {
-            return Err(SetError::Range {
-                name: name.to_owned(),
-                value: format_si(value, dimension),
-                low: format_si(low, dimension),
-                high: format_si(high, dimension),
-            });
-        }
+        parameter.check(value, dimension)?;
         self.image[index] = value;
         Ok(())
+    }
+}
+
+impl Parameter {
+    /// Whether it can be set to `value` (SI), which has the dimension `dimension`.
+    ///
+    /// # Errors
+    /// [`SetError`] when its dimension or range is another, or the value is not finite.
+    pub fn check(&self, value: f64, dimension: Dimension) -> Result<(), SetError> {
+        let name = self.name.clone();
+        if self.dimension != dimension {
+            let (expected, found) = (self.dimension.to_string(), dimension.to_string());
+            return Err(SetError::Dimension { name, expected, found });
+        }
+        if !value.is_finite() {
+            return Err(SetError::NotFinite { name });
+        }
+        match self.range {
+            Some((low, high)) if !(low..=high).contains(&value) => {
+                let [value, low, high] = [value, low, high].map(|value| format_si(value, dimension));
+                Err(SetError::Range { name, value, low, high })
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -20,6 +20,7 @@ pub(super) struct File {
     pub(super) laws: Vec<Law>,
     pub(super) states: Vec<State>,
     pub(super) always: Vec<Transition>,
+    pub(super) tests: Vec<Test>,
 }
 
 /// `param name = value in low .. high`
@@ -109,6 +110,15 @@ pub(super) struct Target {
     pub(super) text: Option<Name>,
     pub(super) values: Vec<Expression>,
     pub(super) span: Span,
+}
+
+/// `test "title" in "scenario" { set name = value  expect truth }`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Test {
+    pub(super) title: Name,
+    pub(super) scenario: Name,
+    pub(super) settings: Vec<(Name, Bound)>,
+    pub(super) expectations: Vec<Expression>,
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -3,6 +3,7 @@
 use crate::machine::{BodyScalar, WhiskerScalar, WhiskerVector};
 use crate::units::Dimension;
 
+use super::test::RunFigure;
 use super::types::Type;
 
 /// A member of a whisker, a contour or the body.
@@ -24,6 +25,11 @@ pub(super) enum MemberSource {
     Contour,
     Body(BodyScalar),
     BodyPosition,
+    Run(RunFigure),
+    /// How often a state was entered that is given as a value.
+    Visits,
+    /// For how long a state was active that is given as a value.
+    TimeIn,
 }
 
 const fn member(name: &'static str, r#type: Type, source: MemberSource) -> Member {
@@ -60,12 +66,28 @@ const BODY: [Member; 2] = [
     member("position", Type::Vector(Dimension::LENGTH), MemberSource::BodyPosition),
 ];
 
+const RUN: [Member; 12] = [
+    member("completed", Type::Truth, MemberSource::Run(RunFigure::Completed)),
+    member("failed", Type::Truth, MemberSource::Run(RunFigure::Failed)),
+    member("timed_out", Type::Truth, MemberSource::Run(RunFigure::TimedOut)),
+    member("diverged", Type::Truth, MemberSource::Run(RunFigure::Diverged)),
+    member("time", Type::TIME, MemberSource::Run(RunFigure::Time)),
+    member("error_mean", Type::LENGTH, MemberSource::Run(RunFigure::ErrorMean)),
+    member("error_p95", Type::LENGTH, MemberSource::Run(RunFigure::ErrorP95)),
+    member("error_max", Type::LENGTH, MemberSource::Run(RunFigure::ErrorMax)),
+    member("hausdorff", Type::LENGTH, MemberSource::Run(RunFigure::Hausdorff)),
+    member("coverage", Type::NUMBER, MemberSource::Run(RunFigure::Coverage)),
+    member("visits", Type::NUMBER, MemberSource::Visits),
+    member("time_in", Type::TIME, MemberSource::TimeIn),
+];
+
 /// The members of a type.
 pub(super) fn members(owner: Type) -> &'static [Member] {
     match owner {
         Type::Whisker => &WHISKER,
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
+        Type::Run => &RUN,
         Type::Truth | Type::Scalar(_) | Type::Vector(_) => &[],
     }
 }
@@ -130,7 +152,9 @@ mod tests {
         for (_, _, usage) in FUNCTIONS {
             assert!(page.contains(&format!("`{usage}`")), "{usage}");
         }
-        for (owner, prefix) in [(Type::Whisker, "w"), (Type::Contour, "w.contour"), (Type::Body, "body")] {
+        for (owner, prefix) in
+            [(Type::Whisker, "w"), (Type::Contour, "w.contour"), (Type::Body, "body"), (Type::Run, "run")]
+        {
             for member in members(owner) {
                 let plain = page.contains(&format!("`{prefix}.{}`", member.name));
                 assert!(plain || page.contains(&format!("`{prefix}.{}(", member.name)), "{}", member.name);

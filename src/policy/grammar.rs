@@ -13,8 +13,10 @@ const NESTING_LIMIT: usize = 64;
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
 
 /// Words behind which an expression begins.
-const WORDS_BEFORE_OPERANDS: [&str; 14] =
-    ["and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning"];
+const WORDS_BEFORE_OPERANDS: [&str; 15] = [
+    "and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning",
+    "expect",
+];
 
 mod derived {
     // The derive writes undocumented items.

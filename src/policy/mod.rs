@@ -16,9 +16,11 @@ mod hint;
 mod lower;
 mod parse;
 mod syntax_error;
+mod test;
 mod types;
 
 pub use format::format;
+pub use test::{Expectation, PolicyTest, RunFigure};
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{Artifact, Program};
@@ -28,6 +30,8 @@ use crate::machine::{Artifact, Program};
 pub struct Compiled {
     /// The program, and where it comes from.
     pub artifact: Artifact,
+    /// The tests that it carries, in the order of the text.
+    pub tests: Vec<PolicyTest>,
     /// What is probably not meant, in the order of the text (the first fifty).
     pub warnings: Vec<Diagnostic>,
 }
@@ -62,7 +66,8 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
     let (file, lowered) = front(source)?;
     let warnings = analysis::warnings(&file, &lowered);
-    Ok(Compiled { artifact: artifact::artifact(source, &file, lowered.program), warnings })
+    let artifact = artifact::artifact(source, &file, lowered.program);
+    Ok(Compiled { artifact, tests: lowered.tests, warnings })
 }
 
 fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {

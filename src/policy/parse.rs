@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
     Argument, Binary, Bound, Derived, Expression, File, Guard, Kind, Law, Name, Parameter, Quantity, State, Statement,
-    Steer, Target, Transition, Turn, TypeName,
+    Steer, Target, Test, Transition, Turn, TypeName,
 };
 use super::grammar::{self, Rule};
 
@@ -29,6 +29,7 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
         laws: Vec::new(),
         states: Vec::new(),
         always: Vec::new(),
+        tests: Vec::new(),
     };
     for item in grammar::parse(source)?.flat_map(Pair::into_inner) {
         let rule = item.as_rule();
@@ -55,6 +56,7 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
             }),
             Rule::state => file.states.push(state(&mut reader)?),
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
+            Rule::test => file.tests.push(test(&mut reader)?),
             _ => {}
         }
     }
@@ -126,6 +128,27 @@ fn state(reader: &mut Reader<'_>) -> Parsed<State> {
     Ok(state)
 }
 
+fn test(reader: &mut Reader<'_>) -> Parsed<Test> {
+    let (title, scenario) = (text(reader)?, text(reader)?);
+    let mut test = Test { title, scenario, settings: Vec::new(), expectations: Vec::new() };
+    while let Ok(pair) = reader.next() {
+        let rule = pair.as_rule();
+        let mut reader = Reader::new(pair);
+        if rule == Rule::setting {
+            test.settings.push((reader.name()?, bound(reader.take(Rule::bound)?)?));
+        } else {
+            test.expectations.push(reader.expression()?);
+        }
+    }
+    Ok(test)
+}
+
+/// What stands between two quotes.
+fn text(reader: &mut Reader<'_>) -> Parsed<Name> {
+    let mut text = Reader::new(reader.take(Rule::text)?);
+    Ok(named(&text.take(Rule::text_inner)?))
+}
+
 fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
     let rule = pair.as_rule();
     let mut reader = Reader::new(pair);
@@ -140,8 +163,7 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
     let mut reader = Reader::new(pair);
     let name = reader.name()?;
     let text = if reader.has(Rule::text_argument) {
-        let mut text = Reader::new(reader.take(Rule::text_argument)?);
-        Some(named(&Reader::new(text.take(Rule::text)?).take(Rule::text_inner)?))
+        Some(text(&mut Reader::new(reader.take(Rule::text_argument)?))?)
     } else {
         None
     };
@@ -399,6 +421,8 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_set
             | Rule::kw_entry
             | Rule::kw_exit
+            | Rule::kw_test
+            | Rule::kw_expect
             | Rule::open
             | Rule::close
             | Rule::open_brace

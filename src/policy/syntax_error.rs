@@ -8,10 +8,10 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
 /// What begins an item, in the order in which they usually come.
-const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`)";
+const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `test`)";
 
 /// Words that can only stand outside of every brace.
-const ITEM_WORDS: [&str; 7] = ["machine", "whisker", "param", "initial", "law", "state", "always"];
+const ITEM_WORDS: [&str; 8] = ["machine", "whisker", "param", "initial", "law", "state", "always", "test"];
 
 /// The diagnostic for pest's error.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -112,7 +112,7 @@ fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
         "^" => "multiply instead: `x * x`".to_owned(),
         "%" => "write the share as a plain number, such as 0.95".to_owned(),
         "'" => "a text stands between double quotes".to_owned(),
-        "\"" => "a text can only be the reason of `Failure`".to_owned(),
+        "\"" => "a text can only be the reason of `Failure`, or name a test and its scenario".to_owned(),
         "." => "a number has digits before and behind its point".to_owned(),
         "else" => "`else` follows the `}` of an `if`".to_owned(),
         "machine" => "a file holds one machine, which stands first".to_owned(),
@@ -177,6 +177,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
         Rule::kw_initial => (2, ITEM),
         Rule::kw_do => (2, "a statement"),
+        Rule::kw_expect => (2, "`expect`"),
         Rule::kw_when => (3, "`when`"),
         Rule::kw_after => (3, "`after`"),
         Rule::kw_if if !among.contains(&Rule::kw_do) => (2, "`if`"),
@@ -199,6 +200,8 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_law => "law",
         Rule::kw_state => "state",
         Rule::kw_always => "always",
+        Rule::kw_test => "test",
+        Rule::kw_expect => "expect",
         Rule::kw_when => "when",
         Rule::kw_after => "after",
         Rule::kw_if => "if",

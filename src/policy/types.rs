@@ -16,6 +16,8 @@ pub(super) enum Type {
     Contour,
     /// The platform.
     Body,
+    /// A whole run, as a test sees it.
+    Run,
 }
 
 impl Type {
@@ -74,6 +76,7 @@ impl fmt::Display for Type {
             Self::Whisker => f.write_str("a whisker"),
             Self::Contour => f.write_str("a contour"),
             Self::Body => f.write_str("the body"),
+            Self::Run => f.write_str("the run"),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A whole run.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::machine;
@@ -31,14 +32,15 @@ pub struct Run {
 /// Ticks for which there is room from the start, an hour at 30 Hz; a longer run makes more when it needs it.
 const ROOM: usize = 108_000;
 
-/// Drives `world` by `control` until `stop`, and calls `progress` with the simulated time (s) at every tick.
+/// Drives `world` by `control` until `stop`. At every tick `progress` hears what has happened so far, and may break the run
+/// off; then there is none.
 pub fn drive(
     world: &mut dyn World,
     mut control: Control,
     stop: &Stop,
     period: f64,
-    mut progress: impl FnMut(f64),
-) -> Run {
+    mut progress: impl FnMut(&Trace) -> ControlFlow<()>,
+) -> Option<Run> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of ticks of a run")]
     let most_ticks = (stop.time / period).ceil() as usize;
     let program = control.machine().program();
@@ -67,7 +69,9 @@ pub fn drive(
 
         let tick = record(&control, command, world.body_touches());
         trace.ticks.push(tick);
-        progress(tick.time);
+        if progress(&trace).is_break() {
+            return None;
+        }
         if ticked == machine::Outcome::Failed {
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
@@ -84,7 +88,7 @@ pub fn drive(
         }
     };
     let final_state = control.machine().state_name().to_owned();
-    Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times }
+    Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times })
 }
 
 fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord {

@@ -1,12 +1,13 @@
 //! One run: build the world, drive it, give what happened.
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
-use crate::run::{BindError, Control, Run, drive};
+use crate::run::{BindError, Control, Run, Trace, drive};
 use crate::scene::{Scene, SolidError, mjcf};
 
 /// The worlds that a run can take place in.
@@ -30,6 +31,9 @@ pub enum ExecuteError {
     /// The scenario's rig does not have what the policy needs.
     #[error(transparent)]
     Bind(#[from] BindError),
+    /// It was broken off.
+    #[error("the run was broken off")]
+    Interrupted,
     /// The world could not be built.
     #[cfg(feature = "sim")]
     #[error(transparent)]
@@ -40,7 +44,8 @@ pub enum ExecuteError {
     NoWorld(WorldKind),
 }
 
-/// Runs `program` in `scene`; `seed` fixes the sensors' noise, and `progress` hears the simulated time (s) every tick.
+/// Runs `program` in `scene`; `seed` fixes the sensors' noise. At every tick `progress` hears what has happened so far, and
+/// may break the run off.
 ///
 /// # Errors
 /// [`ExecuteError`] when the run cannot begin. How it ends is in the [`Run`].
@@ -49,12 +54,12 @@ pub fn execute(
     program: Arc<Program>,
     world: WorldKind,
     seed: u64,
-    progress: impl FnMut(f64),
+    progress: impl FnMut(&Trace) -> ControlFlow<()>,
 ) -> Result<Run, ExecuteError> {
     let control = Control::new(&scene.rig, program)?;
     let mut world = build(scene, world, seed)?;
     let period = 1.0 / scene.rig.sensing.control_rate;
-    Ok(drive(world.as_mut(), control, &scene.stop, period, progress))
+    drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
 #[cfg(feature = "sim")]

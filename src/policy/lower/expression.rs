@@ -5,6 +5,7 @@ use crate::machine::Op;
 use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
 use crate::policy::builtins::{self, Member, MemberSource};
 use crate::policy::hint::did_you_mean;
+use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
 use crate::units::{Dimension, parse_unit, units_of};
 
@@ -132,6 +133,7 @@ impl<'f> Compiler<'f> {
         let value = match (known, name.text.as_str()) {
             (Some(meaning), _) => meaning?,
             (None, "body") => Value { r#type: Type::Body, register: 0 },
+            (None, "run") if self.figures.is_some() => Value { r#type: Type::Run, register: 0 },
             (None, "time") => Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) },
             (None, _) => {
                 self.unknown_name(scope, name);
@@ -193,6 +195,8 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.hint(format!("write `{}(300 urad)`", name.text)));
                 return None;
             }
+            (MemberSource::Visits, values) => self.run_of_state(RunFigure::Visits, name, values)?,
+            (MemberSource::TimeIn, values) => self.run_of_state(RunFigure::TimeIn, name, values)?,
             (_, Some(_)) => {
                 let message = format!("`{}` takes no values", name.text);
                 let diagnostic = Diagnostic::error("P0304", message, name.span, "called like a function");
@@ -205,6 +209,7 @@ impl<'f> Compiler<'f> {
                 self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity })
             }
             (MemberSource::Body(quantity), None) => self.code.scalar(|to| Op::Body { to, quantity }),
+            (MemberSource::Run(figure), None) => self.figure(figure, name.span),
             (MemberSource::BodyPosition, None) => self.code.vector(|to| Op::BodyPosition { to }),
         };
         Some(Value { r#type: member.r#type, register })

@@ -10,6 +10,7 @@ mod parameter;
 mod scope;
 mod statement;
 mod structure;
+mod test;
 
 use std::collections::{HashMap, HashSet};
 
@@ -18,6 +19,7 @@ use crate::machine::{Program, Register};
 
 use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
 use super::hint::did_you_mean;
+use super::test::{FigurePlace, PolicyTest};
 use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
 use scope::{Meaning, Scope};
@@ -25,6 +27,7 @@ use scope::{Meaning, Scope};
 /// A program, and what else is known of it once it is written.
 pub(super) struct Lowered {
     pub(super) program: Program,
+    pub(super) tests: Vec<PolicyTest>,
     /// What each state is entered with: names, types and places.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
 }
@@ -35,6 +38,7 @@ pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
     let program = structure::file(&mut compiler, file);
     let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
     states.sort_by_key(|state| state.index);
+    let tests = compiler.tests;
     let mut diagnostics = compiler.diagnostics;
     diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.code));
     diagnostics.dedup();
@@ -42,7 +46,7 @@ pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
         Some(program) if diagnostics.is_empty() => {
             let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
-            Ok(Lowered { program, arguments: arguments.collect() })
+            Ok(Lowered { program, tests, arguments: arguments.collect() })
         }
         _ => Err(diagnostics),
     }
@@ -84,6 +88,9 @@ struct Compiler<'f> {
     variables: Vec<&'f str>,
     /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
     memories: Vec<(Register, u16)>,
+    /// The figures of the run that the expectation being written reads; `None` outside of tests.
+    figures: Option<Vec<FigurePlace>>,
+    tests: Vec<PolicyTest>,
     /// Why commands are not allowed in what is being written, if they are not.
     commandless: Option<&'static str>,
     /// How deep the walk through the syntax tree is, and how many nodes it has visited.
@@ -108,6 +115,8 @@ impl<'f> Compiler<'f> {
             doing: &[],
             variables: Vec::new(),
             memories: Vec::new(),
+            figures: None,
+            tests: Vec::new(),
             commandless: None,
             depth: 0,
             work: 0,

@@ -48,7 +48,7 @@ impl<'f> Compiler<'f> {
     }
 
     /// A bound's SI value and dimension; without a unit of its own it takes that of `other`.
-    fn bound(&mut self, bound: &'f Bound, other: Option<&'f Bound>) -> Option<(f64, Dimension)> {
+    pub(super) fn bound(&mut self, bound: &'f Bound, other: Option<&'f Bound>) -> Option<(f64, Dimension)> {
         let (mut value, mut dimension) = self.quantity(&bound.quantity)?;
         if let (None, Some(unit)) = (&bound.quantity.unit, other.and_then(|other| other.quantity.unit.as_ref()))
             && let Ok(unit) = parse_unit(&unit.text.replace('*', " "))

@@ -61,6 +61,8 @@ impl<'f> Compiler<'f> {
         let text = &name.text;
         let diagnostic = if self.laws.contains_key(text.as_str()) {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
+        } else if text == "run" {
+            diagnostic.hint("only the expectations of a `test` know the run")
         } else if self.items.contains_key(text.as_str()) {
             // Everything else that has a name is a value.
             diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
@@ -91,7 +93,7 @@ impl<'f> Compiler<'f> {
 
 /// Whether a name has a meaning of its own in the language.
 pub(super) fn is_reserved(name: &str) -> bool {
-    builtins::function(name).is_some() || ["time", super::structure::FAILURE].contains(&name)
+    builtins::function(name).is_some() || ["time", "run", super::structure::FAILURE].contains(&name)
 }
 
 /// The report of a name that has a meaning of its own.

@@ -34,6 +34,7 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
     let states = file.states.iter().zip(scopes);
     let states = states.map(|(state, scope)| compiler.state(state, scope, &mut timers)).collect();
     let initial = compiler.initial(file);
+    compiler.tests(file, &parameters);
 
     compiler.watch_growth(file.machine.span);
     if let Some(item) = compiler.outgrown {

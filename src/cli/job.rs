@@ -1,0 +1,191 @@
+//! A run, from its files to its report.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use sha2::Digest;
+
+use crate::machine::Program;
+use crate::report::{Hashes, Identity, RunResult, picture};
+use crate::run::{Run, Trace};
+use crate::scene::Scene;
+use crate::score::Score;
+use crate::study::{WorldKind, engine_hash, execute};
+
+use super::arguments::RunArguments;
+use super::exit::Failure;
+use super::input::{self, Loaded, Policy, PolicyText};
+use super::output;
+
+/// A run that is ready to begin.
+pub(super) struct Job {
+    pub(super) path: PathBuf,
+    pub(super) scene: Scene,
+    pub(super) program: Arc<Program>,
+    pub(super) world: WorldKind,
+    pub(super) seed: u64,
+    pub(super) identity: Identity,
+}
+
+/// The files that have been read, and those of them whose warnings have been told.
+#[derive(Default)]
+pub(super) struct Files {
+    pub(super) read: BTreeSet<PathBuf>,
+    told: BTreeSet<PathBuf>,
+}
+
+impl Job {
+    /// Prepares all runs that a command line asks for. Whatever is wrong with the last scenario shows before the first has
+    /// run.
+    pub(super) fn all(arguments: &RunArguments, files: &mut Files) -> Result<Vec<Self>, Failure> {
+        let jobs = arguments.scenarios.iter().map(|path| Self::new(path, arguments, files));
+        let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
+        // Reports are named after scenarios, so that two of one name would overwrite each other.
+        for (index, job) in jobs.iter().enumerate() {
+            if let Some(first) = jobs[..index].iter().find(|first| first.identity.scenario == job.identity.scenario) {
+                let name = job.identity.scenario.clone();
+                return Err(Failure::SameName { first: first.path.clone(), second: job.path.clone(), name });
+            }
+        }
+        Ok(jobs)
+    }
+
+    /// Prepares one run. Tells the warnings of its policy, unless that has been done.
+    fn new(path: &Path, arguments: &RunArguments, files: &mut Files) -> Result<Self, Failure> {
+        files.read.insert(path.to_owned());
+        let scenario = input::scenario(path)?;
+        let scene = scenario.value;
+        let policy_path = match (&arguments.policy, &scene.policy) {
+            (Some(policy), _) => policy.clone(),
+            (None, Some(policy)) => path.parent().unwrap_or(Path::new("")).join(policy),
+            (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
+        };
+        files.read.insert(policy_path.clone());
+        let Loaded { value: Policy { artifact, text }, hash: mut policy_hash } = input::policy(&policy_path)?;
+        if let Some(PolicyText { source, warnings, .. }) = &text
+            && files.told.insert(policy_path)
+        {
+            output::diagnostics(source, warnings);
+        }
+        let mut program = artifact.program;
+        for setting in &arguments.settings {
+            program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
+            policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));
+        }
+        let hashes = (scenario.hash.finalize(), policy_hash.finalize());
+        let seed = arguments.seed.unwrap_or(scene.seed);
+        Self::with(path, scene, program, arguments.world.into(), seed, hashes)
+    }
+
+    /// A run of `program` in a `scene` that was read from `path`, with the hashes of both.
+    pub(super) fn with(
+        path: &Path,
+        scene: Scene,
+        program: Program,
+        world: WorldKind,
+        seed: u64,
+        (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
+    ) -> Result<Self, Failure> {
+        let engine = engine_hash(&scene).map_err(|cause| Failure::Solid { scenario: path.to_owned(), cause })?;
+        let identity = Identity {
+            scenario: scene.name.clone(),
+            policy: program.name.clone(),
+            world: world.to_string(),
+            seed,
+            hash: Hashes {
+                scenario: input::short(scenario_hash.as_ref()),
+                policy: input::short(policy_hash.as_ref()),
+                engine: input::short(&engine),
+            },
+        };
+        Ok(Self { path: path.to_owned(), scene, program: Arc::new(program), world, seed, identity })
+    }
+
+    /// Runs it, and shows a bar on standard error if that is a terminal.
+    pub(super) fn execute_with_bar(&self) -> Result<Run, Failure> {
+        let bar = ProgressBar::new(milliseconds(self.scene.stop.time));
+        if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} % of at most {prefix}, {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(self.identity.scenario.clone());
+        bar.set_prefix(format!("{} s", self.scene.stop.time));
+        let run = self.execute(|trace| {
+            bar.set_position(milliseconds(seconds(trace)));
+            ControlFlow::Continue(())
+        });
+        bar.finish_and_clear();
+        run
+    }
+
+    /// Runs it; `each_second` of simulated time it hears what has happened so far, and may break the run off.
+    pub(super) fn execute(&self, mut each_second: impl FnMut(&Trace) -> ControlFlow<()>) -> Result<Run, Failure> {
+        let mut next = 1.0;
+        let progress = |trace: &Trace| {
+            if seconds(trace) < next {
+                return ControlFlow::Continue(());
+            }
+            next = seconds(trace).floor() + 1.0;
+            each_second(trace)
+        };
+        let run = execute(&self.scene, Arc::clone(&self.program), self.world, self.seed, progress);
+        run.map_err(|cause| Failure::Execute { scenario: self.path.clone(), cause })
+    }
+
+    /// The result of its run; what is to be noticed about it goes to standard error.
+    pub(super) fn result(&self, run: &Run, score: &Score) -> RunResult {
+        let scenario = &self.identity.scenario;
+        if let Some(reason) = &run.reason {
+            output::message(format_args!("{scenario}: {}: {reason}", run.outcome));
+        }
+        if let Some(touched) = body_contact(run) {
+            let touched = touched.as_secs_f64();
+            output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
+        }
+        RunResult::new(self.identity.clone(), run, score)
+    }
+
+    /// Writes a picture and the result of its run to `stem` with their extensions.
+    pub(super) fn write_report(
+        &self,
+        stem: &Path,
+        run: &Run,
+        score: &Score,
+        result: &RunResult,
+    ) -> Result<(), Failure> {
+        let picture_path = extended(stem, "svg");
+        let drawn = picture(&self.scene, &result.policy, run, score);
+        std::fs::write(&picture_path, drawn).map_err(Failure::write(&picture_path))?;
+        let json_path = extended(stem, "json");
+        let json = serde_json::to_string_pretty(result)? + "\n";
+        std::fs::write(&json_path, json).map_err(Failure::write(&json_path))
+    }
+}
+
+/// A path with an extension behind whatever it ends in: names of scenarios may have points.
+pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
+    let mut path = stem.as_os_str().to_owned();
+    path.push(".");
+    path.push(extension);
+    path.into()
+}
+
+/// How much time has been simulated (s).
+pub(super) fn seconds(trace: &Trace) -> f64 {
+    trace.ticks.last().map_or(0.0, |tick| tick.time)
+}
+
+fn milliseconds(seconds: f64) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive time, only to be shown")]
+    let milliseconds = (seconds * 1e3) as u64;
+    milliseconds
+}
+
+/// For how long the platform's body touched something; `None` if it did not.
+fn body_contact(run: &Run) -> Option<Duration> {
+    let ticks = run.trace.ticks.iter().filter(|tick| tick.body_touches).count();
+    (ticks > 0).then(|| Duration::from_secs_f64(ticks as f64 * run.trace.period))
+}

@@ -1,0 +1,131 @@
+//! `vibrissa test`
+
+use std::path::Path;
+
+use serde::Serialize;
+use sha2::Digest;
+
+use crate::diagnostic::{Diagnostic, Record, records};
+use crate::machine::Program;
+use crate::policy::PolicyTest;
+use crate::report::RunResult;
+use crate::score::Score;
+use crate::study::violations;
+
+use super::arguments::TestArguments;
+use super::exit::{Exit, Failure};
+use super::input::{self, Loaded, Policy, PolicyText};
+use super::job::Job;
+use super::{output, run};
+
+/// What came of one test.
+#[derive(Debug, Serialize)]
+struct Tested {
+    file: String,
+    title: String,
+    passed: bool,
+    /// What was not as expected.
+    diagnostics: Vec<Record>,
+    result: RunResult,
+}
+
+pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
+    // Whatever is wrong with the last policy or scenario should show before the first has run.
+    let mut prepared = Vec::new();
+    for path in &arguments.policies {
+        let Loaded { value: Policy { artifact, text }, hash } = input::policy(path)?;
+        let text = text.ok_or_else(|| Failure::NoText { policy: path.clone() })?;
+        output::diagnostics(&text.source, &text.warnings);
+        let wanted =
+            |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
+        let hash = hash.finalize();
+        let jobs = text.tests.iter().filter(wanted).map(|test| {
+            let job = job(path, &text, test, artifact.program.clone(), &hash, arguments)?;
+            Ok((test.clone(), job))
+        });
+        let jobs = jobs.collect::<Result<Vec<_>, Failure>>()?;
+        prepared.push((text.source, jobs));
+    }
+    let count: usize = prepared.iter().map(|(_, jobs)| jobs.len()).sum();
+    if let (0, Some(filter)) = (count, &arguments.filter) {
+        return Err(Failure::NoSuchTest { filter: filter.clone() });
+    }
+    run::make_directory(arguments.out.as_deref())?;
+
+    let mut tested = Vec::with_capacity(count);
+    for (source, jobs) in &prepared {
+        for (test, job) in jobs {
+            let run = job.execute_with_bar()?;
+            let score = Score::new(&run, &job.scene.object);
+            let result = job.result(&run, &score);
+            let faults = violations(test, &job.program, &run, &score);
+            if let Some(directory) = &arguments.out {
+                job.write_report(&directory.join(file_name(tested.len() + 1, &test.title)), &run, &score, &result)?;
+            }
+            if !arguments.json {
+                tell(source, test, &result, &faults)?;
+            }
+            tested.push(Tested {
+                file: source.name.clone(),
+                title: test.title.clone(),
+                passed: faults.is_empty(),
+                diagnostics: records(source, &faults),
+                result,
+            });
+        }
+    }
+    let failed = tested.iter().filter(|tested| !tested.passed).count();
+    if arguments.json {
+        output::json(&tested)?;
+    } else {
+        output::result(format_args!("{count} test{}, {failed} failed", if count == 1 { "" } else { "s" }))?;
+    }
+    Ok(if failed > 0 { Exit::Unexpected } else { Exit::Done })
+}
+
+/// Prepares the run of a test.
+fn job(
+    policy: &Path,
+    text: &PolicyText,
+    test: &PolicyTest,
+    mut program: Program,
+    policy_hash: &[u8],
+    arguments: &TestArguments,
+) -> Result<Job, Failure> {
+    let path = policy.parent().unwrap_or(Path::new("")).join(&test.scenario);
+    let Loaded { value: scene, hash } = input::scenario(&path).map_err(|failure| match failure {
+        Failure::Read { cause, .. } => {
+            let message = format!("cannot read {}: {cause}", path.display());
+            let fault = Diagnostic::error("P0602", message, test.scenario_span, "this scenario")
+                .hint("a path starts from the folder of the policy");
+            Failure::Faults { source_text: Box::new(text.source.clone()), faults: vec![fault] }
+        }
+        other => other,
+    })?;
+    test.set(&mut program);
+    let policy_hash = test.settings.iter().fold(sha2::Sha256::new_with_prefix(policy_hash), |hash, (index, value)| {
+        hash.chain_update(index.to_le_bytes()).chain_update(value.to_le_bytes())
+    });
+    let seed = scene.seed;
+    Job::with(&path, scene, program, arguments.world.into(), seed, (hash.finalize(), policy_hash.finalize()))
+}
+
+fn tell(
+    source: &crate::diagnostic::Source,
+    test: &PolicyTest,
+    result: &RunResult,
+    faults: &[Diagnostic],
+) -> Result<(), Failure> {
+    let verdict = if faults.is_empty() { "ok    " } else { "FAILED" };
+    let RunResult { sim_s, wall_s, .. } = result;
+    output::result(format_args!("{verdict} {}: {} ({sim_s:.1} s in {wall_s:.2} s)", source.name, test.title))?;
+    output::diagnostics(source, faults);
+    Ok(())
+}
+
+/// The name of a test's report: its number keeps titles apart that differ only in what files cannot be called.
+fn file_name(number: usize, title: &str) -> String {
+    let title: String =
+        title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' }).take(60).collect();
+    format!("{number:02}-{title}")
+}

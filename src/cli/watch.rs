@@ -1,0 +1,140 @@
+//! `vibrissa run --watch`
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
+
+use crate::report::RunResult;
+use crate::run::Trace;
+use crate::score::Statistics;
+use crate::study::ExecuteError;
+
+use super::arguments::RunArguments;
+use super::exit::{Exit, Failure};
+use super::job::{Files, Job, seconds};
+use super::{output, run};
+
+/// Editors write a file in several steps; when nothing has happened for this long, they are done.
+const QUIET: Duration = Duration::from_millis(15);
+
+/// Runs again and again, whenever a file changes that a run depends on. It ends only with the program.
+pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
+    let mut watch = Watch::new()?;
+    // A file that is missing can come into being later.
+    let first = arguments.scenarios.iter().chain(&arguments.policy);
+    watch.add(first.cloned().collect())?;
+    run::make_directory(arguments.out.as_deref())?;
+    loop {
+        let mut files = Files::default();
+        let jobs = Job::all(arguments, &mut files);
+        if watch.add(files.read)? {
+            // What was written to a new folder before it was watched has been missed.
+            continue;
+        }
+        match jobs.and_then(|jobs| run_all(&jobs, arguments, &watch)) {
+            Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
+            Err(failure) => failure.report(),
+            Ok(results) => run::show(&results, arguments.out.as_deref())?,
+        }
+        output::message(format_args!("watching {} files; Ctrl-C ends", watch.files.len()));
+        watch.wait();
+    }
+}
+
+fn run_all(jobs: &[Job], arguments: &RunArguments, watch: &Watch) -> Result<Vec<RunResult>, Failure> {
+    let run = |job: &Job| {
+        let mut told = Ok(());
+        let run = job.execute(|trace| {
+            told = tell(job, trace);
+            if told.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        told?;
+        Ok(run::finish(job, &run?, arguments.out.as_deref())?.0)
+    };
+    jobs.iter().map(run).collect()
+}
+
+/// One line of how a run goes: the state at this second, and how far the tips were from the object since the last line.
+fn tell(job: &Job, trace: &Trace) -> Result<(), Failure> {
+    let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state)).map_or("Failure", String::as_str);
+    let now = seconds(trace);
+    let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
+    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| job.scene.object.nearest(tip).distance);
+    let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
+        format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
+    });
+    output::result(format_args!("{} {now:>5.0} s  {state}  {error}", job.identity.scenario))
+}
+
+/// Eyes on files.
+struct Watch {
+    watcher: RecommendedWatcher,
+    events: Receiver<notify::Result<Event>>,
+    files: BTreeSet<PathBuf>,
+    folders: BTreeSet<PathBuf>,
+}
+
+impl Watch {
+    fn new() -> Result<Self, Failure> {
+        let (sender, events) = channel();
+        // When the receiver is gone the program is about to end.
+        let watcher = notify::recommended_watcher(move |event| drop(sender.send(event)))?;
+        Ok(Self { watcher, events, files: BTreeSet::new(), folders: BTreeSet::new() })
+    }
+
+    /// Watches more files; whether a folder is new among theirs. Folders are watched, because editors replace files.
+    fn add(&mut self, files: BTreeSet<PathBuf>) -> Result<bool, Failure> {
+        let mut is_new = false;
+        for file in files {
+            let folder = match file.parent() {
+                Some(folder) if folder != Path::new("") => folder.to_owned(),
+                _ => PathBuf::from("."),
+            };
+            if let Some(name) = file.file_name() {
+                self.files.insert(folder.join(name));
+            }
+            if !self.folders.contains(&folder) {
+                self.watcher.watch(&folder, RecursiveMode::NonRecursive)?;
+                self.folders.insert(folder);
+                is_new = true;
+            }
+        }
+        Ok(is_new)
+    }
+
+    /// Whether a file has changed since the last look.
+    fn has_changed(&self) -> bool {
+        let changed = self.events.try_iter().any(|event| self.concerns(&event));
+        if changed {
+            self.settle();
+        }
+        changed
+    }
+
+    /// Waits until a file changes.
+    fn wait(&self) {
+        while let Ok(event) = self.events.recv() {
+            if self.concerns(&event) {
+                return self.settle();
+            }
+        }
+    }
+
+    /// Waits until nothing more happens.
+    fn settle(&self) {
+        while !matches!(
+            self.events.recv_timeout(QUIET),
+            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected)
+        ) {}
+    }
+
+    /// Whether an event is about one of the files. If events were lost, it may have been.
+    fn concerns(&self, event: &notify::Result<Event>) -> bool {
+        let Ok(event) = event else { return true };
+        event.need_rescan() || (!event.kind.is_access() && event.paths.iter().any(|path| self.files.contains(path)))
+    }
+}

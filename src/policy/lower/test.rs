@@ -1,0 +1,136 @@
+//! The tests that a policy carries. None of their code is left in the program.
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::machine::{Op, Parameter, Register};
+use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test};
+use crate::policy::hint::did_you_mean;
+use crate::policy::test::{Expectation, FigurePlace, PolicyTest, RunFigure};
+use crate::policy::types::Type;
+
+use super::Compiler;
+use super::scope::Scope;
+
+impl<'f> Compiler<'f> {
+    /// Checks the tests of a file whose parameters are these.
+    pub(super) fn tests(&mut self, file: &'f File, parameters: &[Parameter]) {
+        for (index, test) in file.tests.iter().enumerate() {
+            if let Some(first) = file.tests[..index].iter().find(|first| first.title.text == test.title.text) {
+                let message = format!("two tests are called \"{}\"", test.title.text);
+                let diagnostic = Diagnostic::error("P0202", message, test.title.span, "again here");
+                self.report(diagnostic.note(first.title.span, "first here").hint("give each a title of its own"));
+            }
+            let test = self.test(test, parameters);
+            self.tests.push(test);
+        }
+    }
+
+    fn test(&mut self, test: &'f Test, parameters: &[Parameter]) -> PolicyTest {
+        if test.expectations.is_empty() {
+            let diagnostic = Diagnostic::error("P0408", "the test expects nothing", test.title.span, "cannot fail");
+            self.report(diagnostic.hint("write `expect run.completed`, or what else must be true of the run"));
+        }
+        PolicyTest {
+            title: test.title.text.clone(),
+            scenario: test.scenario.text.clone(),
+            scenario_span: test.scenario.span,
+            settings: test.settings.iter().filter_map(|setting| self.setting(setting, parameters)).collect(),
+            expectations: test.expectations.iter().filter_map(|truth| self.expectation(truth)).collect(),
+        }
+    }
+
+    fn setting(&mut self, (name, value): &'f (Name, Bound), parameters: &[Parameter]) -> Option<(usize, f64)> {
+        let (value_si, dimension) = self.bound(value, None)?;
+        if let Some(None) = self.globals.get(name.text.as_str()) {
+            // The parameter is at fault, which has been reported.
+            return None;
+        }
+        let Some(index) = parameters.iter().position(|parameter| parameter.name == name.text) else {
+            let message = format!("there is no parameter `{}`", name.text);
+            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown parameter");
+            let known = parameters.iter().map(|parameter| parameter.name.as_str());
+            self.report(did_you_mean(diagnostic, &name.text, known));
+            return None;
+        };
+        if let Err(error) = parameters[index].check(value_si, dimension) {
+            let diagnostic = Diagnostic::error("P0306", error.to_string(), value.span, "cannot be set");
+            self.report(match self.items.get(name.text.as_str()) {
+                Some(&made) => diagnostic.note(made, "the parameter"),
+                None => diagnostic,
+            });
+            return None;
+        }
+        Some((index, value_si))
+    }
+
+    fn expectation(&mut self, truth: &'f Expression) -> Option<Expectation> {
+        let mark = self.code.mark();
+        let start = self.code.here() as usize;
+        self.figures = Some(Vec::new());
+        let value = self.expect(&Scope::default(), truth, Type::Truth);
+        let figures = self.figures.take().unwrap_or_default();
+        let code = self.code.ops.get(start..).unwrap_or_default().to_vec();
+        let image = self.code.image.clone();
+        self.code.rewind(mark);
+        self.memories.clear();
+
+        let value = value?;
+        if figures.is_empty() || code.iter().any(reads_a_tick) {
+            let (message, label) = if code.iter().any(reads_a_tick) {
+                ("what is felt in a tick is not known of a whole run", "reads what is felt in a tick")
+            } else {
+                ("the expectation says nothing about the run", "the same for every run")
+            };
+            let diagnostic = Diagnostic::error("P0408", message, truth.span, label);
+            self.report(diagnostic.hint("expect something of `run`, such as `run.error_mean < 0.5 mm`"));
+            return None;
+        }
+        Some(Expectation { span: truth.span, code, image, truth: value.register, figures })
+    }
+
+    /// A place for a figure of the run.
+    pub(super) fn figure(&mut self, figure: RunFigure, span: Span) -> Register {
+        let register = self.code.place(1);
+        if let Some(figures) = &mut self.figures {
+            figures.push(FigurePlace { register, figure, span });
+        }
+        register
+    }
+
+    /// A place for a figure of the run and the state that `values` name.
+    pub(super) fn run_of_state(
+        &mut self,
+        figure: fn(usize) -> RunFigure,
+        name: &'f Name,
+        values: Option<&'f [Expression]>,
+    ) -> Option<Register> {
+        let Some([Expression { kind: Kind::Root { name: state, values: None }, span, .. }]) = values else {
+            let message = format!("`{}` needs the name of one state", name.text);
+            let diagnostic = Diagnostic::error("P0304", message, name.span, "of which state?");
+            self.report(diagnostic.hint(format!("write `run.{}(Name)`", name.text)));
+            return None;
+        };
+        let Some(entry) = self.states.get(state.text.as_str()) else {
+            let message = format!("there is no state `{}`", state.text);
+            let diagnostic = Diagnostic::error("P0201", message, *span, "unknown state");
+            self.report(did_you_mean(diagnostic, &state.text, self.states.keys().copied()));
+            return None;
+        };
+        let index = entry.index;
+        Some(self.figure(figure(index), name.span))
+    }
+}
+
+/// Whether an operation of an expression reads what is felt, or remembers from tick to tick.
+fn reads_a_tick(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Time { .. }
+            | Op::Body { .. }
+            | Op::BodyPosition { .. }
+            | Op::Whisker { .. }
+            | Op::WhiskerVector { .. }
+            | Op::TipAt { .. }
+            | Op::LowPass { .. }
+            | Op::Pid { .. }
+    )
+}

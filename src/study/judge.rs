@@ -1,0 +1,46 @@
+//! The verdict on a run that a policy's test asked for.
+
+use crate::diagnostic::Diagnostic;
+use crate::machine::Program;
+use crate::policy::{PolicyTest, RunFigure};
+use crate::run::Run;
+use crate::scene::{Metric, Outcome};
+use crate::score::Score;
+
+/// What is not as `test` expects of a `run` of `program` that got this `score`; nothing if the test has passed.
+#[must_use]
+pub fn violations(test: &PolicyTest, program: &Program, run: &Run, score: &Score) -> Vec<Diagnostic> {
+    let figure = |wanted| figure(wanted, run, score);
+    test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
+}
+
+/// A figure of a run (SI, truths as 1 and 0); not a number if the run does not have it.
+fn figure(figure: RunFigure, run: &Run, score: &Score) -> f64 {
+    let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
+    let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
+    match figure {
+        RunFigure::Completed => ended(Outcome::Completed),
+        RunFigure::Failed => ended(Outcome::Failed),
+        RunFigure::TimedOut => ended(Outcome::Timeout),
+        RunFigure::Diverged => ended(Outcome::Diverged),
+        RunFigure::Time => run.trace.ticks.last().map_or(0.0, |tick| tick.time),
+        RunFigure::ErrorMean => measured(Metric::ErrorMean),
+        RunFigure::ErrorP95 => measured(Metric::ErrorP95),
+        RunFigure::ErrorMax => measured(Metric::ErrorMax),
+        RunFigure::Hausdorff => measured(Metric::Hausdorff),
+        RunFigure::Coverage => measured(Metric::Coverage),
+        RunFigure::Visits(state) => {
+            let mut before = false;
+            let entered = run.trace.ticks.iter().filter(|tick| {
+                let active = tick.state == state;
+                let was_active = std::mem::replace(&mut before, active);
+                active && !was_active
+            });
+            entered.count() as f64
+        }
+        RunFigure::TimeIn(state) => {
+            let ticks = run.trace.ticks.iter().filter(|tick| tick.state == state);
+            ticks.count() as f64 * run.trace.period
+        }
+    }
+}
