@@ -420,7 +420,7 @@ fn a_test_names_a_scenario_that_can_be_read() {
     std::fs::write(&policy, format!("machine m initial Still state Still {{ stop }} {test}")).unwrap();
     let output = vibrissa(&["test", policy.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("P0602") && stderr(&output).contains("nowhere.yaml"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("P0702") && stderr(&output).contains("nowhere.yaml"), "{}", stderr(&output));
 }
 
 #[test]

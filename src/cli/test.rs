@@ -96,7 +96,7 @@ fn job(
     let Loaded { value: scene, hash } = input::scenario(&path).map_err(|failure| match failure {
         Failure::Read { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
-            let fault = Diagnostic::error("P0602", message, test.scenario_span, "this scenario")
+            let fault = Diagnostic::error("P0702", message, test.scenario_span, "this scenario")
                 .hint("a path starts from the folder of the policy");
             Failure::Faults { source_text: Box::new(text.source.clone()), faults: vec![fault] }
         }

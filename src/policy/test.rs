@@ -106,7 +106,7 @@ impl Expectation {
         if registers[usize::from(self.truth)] > 0.5 {
             return None;
         }
-        let diagnostic = Diagnostic::error("P0601", "the run is not as expected", self.span, "does not hold");
+        let diagnostic = Diagnostic::error("P0701", "the run is not as expected", self.span, "does not hold");
         Some(self.figures.iter().fold(diagnostic, |diagnostic, place| {
             let value = place.figure.show(figure(place.figure));
             diagnostic.note(place.span, format!("is {value}"))
