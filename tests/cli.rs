@@ -55,6 +55,30 @@ fn help_explains_every_command() {
 }
 
 #[test]
+fn a_library_can_be_checked_and_not_compiled() {
+    let corner = "tests/fixtures/policies/use/laws/corner.fsm";
+    let output = vibrissa(&["check", corner]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), format!("{corner}: library corner, 1 law, 1 value\n"));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&vibrissa(&["check", corner, "--json"]))).unwrap();
+    assert_eq!(checked[0]["library"], serde_json::json!({"name": "corner", "laws": ["wait"], "values": ["sharp"]}));
+    let output = vibrissa(&["compile", corner, "-o", "/dev/null"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is a library"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_fault_in_a_file_that_is_used_is_told_with_its_path() {
+    let folder = "tests/fixtures/policies/use";
+    let output = vibrissa(&["check", &format!("{folder}/fault_in_a_library.fsm"), "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(checked[0]["diagnostics"][0]["file"], format!("{folder}/laws/faulty.fsm"));
+    let output = vibrissa(&["check", &format!("{folder}/file_that_is_not_there.fsm")]);
+    assert!(stderr(&output).contains("did you mean `corner.fsm`?"), "{}", stderr(&output));
+}
+
+#[test]
 fn check_says_what_a_policy_consists_of() {
     let output = vibrissa(&["check", "policies/thesis.fsm", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::diagnostic::{Position, Record, records};
 use crate::machine::{Artifact, FORMAT, State};
-use crate::policy::compile_with_warnings;
+use crate::policy::{self, Checked as Found};
 use crate::units::format_si;
 
 use super::arguments::CheckArguments;
@@ -19,8 +19,10 @@ use super::{input, output};
 #[derive(Debug, Serialize)]
 struct Checked {
     file: String,
-    /// `null` if the policy is at fault.
+    /// `null` if the file is at fault or a library.
     machine: Option<Summary>,
+    /// `null` if the file is at fault or a machine.
+    library: Option<LibrarySummary>,
     /// What a compiled machine comes from; `null` for a policy's text.
     compiled: Option<Compiled>,
     diagnostics: Vec<Record>,
@@ -34,6 +36,13 @@ struct Summary {
     states: Vec<StateSummary>,
     /// Bytes of a running machine's registers.
     memory_bytes: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct LibrarySummary {
+    name: String,
+    laws: Vec<String>,
+    values: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -69,8 +78,9 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&checked)?;
     }
-    let is_refused =
-        |policy: &Checked| policy.machine.is_none() || (arguments.deny_warnings && !policy.diagnostics.is_empty());
+    let is_refused = |file: &Checked| {
+        (file.machine.is_none() && file.library.is_none()) || (arguments.deny_warnings && !file.diagnostics.is_empty())
+    };
     Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
 }
 
@@ -79,17 +89,29 @@ fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
         PolicyFile::Text(source) => source,
         PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
-    let (machine, diagnostics) = match compile_with_warnings(&source) {
-        Ok(compiled) => (Some(summary(&compiled.artifact)), compiled.warnings),
-        Err(faults) => (None, faults),
+    let (machine, library, diagnostics) = match policy::check(&source) {
+        Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact)), None, compiled.warnings),
+        Ok(Found::Library { name, laws, values, warnings }) => {
+            (None, Some(LibrarySummary { name, laws, values }), warnings)
+        }
+        Err(faults) => (None, None, faults),
     };
     if !json {
         output::diagnostics(&source, &diagnostics);
         if let Some(machine) = &machine {
             output::result(describe(&source.name, machine))?;
         }
+        if let Some(LibrarySummary { name, laws, values }) = &library {
+            let (laws, values) = (count(laws.len(), "law"), count(values.len(), "value"));
+            output::result(format_args!("{}: library {name}, {laws}, {values}", source.name))?;
+        }
     }
-    Ok(Checked { file: source.name.clone(), machine, compiled: None, diagnostics: records(&source, &diagnostics) })
+    let diagnostics = records(&source, &diagnostics);
+    Ok(Checked { file: source.name.clone(), machine, library, compiled: None, diagnostics })
+}
+
+fn count(number: usize, of: &str) -> String {
+    format!("{number} {of}{}", if number == 1 { "" } else { "s" })
 }
 
 fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
@@ -106,7 +128,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
         compiler: origin.compiler.clone(),
         format: FORMAT,
     };
-    Ok(Checked { file, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() })
+    Ok(Checked { file, machine: Some(machine), library: None, compiled: Some(compiled), diagnostics: Vec::new() })
 }
 
 fn summary(artifact: &Artifact) -> Summary {

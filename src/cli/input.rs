@@ -6,7 +6,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, Source, suggest};
 use crate::machine::{ARTIFACT_LIMIT, Artifact};
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
@@ -74,14 +74,34 @@ pub(super) enum PolicyFile {
 /// Reads a policy's text or a compiled machine.
 pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
     let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
-    let hash = Sha256::new().chain_update(&bytes);
-    let value = if Artifact::is_in(&bytes) {
-        PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
-    } else {
-        let text = text(bytes).map_err(Failure::read(path))?;
-        PolicyFile::Text(Source::new(path.display().to_string(), text))
-    };
-    Ok(Loaded { value, hash })
+    if Artifact::is_in(&bytes) {
+        let hash = Sha256::new().chain_update(&bytes);
+        let artifact = Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?;
+        return Ok(Loaded { value: PolicyFile::Machine(Box::new(artifact)), hash });
+    }
+    let source = with_libraries(path, text(bytes).map_err(Failure::read(path))?);
+    let hash = Sha256::new().chain_update(&source.text);
+    Ok(Loaded { value: PolicyFile::Text(source), hash })
+}
+
+/// A policy's text with those of the files that it uses.
+fn with_libraries(path: &Path, text: String) -> Source {
+    policy::gather(&Source::new(path.display().to_string(), text), &mut library)
+}
+
+/// The text of a file that a policy uses.
+fn library(path: &str) -> Result<String, String> {
+    let path = Path::new(path);
+    File::open(path).and_then(read_text).map_err(|cause| {
+        let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+        let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+        let siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
+            Some(meant) => format!("{cause}; did you mean `{meant}`?"),
+            None => cause.to_string(),
+        }
+    })
 }
 
 /// A policy that is ready to run.
@@ -114,7 +134,7 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
 }
 
 pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
-    let source = read(path)?;
+    let source = with_libraries(path, read(path)?.text);
     policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 

@@ -80,4 +80,13 @@ impl Diagnostic {
         self.hints.push(text.into());
         self
     }
+
+    /// The same with all places `by` bytes farther on.
+    #[must_use]
+    pub fn moved(mut self, by: usize) -> Self {
+        for Label { span, .. } in std::iter::once(&mut self.primary).chain(&mut self.secondary) {
+            *span = Span::new(span.start + by, span.end + by);
+        }
+        self
+    }
 }

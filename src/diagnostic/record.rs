@@ -6,8 +6,6 @@ use serde::Serialize;
 /// A diagnostic with its places as lines and columns, to be serialised.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Record {
-    /// The name of the source.
-    pub file: String,
     /// How bad it is.
     pub severity: Severity,
     /// The stable code.
@@ -26,6 +24,8 @@ pub struct Record {
 /// A note at a place, in lines and columns from 1; columns count characters.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct RecordLabel {
+    /// The name of the source, or of the part of it.
+    pub file: String,
     /// The note.
     pub label: String,
     /// Line of the first character.
@@ -45,10 +45,16 @@ pub fn records(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Record> {
         let range = source.clamp(label.span);
         let Position { line, column } = source.line_column(range.start);
         let end = source.line_column(range.end);
-        RecordLabel { label: label.text.clone(), line, column, end_line: end.line, end_column: end.column }
+        RecordLabel {
+            file: source.part_name(source.part_at(range.start)).to_owned(),
+            label: label.text.clone(),
+            line,
+            column,
+            end_line: end.line,
+            end_column: end.column,
+        }
     };
     let record = |diagnostic: &Diagnostic| Record {
-        file: source.name.clone(),
         severity: diagnostic.severity,
         code: diagnostic.code,
         message: diagnostic.message.clone(),

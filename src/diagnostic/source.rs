@@ -41,15 +41,27 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A text with the name that messages show: a file's path, usually.
+/// A text with the name that messages show: a file's path, usually. Files that it uses may be parts of it: their texts
+/// follow the first, each behind a line end, and places in them are told by their own names and lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
-    /// The name.
+    /// The name of the first part.
     pub name: String,
-    /// The text. Another text is another source: its lines are counted when it is made.
+    /// The text of all parts. Another text is another source: its lines are counted when it is made.
     pub text: String,
     /// The first byte of each line.
     line_starts: Vec<usize>,
+    /// The parts behind the first.
+    parts: Vec<Part>,
+}
+
+/// A text that belongs to a [`Source`] as a file of its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Part {
+    name: String,
+    start: usize,
+    /// Why there is no text, if there is none.
+    absence: Option<String>,
 }
 
 impl Source {
@@ -57,17 +69,67 @@ impl Source {
     #[must_use]
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
-        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1)).collect();
-        Self { name: name.into(), text, line_starts }
+        let line_starts = std::iter::once(0).chain(ends(&text)).collect();
+        Self { name: name.into(), text, line_starts, parts: Vec::new() }
     }
 
-    /// Line and column of a byte; of the end of the text, if the byte lies beyond it.
+    /// Adds a part. Instead of a text it may have the reason why there is none.
+    pub fn add(&mut self, name: impl Into<String>, text: Result<&str, String>) {
+        self.text.push('\n');
+        let start = self.text.len();
+        let (text, absence) = text.map_or_else(|reason| ("", Some(reason)), |text| (text, None));
+        self.text.push_str(text);
+        self.line_starts.push(start);
+        self.line_starts.extend(ends(text).map(|end| start + end));
+        self.parts.push(Part { name: name.into(), start, absence });
+    }
+
+    /// How many parts there are, the first included.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        1 + self.parts.len()
+    }
+
+    /// The name of a part; empty if there is none with this index.
+    #[must_use]
+    pub fn part_name(&self, part: usize) -> &str {
+        match part.checked_sub(1) {
+            None => &self.name,
+            Some(index) => self.parts.get(index).map_or("", |part| &part.name),
+        }
+    }
+
+    /// Why a part has no text, if it has none.
+    #[must_use]
+    pub fn absence(&self, part: usize) -> Option<&str> {
+        self.parts.get(part.checked_sub(1)?)?.absence.as_deref()
+    }
+
+    /// Where the text of a part lies; at the end of all, if there is no part with this index.
+    #[must_use]
+    pub fn part_span(&self, part: usize) -> Span {
+        let start = |part: usize| part.checked_sub(1).map_or(Some(0), |index| Some(self.parts.get(index)?.start));
+        Span::new(start(part).unwrap_or(self.text.len()), start(part + 1).map_or(self.text.len(), |next| next - 1))
+    }
+
+    /// The index of the part that a byte lies in.
+    #[must_use]
+    pub fn part_at(&self, byte: usize) -> usize {
+        self.parts.partition_point(|part| part.start <= byte)
+    }
+
+    /// Line and column of a byte in its part; of the end of the text, if the byte lies beyond it.
     #[must_use]
     pub fn line_column(&self, byte: usize) -> Position {
         let byte = self.text.floor_char_boundary(byte);
-        let line = self.line_starts.partition_point(|&start| start <= byte);
+        let line_of = |byte| self.line_starts.partition_point(|&start| start <= byte);
+        let line = line_of(byte);
         let line_start = self.line_starts.get(line.saturating_sub(1)).copied().unwrap_or_default();
-        Position { line, column: 1 + self.text.get(line_start..byte).unwrap_or_default().chars().count() }
+        let before = line_of(self.part_span(self.part_at(byte)).start);
+        Position {
+            line: 1 + line - before,
+            column: 1 + self.text.get(line_start..byte).unwrap_or_default().chars().count(),
+        }
     }
 
     /// The text of a span; the part within the text, if it reaches beyond.
@@ -76,11 +138,17 @@ impl Source {
         &self.text[self.clamp(span)]
     }
 
-    /// The span cut to the text and to whole characters.
+    /// The span cut to the text, to the part that it begins in, and to whole characters.
     pub(super) fn clamp(&self, span: Span) -> Range<usize> {
         let start = self.text.floor_char_boundary(span.start);
-        start..self.text.floor_char_boundary(span.end).max(start)
+        let end = span.end.min(self.part_span(self.part_at(start)).end);
+        start..self.text.floor_char_boundary(end).max(start)
     }
+}
+
+/// Where lines of a text end: the bytes behind their line ends.
+fn ends(text: &str) -> impl Iterator<Item = usize> {
+    text.match_indices('\n').map(|(newline, _)| newline + 1)
 }
 
 #[cfg(test)]
@@ -111,5 +179,25 @@ mod tests {
         let source = Source::new("a", "\u{fc}b");
         assert_eq!(source.slice(Span::new(1, 99)), "\u{fc}b");
         assert_eq!(source.slice(Span::new(9, 4)), "");
+    }
+
+    proptest! {
+        #[test]
+        fn a_place_in_a_part_is_that_in_a_text_of_its_own(texts in prop::collection::vec("(\\PC|\n){0,20}", 1..5), byte in 0_usize..25) {
+            let mut source = Source::new("0", texts[0].as_str());
+            for (index, text) in texts.iter().enumerate().skip(1) {
+                source.add(index.to_string(), Ok(text));
+            }
+            for (index, text) in texts.iter().enumerate() {
+                let (span, alone) = (source.part_span(index), Source::new("", text.as_str()));
+                prop_assert_eq!(source.slice(span), text.as_str());
+                prop_assert_eq!(source.part_name(index), index.to_string());
+                let byte = byte.min(text.len());
+                prop_assert_eq!(source.part_at(span.start + byte), index);
+                prop_assert_eq!(source.line_column(span.start + byte), alone.line_column(byte));
+                let reaching = Span::new(span.start + byte, source.text.len());
+                prop_assert_eq!(source.slice(reaching), alone.slice(Span::new(byte, text.len())));
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Diagnostics for a person at a terminal.
 
 use super::{Diagnostic, Label, Severity, Source};
-use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 /// Whether a rendering carries terminal colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,17 +30,29 @@ fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> Stri
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let annotation = |kind: AnnotationKind, label: &Label| -> Annotation<'static> {
-        kind.span(source.clamp(label.span)).label(label.text.clone())
-    };
-    let snippet = Snippet::source(source.text.as_str())
-        .path(source.name.as_str())
-        .annotation(annotation(AnnotationKind::Primary, &diagnostic.primary))
-        .annotations(diagnostic.secondary.iter().map(|label| annotation(AnnotationKind::Context, label)));
+    let mut labels = vec![(AnnotationKind::Primary, &diagnostic.primary)];
+    labels.extend(diagnostic.secondary.iter().map(|label| (AnnotationKind::Context, label)));
+    let part = |label: &Label| source.part_at(source.clamp(label.span).start);
+    // The part with the fault comes first, then others that have to do with it.
+    let mut parts: Vec<usize> = Vec::new();
+    for part in labels.iter().map(|(_, label)| part(label)) {
+        if !parts.contains(&part) {
+            parts.push(part);
+        }
+    }
+    let snippets = parts.iter().map(|&index| {
+        let within = source.part_span(index);
+        let of_part = labels.iter().filter(|(_, label)| part(label) == index);
+        let annotations = of_part.map(|(kind, label)| {
+            let place = source.clamp(label.span);
+            kind.clone().span(place.start - within.start..place.end - within.start).label(label.text.clone())
+        });
+        Snippet::source(source.slice(within)).path(source.part_name(index)).annotations(annotations)
+    });
     let group = level
         .primary_title(diagnostic.message.as_str())
         .id(diagnostic.code)
-        .element(snippet)
+        .elements(snippets)
         .elements(diagnostic.hints.iter().map(|hint| Level::HELP.message(hint.as_str())));
     renderer.render(&[group]) + "\n"
 }
@@ -67,6 +79,31 @@ error[S0301]: the radius is negative
   |   of this circle
   |
   = help: write the radius, such as 300 mm
+";
+        assert_eq!(terminal(&source, &[fault], Colour::Plain), expected);
+    }
+
+    #[test]
+    fn places_in_parts_are_shown_with_the_names_and_lines_of_these() {
+        let mut source = Source::new("a.fsm", "machine a\nuse \"b.fsm\"\n");
+        source.add("b.fsm", Ok("library b\n\nlet x = 1 m\n"));
+        let start = source.part_span(1).start;
+        let fault = Diagnostic::error("P0000", "clash", Span::new(14, 21), "used here")
+            .note(Span::new(start + 15, start + 16), "made here")
+            .note(Span::new(8, 9), "in this machine");
+        let expected = "\
+error[P0000]: clash
+ --> a.fsm:2:5
+  |
+1 | machine a
+  |         - in this machine
+2 | use \"b.fsm\"
+  |     ^^^^^^^ used here
+  |
+ ::: b.fsm:3:5
+  |
+3 | let x = 1 m
+  |     - made here
 ";
         assert_eq!(terminal(&source, &[fault], Colour::Plain), expected);
     }

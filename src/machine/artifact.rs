@@ -46,7 +46,7 @@ pub struct Artifact {
 pub struct Origin {
     /// Name of the policy's file, without a path.
     pub file: String,
-    /// SHA-256 of the policy's text.
+    /// SHA-256 of the policy's text and those of the files that it uses, each behind a line end.
     pub text_sha256: [u8; 32],
     /// Version of the compiler.
     pub compiler: String,

@@ -12,6 +12,7 @@ pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifa
     let origin = Origin {
         // The same policy gives the same bytes wherever it lies.
         file: source.name.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
+        // All texts: those of the files that it uses too.
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };

@@ -12,7 +12,10 @@ pub(super) struct Name {
 /// A whole file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct File {
-    pub(super) machine: Name,
+    /// What the file is called behind `machine` or `library`.
+    pub(super) name: Name,
+    pub(super) is_library: bool,
+    pub(super) uses: Vec<Use>,
     pub(super) whiskers: Vec<Name>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
@@ -21,6 +24,25 @@ pub(super) struct File {
     pub(super) states: Vec<State>,
     pub(super) always: Vec<Transition>,
     pub(super) tests: Vec<Test>,
+}
+
+/// `use std.swipe`, `use "corner.fsm" (name, name)`
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Use {
+    pub(super) from: From,
+    /// Where that stands.
+    pub(super) span: Span,
+    /// The names that it brings; all of the file, if `None`.
+    pub(super) names: Option<Vec<Name>>,
+}
+
+/// What a `use` names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum From {
+    /// A file of the standard library: `std`, `swipe`.
+    Module(Vec<Name>),
+    /// A file by its path.
+    Path(String),
 }
 
 /// `param name = value in low .. high`

@@ -13,17 +13,23 @@ pub mod chart;
 mod format;
 mod grammar;
 mod hint;
+mod load;
 mod lower;
+mod pair;
 mod parse;
+mod path;
+mod standard;
 mod syntax_error;
 mod test;
 mod types;
 
 pub use format::format;
+pub use load::Library;
 pub use test::{Expectation, PolicyTest, RunFigure};
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::machine::{Artifact, Program};
+use load::Files;
 
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,11 +42,49 @@ pub struct Compiled {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Compiles the text of a policy.
+/// What a file holds that has no fault.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Checked {
+    /// A machine.
+    Machine(Box<Compiled>),
+    /// A library.
+    Library {
+        /// Its name.
+        name: String,
+        /// Names of its laws.
+        laws: Vec<String>,
+        /// Names of its derived values.
+        values: Vec<String>,
+        /// What is probably not meant.
+        warnings: Vec<Diagnostic>,
+    },
+}
+
+/// Adds to a source, as parts, all files that it uses: those of the standard library, and those that `library` gives. Whatever
+/// is said of the source then can show places in these files too.
+///
+/// Faults are told when the source is compiled, also why a file could not be had.
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::{compile, gather}};
+/// let source = Source::new("a/still.fsm", "machine still  use \"laws/rest.fsm\"  initial Still  state Still { do rest() }");
+/// let source = gather(&source, &mut |path: &str| match path {
+///     "a/laws/rest.fsm" => Ok("library rest  law rest() { stop }".to_owned()),
+///     other => Err(format!("there is no {other}")),
+/// });
+/// assert_eq!(source.part_name(1), "a/laws/rest.fsm");
+/// assert!(compile(&source).is_ok());
+/// ```
+#[must_use]
+pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
+    load::load(source, library).source
+}
+
+/// Compiles the text of a policy. Of the files that it uses only the standard library and parts of the source are known.
 ///
 /// # Errors
-/// Every fault that was found, in the order of their places: one of syntax, or those of names, types, units and structure
-/// (the first fifty), or cycles of transitions that a tick cannot end.
+/// Every fault that was found, in the order of their places: one of syntax in each file, or those of the files' uses, or
+/// those of names, types, units and structure (the first fifty), or cycles of transitions that a tick cannot end.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};
@@ -49,7 +93,7 @@ pub struct Compiled {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
-    Ok(front(source)?.1.program)
+    Ok(front(source)?.2.program)
 }
 
 /// Compiles the text of a policy, and looks for what is probably not meant.
@@ -64,17 +108,29 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
-    let (file, lowered) = front(source)?;
-    let warnings = analysis::warnings(&file, &lowered);
-    let artifact = artifact::artifact(source, &file, lowered.program);
+    let (source, files, lowered) = front(source)?;
+    let warnings = analysis::warnings(&files, &lowered);
+    let artifact = artifact::artifact(&source, &files.main, lowered.program);
     Ok(Compiled { artifact, tests: lowered.tests, warnings })
 }
 
-fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {
-    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
-    let lowered = lower::lower(&file)?;
-    let errors = analysis::errors(&file, &lowered);
-    if errors.is_empty() { Ok((file, lowered)) } else { Err(errors) }
+/// Checks a policy or a library.
+///
+/// # Errors
+/// As [`compile`].
+pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
+    let (whole, files) = load(source)?;
+    if !files.main.is_library {
+        return compile_with_warnings(source).map(|compiled| Checked::Machine(Box::new(compiled)));
+    }
+    lower::check(&files).map_err(|faults| within(source, &whole, faults))?;
+    let names = |names: &mut dyn Iterator<Item = &ast::Name>| names.map(|name| name.text.clone()).collect();
+    Ok(Checked::Library {
+        name: files.main.name.text.clone(),
+        laws: names(&mut files.main.laws.iter().map(|law| &law.name)),
+        values: names(&mut files.main.derived.iter().map(|derived| &derived.name)),
+        warnings: analysis::library_warnings(&files),
+    })
 }
 
 /// The statechart of a policy.
@@ -89,7 +145,49 @@ fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn chart(source: &Source) -> Result<chart::Chart, Vec<Diagnostic>> {
-    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
-    lower::lower(&file)?;
-    Ok(chart::build(source, &file))
+    let (source, files, _) = lowered(source)?;
+    Ok(chart::build(&source, &files.main))
+}
+
+fn front(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
+    let (whole, files, lowered) = lowered(source)?;
+    let errors = analysis::errors(&files.main, &lowered);
+    if errors.is_empty() { Ok((whole, files, lowered)) } else { Err(errors) }
+}
+
+fn lowered(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
+    let (whole, files) = load(source)?;
+    if files.main.is_library {
+        let name = &files.main.name;
+        let message = format!("`{}` is a library and does nothing by itself", name.text);
+        let fault = Diagnostic::error("P0603", message, name.span, "not a machine");
+        return Err(vec![
+            fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both"),
+        ]);
+    }
+    match lower::lower(&files) {
+        Ok(lowered) => Ok((whole, files, lowered)),
+        Err(faults) => Err(within(source, &whole, faults)),
+    }
+}
+
+/// A source with all that it uses, as far as that is in it or in the standard library.
+fn load(source: &Source) -> Result<(Source, Files), Vec<Diagnostic>> {
+    let refuse = &mut |_: &str| Err("there is no such file among those given".to_owned());
+    load::load(source, refuse).files().map_err(|(whole, faults)| within(source, &whole, faults))
+}
+
+/// Faults as they can be shown in `source`, which may lack parts that `whole` has.
+fn within(source: &Source, whole: &Source, faults: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let is_in = |span: Span| span.start <= source.text.len();
+    let shown = faults.into_iter().map(|mut fault| {
+        if !is_in(fault.primary.span) {
+            let part = whole.part_name(whole.part_at(fault.primary.span.start));
+            fault.primary.text = format!("{}, in `{part}`", fault.primary.text);
+            fault.primary.span = Span::new(0, 0);
+        }
+        fault.secondary.retain(|label| is_in(label.span));
+        fault
+    });
+    shown.collect()
 }

@@ -3,25 +3,27 @@
 //! The grammar fixes which pairs follow which, so that this file only takes them in order. Where the grammar promises a pair
 //! and none comes, [`Reader`] gives an internal error instead of a panic.
 
-use pest::iterators::Pair;
-
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Binary, Bound, Derived, Expression, File, Guard, Kind, Law, Name, Parameter, Quantity, State, Statement,
-    Steer, Target, Test, Transition, Turn, TypeName,
+    Argument, Binary, Bound, Derived, Expression, File, From, Guard, Kind, Law, Name, Parameter, Quantity, State,
+    Statement, Steer, Target, Test, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
+use super::pair::{Pair, Pairs, place};
 
 /// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 200;
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
 
-/// Parses a policy's text.
-pub(super) fn parse(source: &Source) -> Parsed<File> {
+/// Parses the text of one file. Its places count from `start`.
+pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
+    let pairs = grammar::parse(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
     let mut file = File {
-        machine: Name { text: String::new(), span: Span::new(0, 0) },
+        name: Name { text: String::new(), span: Span::new(start, start) },
+        is_library: false,
+        uses: Vec::new(),
         whiskers: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
@@ -31,16 +33,16 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
         always: Vec::new(),
         tests: Vec::new(),
     };
-    for item in grammar::parse(source)?.flat_map(Pair::into_inner) {
+    for item in Pairs::new(pairs, start).flat_map(Pair::into_inner) {
         let rule = item.as_rule();
         let mut reader = Reader::new(item);
         match rule {
-            Rule::machine => file.machine = reader.name()?,
+            Rule::machine => file.name = reader.name()?,
+            Rule::library => (file.name, file.is_library) = (reader.name()?, true),
+            Rule::import => file.uses.push(import(&mut reader)?),
             Rule::whiskers => {
                 reader.take(Rule::kw_whisker)?;
-                while reader.has(Rule::name) {
-                    file.whiskers.push(reader.name()?);
-                }
+                file.whiskers.extend(reader.names()?);
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),
@@ -63,6 +65,20 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
     Ok(file)
 }
 
+fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
+    let from = reader.next()?;
+    let span = place(&from);
+    let is_text = from.as_rule() == Rule::text;
+    let mut parts = Reader::new(from);
+    let from = if is_text {
+        From::Path(parts.take(Rule::text_inner)?.as_str().to_owned())
+    } else {
+        From::Module(parts.names()?)
+    };
+    let names = if reader.has(Rule::chosen) { Some(Reader::new(reader.take(Rule::chosen)?).names()?) } else { None };
+    Ok(Use { from, span, names })
+}
+
 fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
     let name = reader.name()?;
     let value = bound(reader.take(Rule::bound)?)?;
@@ -74,7 +90,7 @@ fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
     Ok(Parameter { name, value, range })
 }
 
-fn bound(pair: Pair<'_, Rule>) -> Parsed<Bound> {
+fn bound(pair: Pair<'_>) -> Parsed<Bound> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
     let negative = reader.has(Rule::minus);
@@ -84,7 +100,7 @@ fn bound(pair: Pair<'_, Rule>) -> Parsed<Bound> {
     Ok(Bound { negative, quantity: quantity(reader.take(Rule::quantity)?)?, span })
 }
 
-fn quantity(pair: Pair<'_, Rule>) -> Parsed<Quantity> {
+fn quantity(pair: Pair<'_>) -> Parsed<Quantity> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
     let number = reader.take(Rule::number)?.as_str().to_owned();
@@ -149,7 +165,7 @@ fn text(reader: &mut Reader<'_>) -> Parsed<Name> {
     Ok(named(&text.take(Rule::text_inner)?))
 }
 
-fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
+fn transition(pair: Pair<'_>) -> Parsed<Transition> {
     let rule = pair.as_rule();
     let mut reader = Reader::new(pair);
     let first = reader.expression()?;
@@ -171,7 +187,7 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
     Ok(Transition { guard, target: Target { name, text, values, span } })
 }
 
-fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
+fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {
     let mut reader = Reader::new(pair);
     let mut statements = Vec::new();
     while let Ok(pair) = reader.next() {
@@ -180,7 +196,7 @@ fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
     Ok(statements)
 }
 
-fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
+fn statement(pair: Pair<'_>) -> Parsed<Statement> {
     let rule = pair.as_rule();
     let span = place(&pair);
     let mut reader = Reader::new(pair);
@@ -279,7 +295,7 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
     }
 }
 
-fn access(pair: Pair<'_, Rule>) -> Parsed<Expression> {
+fn access(pair: Pair<'_>) -> Parsed<Expression> {
     let mut reader = Reader::new(pair);
     let mut parts = Reader::new(reader.take(Rule::root)?);
     let span = parts.span;
@@ -313,16 +329,7 @@ fn node(kind: Kind, span: Span, depth: usize) -> Parsed<Expression> {
     Ok(Expression { kind, span, depth: depth + 1 })
 }
 
-/// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it.
-fn place(pair: &Pair<'_, Rule>) -> Span {
-    let mut last = pair.clone();
-    while let Some(inner) = last.clone().into_inner().next_back() {
-        last = inner;
-    }
-    Span::new(pair.as_span().start(), last.as_span().end())
-}
-
-fn named(pair: &Pair<'_, Rule>) -> Name {
+fn named(pair: &Pair<'_>) -> Name {
     Name { text: pair.as_str().to_owned(), span: place(pair) }
 }
 
@@ -333,44 +340,53 @@ fn internal(span: Span) -> Box<Diagnostic> {
 
 /// The inner pairs of a pair, taken in order.
 struct Reader<'i> {
-    pairs: pest::iterators::Pairs<'i, Rule>,
+    pairs: Pairs<'i>,
     span: Span,
 }
 
 impl<'i> Reader<'i> {
-    fn new(pair: Pair<'i, Rule>) -> Self {
+    fn new(pair: Pair<'i>) -> Self {
         let span = place(&pair);
         let mut pairs = pair.into_inner();
         // Words and signs that only mark a place carry nothing.
-        while pairs.peek().is_some_and(|pair| is_marker(pair.as_rule())) {
+        while pairs.peek().is_some_and(is_marker) {
             pairs.next();
         }
         Self { pairs, span }
     }
 
     fn peek(&self) -> Option<Rule> {
-        self.pairs.peek().map(|pair| pair.as_rule())
+        self.pairs.peek()
     }
 
     fn has(&self, rule: Rule) -> bool {
         self.peek() == Some(rule)
     }
 
-    fn next(&mut self) -> Parsed<Pair<'i, Rule>> {
+    fn next(&mut self) -> Parsed<Pair<'i>> {
         let pair = self.pairs.next().ok_or_else(|| internal(self.span))?;
-        while self.pairs.peek().is_some_and(|pair| is_marker(pair.as_rule())) {
+        while self.pairs.peek().is_some_and(is_marker) {
             self.pairs.next();
         }
         Ok(pair)
     }
 
-    fn take(&mut self, rule: Rule) -> Parsed<Pair<'i, Rule>> {
+    fn take(&mut self, rule: Rule) -> Parsed<Pair<'i>> {
         let pair = self.next()?;
         if pair.as_rule() == rule { Ok(pair) } else { Err(internal(place(&pair))) }
     }
 
     fn name(&mut self) -> Parsed<Name> {
         Ok(named(&self.take(Rule::name)?))
+    }
+
+    /// All names that come next.
+    fn names(&mut self) -> Parsed<Vec<Name>> {
+        let mut names = Vec::new();
+        while self.has(Rule::name) {
+            names.push(self.name()?);
+        }
+        Ok(names)
     }
 
     fn expression(&mut self) -> Parsed<Expression> {
@@ -395,6 +411,8 @@ fn is_marker(rule: Rule) -> bool {
     matches!(
         rule,
         Rule::kw_machine
+            | Rule::kw_library
+            | Rule::kw_use
             | Rule::kw_param
             | Rule::kw_initial
             | Rule::kw_let

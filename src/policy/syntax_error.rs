@@ -8,10 +8,11 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
 /// What begins an item, in the order in which they usually come.
-const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `test`)";
+const ITEM: &str = "an item (`use`, `whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `test`)";
 
 /// Words that can only stand outside of every brace.
-const ITEM_WORDS: [&str; 8] = ["machine", "whisker", "param", "initial", "law", "state", "always", "test"];
+const ITEM_WORDS: [&str; 10] =
+    ["machine", "library", "use", "whisker", "param", "initial", "law", "state", "always", "test"];
 
 /// The diagnostic for pest's error.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -59,7 +60,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
 /// The text ends where it should go on.
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
     let place = Span::new(at, at);
-    if rules.contains(&Rule::machine) || rules.contains(&Rule::kw_machine) {
+    if rules.iter().any(|rule| matches!(rule, Rule::file | Rule::machine | Rule::kw_machine)) {
         return Diagnostic::error("P0101", "the file holds no policy", place, "expected `machine` and its name")
             .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
     }
@@ -112,10 +113,10 @@ fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
         "^" => "multiply instead: `x * x`".to_owned(),
         "%" => "write the share as a plain number, such as 0.95".to_owned(),
         "'" => "a text stands between double quotes".to_owned(),
-        "\"" => "a text can only be the reason of `Failure`, or name a test and its scenario".to_owned(),
+        "\"" => "a text can only be the reason of `Failure`, a path behind `use`, or what a test is about".to_owned(),
         "." => "a number has digits before and behind its point".to_owned(),
         "else" => "`else` follows the `}` of an `if`".to_owned(),
-        "machine" => "a file holds one machine, which stands first".to_owned(),
+        "machine" | "library" => "a file holds one machine or one library, which stands first".to_owned(),
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
         _ if is_keyword(found) && is_value_due(rules) => {
             format!("`{found}` is a word of the language and cannot stand for a value")
@@ -170,10 +171,12 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::name | Rule::argument => (0, "a name"),
         Rule::target => (0, "the name of a state"),
         Rule::type_name => (0, "a type"),
+        Rule::module => (0, "a module such as `std.swipe`"),
+        Rule::text if among.contains(&Rule::module) => (0, "the path of a file in quotes"),
         Rule::text => (0, "a text"),
         Rule::bound => (0, "a number"),
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
-        Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
+        Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
         // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
         Rule::kw_initial => (2, ITEM),
         Rule::kw_do => (2, "a statement"),
@@ -192,7 +195,9 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
 /// The word that a rule stands for.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
-        Rule::machine | Rule::kw_machine => "machine",
+        Rule::file | Rule::machine | Rule::kw_machine => "machine",
+        Rule::library | Rule::kw_library => "library",
+        Rule::kw_use => "use",
         Rule::kw_whisker => "whisker",
         Rule::kw_param => "param",
         Rule::kw_initial => "initial",

@@ -25,6 +25,7 @@ mod witness;
 use crate::diagnostic::Diagnostic;
 
 use super::ast::File;
+use super::load::Files;
 use super::lower::Lowered;
 use model::{Edge, Model};
 use search::Search;
@@ -38,10 +39,10 @@ pub(super) fn errors(file: &File, lowered: &Lowered) -> Vec<Diagnostic> {
 }
 
 /// What is probably not meant, in the order of the text.
-pub(super) fn warnings(file: &File, lowered: &Lowered) -> Vec<Diagnostic> {
-    let model = Model::new(file, lowered);
+pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
+    let model = Model::new(&files.main, lowered);
     let mut warnings = Vec::new();
-    unused::unused(file, &mut warnings);
+    unused::unused(files, &mut warnings);
     reach::unreachable(&model, &mut warnings);
     reach::without_a_way_out(&model, &mut warnings);
     let mut search = Search::new(&model);
@@ -50,6 +51,13 @@ pub(super) fn warnings(file: &File, lowered: &Lowered) -> Vec<Diagnostic> {
     for (above, edges) in sources {
         transitions(&mut search, above, edges, &mut warnings);
     }
+    in_order(warnings)
+}
+
+/// What is probably not meant in a library, in the order of the text.
+pub(super) fn library_warnings(files: &Files) -> Vec<Diagnostic> {
+    let mut warnings = Vec::new();
+    unused::unused(files, &mut warnings);
     in_order(warnings)
 }
 

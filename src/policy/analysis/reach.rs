@@ -69,7 +69,7 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     }
     if !has_failure && !warnings.iter().any(|warning| warning.code == "P0502") {
         let message = "no state has a way to `Failure`".to_owned();
-        warnings.push(no_failure(message, model.file.machine.span));
+        warnings.push(no_failure(message, model.file.name.span));
     }
 }
 

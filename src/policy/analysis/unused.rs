@@ -1,12 +1,15 @@
 //! Names that are given and never used.
 
 use crate::diagnostic::Diagnostic;
-use crate::policy::ast::{Argument, File, Name};
+use crate::policy::ast::{Argument, Name};
+use crate::policy::load::Files;
 
 use super::names::Names;
 
-/// Warns of parameters, whiskers, laws, derived values and arguments that nothing uses.
-pub(super) fn unused(file: &File, warnings: &mut Vec<Diagnostic>) {
+/// Warns of parameters, whiskers, laws, derived values, arguments and uses that nothing needs. A library's laws and derived
+/// values are there for others.
+pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
+    let file = &files.main;
     let (mut used, mut unread) = (Names::default(), Vec::new());
     let mut part = |names: &Names<'_>, arguments: &[Argument], of: &str| {
         for argument in arguments.iter().filter(|argument| !names.has(&argument.name.text)) {
@@ -42,6 +45,25 @@ pub(super) fn unused(file: &File, warnings: &mut Vec<Diagnostic>) {
         warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));
     }
 
+    for (import, &library) in file.uses.iter().zip(files.links.first().into_iter().flatten()) {
+        let Some(library) = files.libraries.get(library) else { continue };
+        let mut own = library.derived.iter().map(|item| &item.name).chain(library.laws.iter().map(|item| &item.name));
+        match &import.names {
+            Some(names) => {
+                let idle = names.iter().filter(|name| !used.has(&name.text));
+                warnings.extend(idle.map(|name| never_used("P0506", "name", name, "leave it out of the list")));
+            }
+            None if own.any(|name| used.has(&name.text)) => {}
+            None => {
+                let message = format!("nothing of the library `{}` is used", library.name.text);
+                let warning = Diagnostic::warning("P0506", message, import.span, "never used");
+                warnings.push(warning.hint("use something of it, or leave this out"));
+            }
+        }
+    }
+    if file.is_library {
+        return;
+    }
     let parameters = file.parameters.iter().map(|parameter| ("P0504", "parameter", &parameter.name));
     let whiskers = file.whiskers.iter().map(|whisker| ("P0505", "whisker", whisker));
     let laws = file.laws.iter().map(|law| ("P0506", "law", &law.name));

@@ -17,7 +17,7 @@ pub(in crate::policy) fn build(source: &Source, file: &File) -> Chart {
         of_states.flat_map(|(index, state)| state.transitions.iter().map(move |t| (Origin::State(index), t)));
     let transitions = always.chain(of_states);
     Chart {
-        machine: file.machine.text.clone(),
+        machine: file.name.text.clone(),
         states: file.states.iter().map(|state| builder.state(state, file)).collect(),
         transitions: transitions.filter_map(|(origin, transition)| builder.transition(origin, transition)).collect(),
     }

@@ -63,6 +63,8 @@ pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structu
     // For every block that is open, itself and the first block of the statement at hand.
     let mut open: Vec<(usize, Option<usize>)> = vec![];
     let mut first = None;
+    // The names behind a `use` are no values, and its list is no list of arguments.
+    let mut is_use = false;
     for token in tokens {
         let index = places.len();
         if token.kind == Kind::Comment {
@@ -75,6 +77,7 @@ pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structu
         }
         if begins {
             first = None;
+            is_use = token.kind == Kind::Keyword && token.text == "use";
         }
         let mut block = None;
         if token.is("{") {
@@ -90,7 +93,8 @@ pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structu
             (block, first, begins) = (Some(number), first_of_statement, false);
         }
         let after_operand = !begins && before.is_some_and(|before| matches!(before.role, Role::Operand | Role::Closes));
-        let place = Place { token, role: role(&token, after_operand), begins, block };
+        let role = if is_use && !token.is("(") && !token.is(")") { Role::Other } else { role(&token, after_operand) };
+        let place = Place { token, role, begins, block };
         before = Some(place);
         places.push(place);
     }

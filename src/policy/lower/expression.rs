@@ -119,9 +119,9 @@ impl<'f> Compiler<'f> {
         values: Option<&'f [Expression]>,
         span: Span,
     ) -> Option<Value> {
-        let known = scope.get(&name.text).or_else(|| self.globals.get(name.text.as_str()).copied());
+        let known = scope.get(&name.text).or_else(|| self.names().globals.get(name.text.as_str()).copied());
         if known.is_none()
-            && let Some(derived) = self.derived.get(name.text.as_str()).copied()
+            && let Some(derived) = self.names().derived.get(name.text.as_str()).copied()
         {
             return self.derived_value(scope, derived, values.unwrap_or_default(), span);
         }

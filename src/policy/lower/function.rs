@@ -134,13 +134,13 @@ impl<'f> Compiler<'f> {
     pub(super) fn derived_value(
         &mut self,
         scope: &Scope<'f>,
-        derived: &'f Derived,
+        (file, derived): (usize, &'f Derived),
         values: &'f [Expression],
         span: Span,
     ) -> Option<Value> {
         let inner = self.arguments(scope, &derived.name, &derived.arguments, values, span)?;
-        self.writing.push(&derived.name.text);
-        let value = self.expression(&inner, &derived.value);
+        self.writing.push(&derived.name);
+        let value = self.within(file, |compiler| compiler.expression(&inner, &derived.value));
         self.writing.pop();
         value
     }
@@ -155,8 +155,8 @@ impl<'f> Compiler<'f> {
         values: &'f [Expression],
         span: Span,
     ) -> Option<Scope<'f>> {
-        if self.writing.contains(&name.text.as_str()) {
-            let chain = self.writing.join("` uses `");
+        if self.writing.iter().any(|writing| writing.span == name.span) {
+            let chain = self.writing.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join("` uses `");
             let message = format!("`{}` uses itself (`{chain}` uses `{}`)", name.text, name.text);
             self.report(
                 Diagnostic::error("P0401", message, span, "used within itself")
@@ -188,8 +188,8 @@ impl<'f> Compiler<'f> {
             complete &= value.is_some();
             inner.insert(&argument.name, value);
         }
-        if self.broken.contains(name.text.as_str()) {
-            self.broken.extend(self.writing.iter().copied());
+        if self.broken.contains(&name.span) {
+            self.broken.extend(self.writing.iter().map(|name| name.span));
             return None;
         }
         complete.then_some(inner)

@@ -6,6 +6,7 @@
 mod code;
 mod expression;
 mod function;
+mod names;
 mod parameter;
 mod scope;
 mod statement;
@@ -17,11 +18,13 @@ use std::collections::{HashMap, HashSet};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use crate::machine::{Program, Register};
 
-use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
+use super::ast::{Argument, Name, Statement, TypeName};
 use super::hint::did_you_mean;
+use super::load::Files;
 use super::test::{FigurePlace, PolicyTest};
 use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
+use names::Names;
 use scope::{Meaning, Scope};
 
 /// A program, and what else is known of it once it is written.
@@ -32,16 +35,29 @@ pub(super) struct Lowered {
     pub(super) arguments: Vec<Vec<(String, Value)>>,
 }
 
-/// Checks a file and writes its program.
-pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
+/// Checks laws and derived values, those of a library by itself.
+pub(super) fn check(files: &Files) -> Result<(), Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
-    let program = structure::file(&mut compiler, file);
+    structure::items(&mut compiler, files);
+    structure::growth(&mut compiler, files.main.name.span);
+    let diagnostics = in_order(compiler.diagnostics);
+    if diagnostics.is_empty() { Ok(()) } else { Err(diagnostics) }
+}
+
+fn in_order(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.code));
+    diagnostics.dedup();
+    diagnostics
+}
+
+/// Checks a policy and writes its program.
+pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
+    let mut compiler = Compiler::new();
+    let program = structure::machine(&mut compiler, files);
     let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
     states.sort_by_key(|state| state.index);
     let tests = compiler.tests;
-    let mut diagnostics = compiler.diagnostics;
-    diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.code));
-    diagnostics.dedup();
+    let diagnostics = in_order(compiler.diagnostics);
     match program {
         Some(program) if diagnostics.is_empty() => {
             let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
@@ -71,17 +87,15 @@ struct StateEntry {
 struct Compiler<'f> {
     code: Code,
     diagnostics: Vec<Diagnostic>,
-    /// Where each item of the file is named.
-    items: HashMap<&'f str, Span>,
-    /// Parameters and whiskers, by name.
-    globals: HashMap<&'f str, Meaning>,
-    derived: HashMap<&'f str, &'f Derived>,
-    laws: HashMap<&'f str, &'f Law>,
+    /// What names stand for in each file, the policy first.
+    files: Vec<Names<'f>>,
+    /// The number of the file that is being written.
+    here: usize,
     states: HashMap<&'f str, StateEntry>,
-    /// Names of laws and derived values whose own check failed.
-    broken: HashSet<&'f str>,
-    /// Names of laws and derived values that are being written into their place of use.
-    writing: Vec<&'f str>,
+    /// Where laws and derived values are named whose own check failed.
+    broken: HashSet<Span>,
+    /// Laws and derived values that are being written into their place of use.
+    writing: Vec<&'f Name>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
     /// The memory that the state being written has declared.
@@ -105,10 +119,8 @@ impl<'f> Compiler<'f> {
         Self {
             code: Code::new(),
             diagnostics: Vec::new(),
-            items: HashMap::new(),
-            globals: HashMap::new(),
-            derived: HashMap::new(),
-            laws: HashMap::new(),
+            files: Vec::new(),
+            here: 0,
             states: HashMap::new(),
             broken: HashSet::new(),
             writing: Vec::new(),
@@ -147,7 +159,7 @@ impl<'f> Compiler<'f> {
             self.report(
                 diagnostic.hint("they are written out where they are used; let fewer of them build on one another"),
             );
-            self.broken.extend(self.writing.iter().copied());
+            self.broken.extend(self.writing.iter().map(|name| name.span));
             return None;
         }
         self.depth += 1;

@@ -4,6 +4,7 @@ use crate::diagnostic::{Diagnostic, Span, suggest};
 use crate::policy::ast::{Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::hint::did_you_mean;
+use crate::policy::standard;
 use crate::policy::types::{Type, Value};
 use crate::units::parse_unit;
 
@@ -46,7 +47,7 @@ impl<'f> Compiler<'f> {
     /// Gives a name to a value in a scope, unless the name is taken: one name means one thing.
     pub(super) fn bind(&mut self, scope: &mut Scope<'f>, name: &'f Name, meaning: Meaning) {
         let before = scope.find(&name.text).map(|(known, _)| known.span);
-        match before.or_else(|| self.items.get(name.text.as_str()).copied()) {
+        match before.or_else(|| self.names().items.get(name.text.as_str()).copied()) {
             _ if is_reserved(&name.text) => self.report(reserved(name)),
             Some(before) => self.report(taken(name, before)),
             None => {}
@@ -59,11 +60,11 @@ impl<'f> Compiler<'f> {
         let message = format!("nothing is called `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
         let text = &name.text;
-        let diagnostic = if self.laws.contains_key(text.as_str()) {
+        let diagnostic = if self.names().laws.contains_key(text.as_str()) {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
         } else if text == "run" {
             diagnostic.hint("only the expectations of a `test` know the run")
-        } else if self.items.contains_key(text.as_str()) {
+        } else if self.names().items.contains_key(text.as_str()) {
             // Everything else that has a name is a value.
             diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
         } else if self.doing.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text)) {
@@ -75,12 +76,12 @@ impl<'f> Compiler<'f> {
                 .hint(format!("`{text}` is a unit: a unit stands behind a number and has no blanks in it: `5 mm/s`"))
         } else {
             let known = scope.names.iter().map(|(known, _)| known.text.as_str());
-            let known = known.chain(self.globals.keys().copied()).chain(self.derived.keys().copied());
+            let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
             let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time"]);
-            let diagnostic = did_you_mean(diagnostic, text, known);
+            let diagnostic = in_the_standard_library(did_you_mean(diagnostic, text, known), text);
             let is_whisker =
                 |(_, meaning): &(&&str, &Meaning)| meaning.is_some_and(|value| value.r#type == Type::Whisker);
-            let whiskers = self.globals.iter().filter(is_whisker).map(|(&known, _)| known);
+            let whiskers = self.names().globals.iter().filter(is_whisker).map(|(&known, _)| known);
             match suggest(text, whiskers) {
                 Some(whisker) => diagnostic
                     .hint(format!("to use another whisker of the rig, bind it too: `whisker {whisker}, {text}`")),
@@ -88,6 +89,16 @@ impl<'f> Compiler<'f> {
             }
         };
         self.report(diagnostic);
+    }
+}
+
+/// Adds the module of the standard library that has `name` to a diagnostic, if there is one.
+pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Diagnostic {
+    match standard::module_with(name) {
+        Some(module) => {
+            diagnostic.hint(format!("the standard library has it: `use {}.{module} ({name})`", standard::ROOT))
+        }
+        None => diagnostic,
     }
 }
 

@@ -7,7 +7,7 @@ use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
 
 use super::Compiler;
-use super::scope::Scope;
+use super::scope::{Scope, in_the_standard_library};
 
 impl<'f> Compiler<'f> {
     /// Writes the code of statements; names given in them end with them.
@@ -103,16 +103,17 @@ impl<'f> Compiler<'f> {
     }
 
     fn apply(&mut self, scope: &Scope<'f>, name: &'f Name, values: &'f [Expression], span: Span) -> Option<()> {
-        let Some(law) = self.laws.get(name.text.as_str()).copied() else {
+        let Some((file, law)) = self.names().laws.get(name.text.as_str()).copied() else {
             let message = format!("there is no law `{}`", name.text);
             let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown law");
-            self.report(did_you_mean(diagnostic, &name.text, self.laws.keys().copied()));
+            let diagnostic = did_you_mean(diagnostic, &name.text, self.names().laws.keys().copied());
+            self.report(in_the_standard_library(diagnostic, &name.text));
             return None;
         };
         let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
-        self.writing.push(&law.name.text);
+        self.writing.push(&law.name);
         let written = self.descend(span, |compiler| {
-            compiler.statements(&mut inner, &law.body);
+            compiler.within(file, |compiler| compiler.statements(&mut inner, &law.body));
             Some(())
         });
         self.writing.pop();

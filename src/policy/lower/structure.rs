@@ -6,26 +6,46 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::{self, Block, Op, Program};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
 use crate::policy::hint::did_you_mean;
+use crate::policy::load::Files;
 use crate::policy::types::{Type, Value};
 use crate::signal::MAX_WHISKERS;
 
 use super::function::count;
-use super::scope::{Meaning, Scope, is_reserved, reserved, taken};
+use super::scope::{Meaning, Scope};
 use super::{Compiler, StateEntry};
 
 /// The target that ends a run in failure; no state may have its name.
 pub(super) const FAILURE: &str = "Failure";
 
-/// Checks a file and writes its program. `None` when it has no state to start in.
-pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Program> {
-    compiler.check_names(file);
-    let parameters = compiler.parameters(file);
-    compiler.whiskers(file);
-    compiler.derived = file.derived.iter().map(|derived| (derived.name.text.as_str(), derived)).collect();
-    compiler.laws = file.laws.iter().map(|law| (law.name.text.as_str(), law)).collect();
-    compiler.check_derived(file);
-    compiler.check_laws(file);
+/// Checks what a policy and its libraries name, and all laws and derived values by themselves. The parameters of the policy.
+pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<machine::Parameter> {
+    compiler.gather_names(files);
+    let parameters = compiler.parameters(&files.main);
+    compiler.whiskers(&files.main);
+    for (number, file) in files.libraries.iter().chain([&files.main]).enumerate() {
+        // The policy has the number 0.
+        compiler.here = (number + 1) % (files.libraries.len() + 1);
+        compiler.check_derived(file);
+        compiler.check_laws(file);
+    }
+    parameters
+}
 
+/// Reports if the program has outgrown its limits, at the item where it did, which may be what stands at `last`.
+pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
+    compiler.watch_growth(last);
+    if let Some(item) = compiler.outgrown {
+        compiler.report(
+            Diagnostic::error("P0402", "the policy grows too large", item, "grows out of bounds here")
+                .hint("laws and derived values are written out wherever they are used; use them in fewer places"),
+        );
+    }
+}
+
+/// Checks a policy and writes its program. `None` when it has no state to start in.
+pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Option<Program> {
+    let parameters = items(compiler, files);
+    let file = &files.main;
     // Every state's arguments need their places before any transition can lead there.
     let scopes: Vec<Scope<'f>> = file.states.iter().map(|state| compiler.declare(state)).collect();
     let mut timers = 0;
@@ -36,15 +56,9 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
     let initial = compiler.initial(file);
     compiler.tests(file, &parameters);
 
-    compiler.watch_growth(file.machine.span);
-    if let Some(item) = compiler.outgrown {
-        compiler.report(
-            Diagnostic::error("P0402", "the policy grows too large", item, "grows out of bounds here")
-                .hint("laws and derived values are written out wherever they are used; use them in fewer places"),
-        );
-    }
+    growth(compiler, file.name.span);
     Some(Program {
-        name: file.machine.text.clone(),
+        name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
         parameters,
         states,
@@ -57,23 +71,6 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
 }
 
 impl<'f> Compiler<'f> {
-    /// One name means one thing in the whole file.
-    fn check_names(&mut self, file: &'f File) {
-        let parameters = file.parameters.iter().map(|parameter| &parameter.name);
-        let derived = file.derived.iter().map(|derived| &derived.name);
-        let laws = file.laws.iter().map(|law| &law.name);
-        let states = file.states.iter().map(|state| &state.name);
-        for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states) {
-            if is_reserved(&name.text) {
-                self.report(reserved(name));
-            } else if let Some(&before) = self.items.get(name.text.as_str()) {
-                self.report(taken(name, before));
-            } else {
-                self.items.insert(&name.text, name.span);
-            }
-        }
-    }
-
     fn parameters(&mut self, file: &'f File) -> Vec<machine::Parameter> {
         let mut parameters = Vec::new();
         for parameter in &file.parameters {
@@ -84,7 +81,7 @@ impl<'f> Compiler<'f> {
                 parameters.push(checked);
                 Value { r#type, register }
             });
-            self.globals.insert(&parameter.name.text, meaning);
+            self.names_mut().globals.insert(&parameter.name.text, meaning);
         }
         parameters
     }
@@ -97,7 +94,7 @@ impl<'f> Compiler<'f> {
         }
         for (index, whisker) in file.whiskers.iter().enumerate() {
             let register = self.code.constant(index as f64);
-            self.globals.insert(&whisker.text, Some(Value { r#type: Type::Whisker, register }));
+            self.names_mut().globals.insert(&whisker.text, Some(Value { r#type: Type::Whisker, register }));
         }
     }
 
@@ -122,15 +119,15 @@ impl<'f> Compiler<'f> {
     fn check(&mut self, name: &'f Name, arguments: &'f [Argument], write: impl FnOnce(&mut Self, &mut Scope<'f>)) {
         let (mark, faults) = (self.code.mark(), self.diagnostics.len());
         let mut scope = self.scope_of_arguments(arguments);
-        if !self.broken.contains(name.text.as_str()) {
-            self.writing.push(&name.text);
+        if !self.broken.contains(&name.span) {
+            self.writing.push(name);
             write(self, &mut scope);
             self.writing.pop();
         }
         self.watch_growth(name.span);
         self.code.rewind(mark);
         if self.diagnostics.len() > faults {
-            self.broken.insert(&name.text);
+            self.broken.insert(name.span);
         }
     }
 
@@ -270,7 +267,7 @@ impl<'f> Compiler<'f> {
             let (takes, given) = (count(arguments.len()), target.values.len());
             let message = format!("the state `{}` takes {takes}, not {given}", target.name.text);
             let mut diagnostic = Diagnostic::error("P0304", message, target.span, "entered here");
-            if let Some(&made) = self.items.get(target.name.text.as_str()) {
+            if let Some(&made) = self.names().items.get(target.name.text.as_str()) {
                 diagnostic = diagnostic.note(made, "made here");
             }
             self.report(diagnostic.hint(format!("write `{}{usage}`", target.name.text)));
@@ -317,7 +314,7 @@ impl<'f> Compiler<'f> {
                 _ => Diagnostic::error(
                     "P0404",
                     "the machine has no initial state",
-                    file.machine.span,
+                    file.name.span,
                     "where does it start?",
                 )
                 .hint("write `initial` and the name of a state"),

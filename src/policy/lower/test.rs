@@ -40,7 +40,7 @@ impl<'f> Compiler<'f> {
 
     fn setting(&mut self, (name, value): &'f (Name, Bound), parameters: &[Parameter]) -> Option<(usize, f64)> {
         let (value_si, dimension) = self.bound(value, None)?;
-        if let Some(None) = self.globals.get(name.text.as_str()) {
+        if let Some(None) = self.names().globals.get(name.text.as_str()) {
             // The parameter is at fault, which has been reported.
             return None;
         }
@@ -53,7 +53,7 @@ impl<'f> Compiler<'f> {
         };
         if let Err(error) = parameters[index].check(value_si, dimension) {
             let diagnostic = Diagnostic::error("P0306", error.to_string(), value.span, "cannot be set");
-            self.report(match self.items.get(name.text.as_str()) {
+            self.report(match self.names().items.get(name.text.as_str()) {
                 Some(&made) => diagnostic.note(made, "the parameter"),
                 None => diagnostic,
             });

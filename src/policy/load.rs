@@ -1,0 +1,182 @@
+//! A policy with all files that it uses.
+
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
+
+use super::ast::{File, Use};
+use super::parse::parse;
+use super::path::{is_same, resolve, standard};
+
+/// The most files that a policy may consist of.
+const FILE_LIMIT: usize = 64;
+/// The most bytes that all of them may have.
+const TEXT_LIMIT: usize = 1 << 20;
+
+/// Gives the text of a file by its path, or says why it cannot.
+pub type Library<'l> = dyn FnMut(&str) -> Result<String, String> + 'l;
+
+/// The files of a policy, read.
+pub(super) struct Loaded {
+    /// All texts.
+    pub(super) source: Source,
+    /// The syntax trees, the policy's first; `None` for what cannot be read.
+    files: Vec<Option<File>>,
+    /// For every `use` of every file, the index of the file that it means.
+    links: Vec<Vec<Option<usize>>>,
+    pub(super) faults: Vec<Diagnostic>,
+}
+
+/// Files that fit together: what they use is there and is a library, and none uses itself.
+pub(super) struct Files {
+    /// The policy, or the library, that was asked for.
+    pub(super) main: File,
+    /// What it uses, and what that uses.
+    pub(super) libraries: Vec<File>,
+    /// For every `use` of every file, the index of the library that it means.
+    pub(super) links: Vec<Vec<usize>>,
+}
+
+/// Reads a policy's text and, in `library`, those of the files that it uses and that are no parts of the source yet.
+pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
+    let mut loaded = Loaded { source: source.clone(), files: Vec::new(), links: Vec::new(), faults: Vec::new() };
+    while loaded.files.len() < loaded.source.count() {
+        let index = loaded.files.len();
+        let span = loaded.source.part_span(index);
+        let part = Source::new(loaded.source.part_name(index), loaded.source.slice(span));
+        let file = match (loaded.source.absence(index), parse(&part, span.start)) {
+            (None, Ok(file)) => Some(file),
+            (None, Err(fault)) => {
+                loaded.report(*fault);
+                None
+            }
+            (Some(_), _) => None,
+        };
+        let uses = file.iter().flat_map(|file| &file.uses);
+        let links = uses.map(|used| loaded.link(&part.name, used, library)).collect();
+        loaded.links.push(links);
+        loaded.files.push(file);
+    }
+    loaded
+}
+
+impl Loaded {
+    fn report(&mut self, fault: Diagnostic) {
+        if self.faults.len() < FAULT_LIMIT {
+            self.faults.push(fault);
+        }
+    }
+
+    /// The index of the file that `used` means in the file called `using`.
+    fn link(&mut self, using: &str, used: &Use, library: &mut Library<'_>) -> Option<usize> {
+        let name = resolve(using, used).map_err(|fault| self.report(fault)).ok()?;
+        let known = (0..self.source.count()).find(|&index| match index {
+            0 => is_same(self.source.part_name(0), &name),
+            _ => self.source.part_name(index) == name,
+        });
+        let index = known.or_else(|| {
+            if self.source.count() >= FILE_LIMIT {
+                let message = format!("the policy consists of more than {FILE_LIMIT} files");
+                self.report(Diagnostic::error("P0602", message, used.span, "one too many").hint("join some of them"));
+                return None;
+            }
+            let text = standard(&name).map_or_else(|| library(&name), |text| Ok(text.to_owned()));
+            let full = "with it, the policy would have more than 1 MiB of text";
+            let fits = |text: String| {
+                if self.source.text.len() + text.len() < TEXT_LIMIT { Ok(text) } else { Err(full.to_owned()) }
+            };
+            let text = text.and_then(fits);
+            self.source.add(&name, text.as_deref().map_err(Clone::clone));
+            Some(self.source.count() - 1)
+        })?;
+        if let Some(reason) = self.source.absence(index) {
+            let message = format!("cannot use `{name}`");
+            let fault = Diagnostic::error("P0602", message, used.span, reason);
+            self.report(fault.hint("a path leads from the file that it stands in to another"));
+            return None;
+        }
+        Some(index)
+    }
+
+    /// The files, if they fit together.
+    pub(super) fn files(mut self) -> Result<(Source, Files), (Source, Vec<Diagnostic>)> {
+        let uses: Vec<Vec<Use>> =
+            self.files.iter().map(|file| file.as_ref().map_or_else(Vec::new, |file| file.uses.clone())).collect();
+        for (used, link) in uses.iter().flatten().zip(self.links.clone().into_iter().flatten()) {
+            if let Some(index @ 1..) = link
+                && let Some(Some(file)) = self.files.get(index)
+                && !file.is_library
+            {
+                let message = format!("`{}` is a machine, not a library", self.source.part_name(index));
+                let fault =
+                    Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, "a machine");
+                self.report(fault.hint("put what both need into a file that begins with `library` and a name"));
+            }
+        }
+        if let Some(fault) = self.cycle(&uses) {
+            self.report(fault);
+        }
+        let misplaced: Vec<Diagnostic> = self.files.iter().flatten().filter_map(misplaced).collect();
+        misplaced.into_iter().for_each(|fault| self.report(fault));
+        let links: Option<Vec<Vec<usize>>> = self
+            .links
+            .iter()
+            .map(|links| links.iter().map(|link| link.and_then(|index| index.checked_sub(1))).collect())
+            .collect();
+        let files: Option<Vec<File>> = self.files.into_iter().collect();
+        match (files, links) {
+            (Some(mut files), Some(links)) if self.faults.is_empty() && !files.is_empty() => {
+                let main = files.remove(0);
+                Ok((self.source, Files { main, libraries: files, links }))
+            }
+            _ => {
+                self.faults.sort_by_key(|fault| (fault.primary.span.start, fault.code));
+                Err((self.source, self.faults))
+            }
+        }
+    }
+
+    /// The first way from a file through others back to itself.
+    fn cycle(&self, uses: &[Vec<Use>]) -> Option<Diagnostic> {
+        let mut is_done = vec![false; self.files.len()];
+        // The way from the first file to the one at hand: files, and how many of their uses have been followed.
+        let mut way = vec![(0, 0)];
+        while let Some((file, followed)) = way.last_mut() {
+            let (file, next) = (*file, *followed);
+            *followed += 1;
+            let Some(link) = self.links.get(file)?.get(next) else {
+                is_done[file] = true;
+                way.pop();
+                continue;
+            };
+            let Some(used) = *link else { continue };
+            if let Some(first) = way.iter().position(|&(file, _)| file == used) {
+                let names = way[first..].iter().map(|&(file, _)| file).chain([used]);
+                let names: Vec<String> = names.map(|file| format!("`{}`", self.source.part_name(file))).collect();
+                let message = format!("a file uses itself: {}", names.join(" uses "));
+                let place = uses.get(file)?.get(next)?.span;
+                return Some(
+                    Diagnostic::error("P0604", message, place, "leads back")
+                        .hint("put what both need into a third file, and use that in both"),
+                );
+            }
+            if !is_done[used] {
+                way.push((used, 0));
+            }
+        }
+        None
+    }
+}
+
+/// What stands in a library and can only stand in a machine.
+fn misplaced(file: &File) -> Option<Diagnostic> {
+    let parameters = file.parameters.iter().map(|parameter| parameter.name.span);
+    let states = file.states.iter().map(|state| state.name.span);
+    let names = file.whiskers.iter().chain(&file.initial).map(|name| name.span);
+    let rules = file.always.iter().map(|rule| rule.target.span);
+    let tests = file.tests.iter().map(|test| test.title.span);
+    let first: Span = parameters.chain(states).chain(names).chain(rules).chain(tests).min_by_key(|span| span.start)?;
+    file.is_library.then(|| {
+        Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")
+            .note(file.name.span, "a library")
+            .hint("give a law what it needs as arguments; states, whiskers, parameters and tests are the machine's")
+    })
+}

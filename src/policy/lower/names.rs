@@ -1,0 +1,132 @@
+//! What names stand for in each file: its own items, and those that it uses.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::ast::{Derived, File, Law, Name, Use};
+use crate::policy::hint::did_you_mean;
+use crate::policy::load::Files;
+
+use super::Compiler;
+use super::scope::{Meaning, is_reserved, reserved, taken};
+
+/// What names stand for in one file.
+#[derive(Debug, Default)]
+pub(super) struct Names<'f> {
+    /// Where each item is named.
+    pub(super) items: HashMap<&'f str, Span>,
+    /// Parameters and whiskers.
+    pub(super) globals: HashMap<&'f str, Meaning>,
+    /// Derived values and laws, each with the number of the file that it stands in.
+    pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
+    pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
+}
+
+impl<'f> Compiler<'f> {
+    /// What names stand for in the file that is being written.
+    pub(super) fn names(&self) -> &Names<'f> {
+        &self.files[self.here]
+    }
+
+    pub(super) fn names_mut(&mut self) -> &mut Names<'f> {
+        &mut self.files[self.here]
+    }
+
+    /// Writes something of another file.
+    pub(super) fn within<T>(&mut self, file: usize, write: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.here, file);
+        let written = write(self);
+        self.here = before;
+        written
+    }
+
+    /// Gathers what names stand for in all files; the policy's comes first.
+    pub(super) fn gather_names(&mut self, files: &'f Files) {
+        let all: Vec<&'f File> = std::iter::once(&files.main).chain(&files.libraries).collect();
+        self.files.resize_with(all.len(), Names::default);
+        for (number, file) in all.iter().enumerate() {
+            self.within(number, |compiler| compiler.own_names(number, file));
+        }
+        for (number, file) in all.iter().enumerate() {
+            for (used, &library) in file.uses.iter().zip(files.links.get(number).into_iter().flatten()) {
+                if let Some(other) = files.libraries.get(library) {
+                    self.within(number, |compiler| compiler.import(used, library + 1, other));
+                }
+            }
+        }
+    }
+
+    /// One name means one thing in a file.
+    fn own_names(&mut self, number: usize, file: &'f File) {
+        let parameters = file.parameters.iter().map(|parameter| &parameter.name);
+        let derived = file.derived.iter().map(|derived| &derived.name);
+        let laws = file.laws.iter().map(|law| &law.name);
+        let states = file.states.iter().map(|state| &state.name);
+        for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states) {
+            if is_reserved(&name.text) {
+                self.report(reserved(name));
+            } else if let Some(&before) = self.names().items.get(name.text.as_str()) {
+                self.report(taken(name, before));
+            } else {
+                self.names_mut().items.insert(&name.text, name.span);
+            }
+        }
+        let names = self.names_mut();
+        names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
+        names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
+    }
+
+    /// Makes the items of the library `other`, which is file `number`, known where it is used.
+    fn import(&mut self, used: &'f Use, number: usize, other: &'f File) {
+        let own = || other.derived.iter().map(|item| &item.name).chain(other.laws.iter().map(|item| &item.name));
+        let chosen: Vec<(&'f Name, Span)> = match &used.names {
+            None => own().map(|name| (name, used.span)).collect(),
+            Some(names) => names.iter().filter_map(|name| self.choose(name, other, own())).collect(),
+        };
+        for (name, place) in chosen {
+            match self.names().items.get(name.text.as_str()) {
+                Some(&before) if before != name.span => {
+                    let message = format!("the name `{}` is given twice", name.text);
+                    let fault = Diagnostic::error("P0202", message, place, format!("brings `{}`", name.text))
+                        .note(before, "given here")
+                        .note(name.span, "and here");
+                    let hint = match &used.names {
+                        None => {
+                            "write behind it, in parentheses, the names that are needed: `use \u{2026} (name, name)`"
+                        }
+                        Some(_) => "leave it out of the list, or call the other by another name",
+                    };
+                    self.report(fault.hint(hint));
+                }
+                _ => {
+                    let text = name.text.as_str();
+                    let derived = other.derived.iter().find(|item| item.name.span == name.span);
+                    let law = other.laws.iter().find(|item| item.name.span == name.span);
+                    let names = self.names_mut();
+                    names.items.insert(text, name.span);
+                    names.derived.extend(derived.map(|item| (text, (number, item))));
+                    names.laws.extend(law.map(|item| (text, (number, item))));
+                }
+            }
+        }
+    }
+
+    /// What a name in the list of a `use` means.
+    fn choose(
+        &mut self,
+        name: &'f Name,
+        other: &File,
+        own: impl Iterator<Item = &'f Name>,
+    ) -> Option<(&'f Name, Span)> {
+        let own: Vec<&'f Name> = own.collect();
+        let found = own.iter().find(|known| known.text == name.text).map(|&known| (known, name.span));
+        if found.is_none() {
+            let message = format!("the library `{}` has no `{}`", other.name.text, name.text);
+            let known = own.iter().map(|known| known.text.as_str());
+            let fault = Diagnostic::error("P0205", message, name.span, "unknown name");
+            let list = known.clone().map(|known| format!("`{known}`")).collect::<Vec<_>>().join(", ");
+            self.report(did_you_mean(fault, &name.text, known).hint(format!("it has {list}")));
+        }
+        found
+    }
+}

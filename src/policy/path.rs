@@ -1,0 +1,115 @@
+//! What a `use` leads to.
+
+use crate::diagnostic::Diagnostic;
+
+use super::ast::{From, Use};
+use super::hint::did_you_mean;
+use super::standard::{MODULES, ROOT, text};
+
+/// The name of the file that `used` means in the file `using`: `std.` and a module, or a path. Paths are told apart by how
+/// they are written: links of the file system make no difference.
+pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Diagnostic> {
+    match &used.from {
+        From::Path(path) => match fault(path) {
+            None => Ok(join(using, path)),
+            Some(fault) => {
+                let message = format!("`{path}` is no path of a library");
+                Err(Diagnostic::error("P0601", message, used.span, fault)
+                    .hint("a path leads from this file to another, such as \"laws/corner.fsm\" or \"../corner.fsm\""))
+            }
+        },
+        From::Module(names) => {
+            let known = MODULES.map(|(module, _)| format!("{ROOT}.{module}"));
+            let written = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".");
+            if known.contains(&written) {
+                return Ok(written);
+            }
+            let message = format!("there is no module `{written}`");
+            let diagnostic = Diagnostic::error("P0601", message, used.span, "unknown module");
+            let diagnostic = did_you_mean(diagnostic, &written, known.iter().map(String::as_str));
+            Err(diagnostic
+                .hint(format!("the standard library has {}", known.map(|module| format!("`{module}`")).join(", ")))
+                .hint("a file of your own stands in quotes: `use \"laws/corner.fsm\"`"))
+        }
+    }
+}
+
+/// The text of the standard module that a name means.
+pub(super) fn standard(name: &str) -> Option<&'static str> {
+    text(name.strip_prefix(ROOT)?.strip_prefix('.')?)
+}
+
+/// What is wrong with a path.
+fn fault(path: &str) -> Option<&'static str> {
+    if path.contains(['\\', ':']) || path.contains(char::is_control) {
+        Some("a path has `/` between its folders, and no `\\` or `:`")
+    } else if path.starts_with('/') {
+        Some("a path begins at the file that it stands in, not at the root")
+    } else if path.split('/').any(|part| part.trim() != part || part.is_empty()) {
+        Some("a folder or the file has no name, or blanks around it")
+    } else if !path.ends_with(".fsm") {
+        Some("a library's file ends in `.fsm`")
+    } else {
+        None
+    }
+}
+
+/// The path `path` as seen from where the path of the file `using` is seen from.
+fn join(using: &str, path: &str) -> String {
+    let (root, using) = using.strip_prefix('/').map_or(("", using), |rest| ("/", rest));
+    let folder = using.rsplit_once('/').map_or("", |(folder, _)| folder);
+    format!("{root}{}", plain(folder.split('/').chain(path.split('/'))))
+}
+
+/// Whether two names mean the same file.
+pub(super) fn is_same(name: &str, other: &str) -> bool {
+    plain(name.split('/')) == plain(other.split('/'))
+}
+
+/// A path without `.` and without any `..` that a folder stands before.
+fn plain<'p>(parts: impl Iterator<Item = &'p str>) -> String {
+    let mut plain: Vec<&str> = Vec::new();
+    for part in parts {
+        match (part, plain.last()) {
+            ("" | ".", _) => {}
+            ("..", Some(&last)) if last != ".." => {
+                plain.pop();
+            }
+            _ => plain.push(part),
+        }
+    }
+    plain.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_leads_from_the_file_that_it_stands_in() {
+        for (using, path, joined) in [
+            ("a.fsm", "b.fsm", "b.fsm"),
+            ("policies/a.fsm", "laws/b.fsm", "policies/laws/b.fsm"),
+            ("policies/a.fsm", "../b.fsm", "b.fsm"),
+            ("policies/a.fsm", "../../b.fsm", "../b.fsm"),
+            ("../a.fsm", "../b.fsm", "../../b.fsm"),
+            ("./a.fsm", "./b.fsm", "b.fsm"),
+            ("/home/a.fsm", "laws/b.fsm", "/home/laws/b.fsm"),
+            ("standard input", "b.fsm", "b.fsm"),
+        ] {
+            assert_eq!(join(using, path), joined);
+        }
+    }
+
+    #[test]
+    fn what_is_no_plain_path_is_refused() {
+        for path in
+            ["", "/b.fsm", "a//b.fsm", "a\\b.fsm", "https://a/b.fsm", "C:/b.fsm", " b.fsm", "b", "a/", "b\t.fsm"]
+        {
+            assert!(fault(path).is_some(), "{path}");
+        }
+        for path in ["b.fsm", "../b.fsm", "./b.fsm", "my laws/b.fsm", "\u{fc}ber.fsm"] {
+            assert!(fault(path).is_none(), "{path}");
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! The standard library: laws and derived values that are part of the program.
+
+/// What every module's name begins with.
+pub(super) const ROOT: &str = "std";
+
+/// The modules, in the order of the alphabet, with their texts.
+pub(super) const MODULES: [(&str, &str); 4] = [
+    ("guards", include_str!("../../policies/std/guards.fsm")),
+    ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
+    ("swipe", include_str!("../../policies/std/swipe.fsm")),
+    ("tunnel", include_str!("../../policies/std/tunnel.fsm")),
+];
+
+/// The text of a module.
+pub(super) fn text(module: &str) -> Option<&'static str> {
+    MODULES.iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
+}
+
+/// The module that has a law or derived value of this name.
+pub(super) fn module_with(name: &str) -> Option<&'static str> {
+    let gives = |line: &str| {
+        let rest = line.strip_prefix("law ").or_else(|| line.strip_prefix("let "));
+        rest.and_then(|rest| rest.strip_prefix(name)).is_some_and(|rest| rest.starts_with(['(', ' ']))
+    };
+    MODULES.iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)
+}
