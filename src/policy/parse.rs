@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
     Argument, Binary, Bound, Derived, Expression, File, Guard, Kind, Law, Name, Parameter, Quantity, State, Statement,
-    Steer, Target, Transition, Turn, TypeName,
+    Steer, Step, Target, Transition, Turn, TypeName,
 };
 use super::grammar::{self, Rule};
 
@@ -53,7 +53,7 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
                 arguments: arguments(&mut reader)?,
                 body: block(reader.take(Rule::block)?)?,
             }),
-            Rule::state => file.states.push(state(&mut reader)?),
+            Rule::state => state(&mut reader, None, &mut file.states)?,
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             _ => {}
         }
@@ -107,12 +107,21 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     Ok(arguments)
 }
 
-fn state(reader: &mut Reader<'_>) -> Parsed<State> {
+/// Adds a state and those in it to `states`.
+fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
     let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut state = State { name, arguments, memory, entry, exit, body, transitions };
+    let initial = Vec::new();
+    let own = states.len();
+    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions });
     while let Ok(pair) = reader.next() {
+        if pair.as_rule() == Rule::state {
+            self::state(&mut Reader::new(pair), Some(own), states)?;
+            continue;
+        }
+        let state = &mut states[own];
         match pair.as_rule() {
+            Rule::start => state.initial.push(step(pair)?),
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
             Rule::memory => {
                 let mut memory = Reader::new(pair);
@@ -123,7 +132,14 @@ fn state(reader: &mut Reader<'_>) -> Parsed<State> {
             _ => state.body.push(statement(pair)?),
         }
     }
-    Ok(state)
+    Ok(())
+}
+
+fn step(pair: Pair<'_, Rule>) -> Parsed<Step> {
+    let span = place(&pair);
+    let mut reader = Reader::new(pair);
+    let name = reader.name()?;
+    Ok(Step { span: name.span.to(span), name, values: reader.values()?.unwrap_or_default() })
 }
 
 fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
@@ -135,18 +151,31 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
         _ if reader.has(Rule::expression) => Guard::When { condition: first, lasting: Some(reader.expression()?) },
         _ => Guard::When { condition: first, lasting: None },
     };
-    let pair = reader.take(Rule::target)?;
+    Ok(Transition { guard, target: target(reader.take(Rule::target)?)? })
+}
+
+fn target(pair: Pair<'_, Rule>) -> Parsed<Target> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
+    let resume = if reader.has(Rule::kw_resume) { Some(place(&reader.next()?)) } else { None };
     let name = reader.name()?;
-    let text = if reader.has(Rule::text_argument) {
+    if reader.has(Rule::text_argument) {
         let mut text = Reader::new(reader.take(Rule::text_argument)?);
-        Some(named(&Reader::new(text.take(Rule::text)?).take(Rule::text_inner)?))
-    } else {
-        None
-    };
-    let values = reader.values()?.unwrap_or_default();
-    Ok(Transition { guard, target: Target { name, text, values, span } })
+        let text = named(&Reader::new(text.take(Rule::text)?).take(Rule::text_inner)?);
+        return Ok(Target { resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
+    }
+    let mut last = Step { span: name.span, name, values: Vec::new() };
+    if reader.has(Rule::values) {
+        let pair = reader.next()?;
+        last.span = last.span.to(place(&pair));
+        last.values = values(pair)?;
+    }
+    let mut outer = Vec::new();
+    while reader.has(Rule::inner) {
+        outer.push(std::mem::replace(&mut last, step(reader.take(Rule::inner)?)?));
+    }
+    let Step { name, values, .. } = last;
+    Ok(Target { resume, outer, name, text: None, values, span })
 }
 
 fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
@@ -356,16 +385,17 @@ impl<'i> Reader<'i> {
     }
 
     fn values(&mut self) -> Parsed<Option<Vec<Expression>>> {
-        if !self.has(Rule::values) {
-            return Ok(None);
-        }
-        let mut reader = Reader::new(self.take(Rule::values)?);
-        let mut values = Vec::new();
-        while reader.has(Rule::expression) {
-            values.push(reader.expression()?);
-        }
-        Ok(Some(values))
+        if self.has(Rule::values) { values(self.next()?).map(Some) } else { Ok(None) }
     }
+}
+
+fn values(pair: Pair<'_, Rule>) -> Parsed<Vec<Expression>> {
+    let mut reader = Reader::new(pair);
+    let mut values = Vec::new();
+    while reader.has(Rule::expression) {
+        values.push(reader.expression()?);
+    }
+    Ok(values)
 }
 
 /// Whether a pair is a word or a sign that only marks a place.

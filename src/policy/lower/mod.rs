@@ -6,10 +6,12 @@
 mod code;
 mod expression;
 mod function;
+mod hierarchy;
 mod parameter;
 mod scope;
 mod statement;
 mod structure;
+mod target;
 
 use std::collections::{HashMap, HashSet};
 
@@ -20,6 +22,7 @@ use super::ast::{Argument, Derived, File, Law, Statement, TypeName};
 use super::hint::did_you_mean;
 use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
+use hierarchy::Hierarchy;
 use scope::{Meaning, Scope};
 
 /// A program, and what else is known of it once it is written.
@@ -74,13 +77,14 @@ struct Compiler<'f> {
     derived: HashMap<&'f str, &'f Derived>,
     laws: HashMap<&'f str, &'f Law>,
     states: HashMap<&'f str, StateEntry>,
+    hierarchy: Hierarchy<'f>,
     /// Names of laws and derived values whose own check failed.
     broken: HashSet<&'f str>,
     /// Names of laws and derived values that are being written into their place of use.
     writing: Vec<&'f str>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
-    /// The memory that the state being written has declared.
+    /// The memory that the state being written and its outer states have declared.
     variables: Vec<&'f str>,
     /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
     memories: Vec<(Register, u16)>,
@@ -103,6 +107,7 @@ impl<'f> Compiler<'f> {
             derived: HashMap::new(),
             laws: HashMap::new(),
             states: HashMap::new(),
+            hierarchy: Hierarchy::default(),
             broken: HashSet::new(),
             writing: Vec::new(),
             doing: &[],
@@ -150,14 +155,19 @@ impl<'f> Compiler<'f> {
     /// A scope in which `arguments` stand for values that are not known yet.
     fn scope_of_arguments(&mut self, arguments: &'f [Argument]) -> Scope<'f> {
         let mut scope = Scope::default();
+        self.bind_arguments(&mut scope, arguments);
+        scope
+    }
+
+    /// Adds `arguments`, whose values are not known yet, to a scope.
+    fn bind_arguments(&mut self, scope: &mut Scope<'f>, arguments: &'f [Argument]) {
         for argument in arguments {
             let meaning = self.type_of(&argument.type_name).map(|r#type| {
                 let register = self.code.place(r#type.width());
                 Value { r#type, register }
             });
-            self.bind(&mut scope, &argument.name, meaning);
+            self.bind(scope, &argument.name, meaning);
         }
-        scope
     }
 
     /// The type that a name names, if it names one.
