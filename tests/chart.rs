@@ -16,6 +16,14 @@ const THESIS: &str = include_str!("../policies/thesis.fsm");
 /// Ten states with all that makes a chart hard to draw.
 const HARD: &str = include_str!("fixtures/charts/hard.fsm");
 
+fn state(name: &str, parent: Option<usize>, initial: bool) -> State {
+    State { name: name.to_owned(), arguments: Vec::new(), parent, initial, values: Vec::new() }
+}
+
+fn into(state: usize, values: Vec<String>) -> Target {
+    Target::State { state, outer: Vec::new(), values, resume: false }
+}
+
 fn chart_of(text: &str) -> Chart {
     chart(&Source::new("policy.fsm", text)).unwrap()
 }
@@ -47,8 +55,11 @@ fn agree(chart: &Chart, origin: Origin, machine: &[machine::Transition]) {
     for (drawn, compiled) in of_origin.into_iter().zip(machine) {
         match (&drawn.target, &compiled.target) {
             (Target::Failure(drawn), machine::Target::Failure(compiled)) => assert_eq!(**drawn, **compiled),
-            (Target::State { state, values }, machine::Target::State { state: compiled, .. }) => {
-                assert_eq!(state, compiled);
+            (
+                Target::State { state, values, resume, .. },
+                machine::Target::State { state: compiled, resume: resumes, .. },
+            ) => {
+                assert_eq!((state, resume), (compiled, resumes));
                 assert_eq!(values.len(), chart.states[*state].arguments.len());
             }
             others => panic!("{others:?}"),
@@ -94,7 +105,7 @@ fn expressions_are_on_one_line_without_comments() {
     let condition = "not(w.touching) and 1 < 2".to_owned();
     assert_eq!(chart.transitions[0].guard, Guard::When { condition, lasting: Some("100 ms".to_owned()) });
     let values = vec!["vector(1 m, -2 m)".to_owned(), "w".to_owned()];
-    assert_eq!(chart.transitions[0].target, Target::State { state: 1, values });
+    assert_eq!(chart.transitions[0].target, into(1, values));
     assert_eq!(chart.states[1].arguments[0].type_name, "vector of length");
     assert_eq!(chart.transitions[1].guard, Guard::After("2 * 1 s".to_owned()));
     assert_eq!(chart.transitions[1].target, Target::Failure("a  #  b".to_owned()));
@@ -252,7 +263,7 @@ fn hostile_texts_stay_texts() {
     let condition = hostile.to_owned();
     let chart = Chart {
         machine: "m".to_owned(),
-        states: vec![State { name: "S".to_owned(), arguments: Vec::new(), parent: None, initial: true }],
+        states: vec![state("S", None, true)],
         transitions: vec![Transition {
             origin: Origin::State(0),
             guard: Guard::When { condition, lasting: None },
@@ -285,7 +296,6 @@ fn hostile_texts_stay_texts() {
 
 #[test]
 fn nested_states_are_drawn_as_such() {
-    let state = |name: &str, parent, initial| State { name: name.to_owned(), arguments: Vec::new(), parent, initial };
     let chart = Chart {
         machine: "m".to_owned(),
         states: vec![state("Outer", None, true), state("Inner", Some(0), true), state("Other", None, false)],
@@ -320,22 +330,22 @@ fn charts() -> impl Strategy<Value = Chart> {
             let count = names.len();
             let initial = initial.index(count);
             let argument = |k: usize| Argument { name: format!("a{k}"), type_name: "vector of length".to_owned() };
-            let state = |(k, name): (usize, String)| {
+            let numbered = |(k, name): (usize, String)| {
                 let arguments = (0..k % 4).map(argument).collect();
-                State { name: format!("{name}{k}"), arguments, parent: None, initial: k == initial }
+                State { arguments, ..state(&format!("{name}{k}"), None, k == initial) }
             };
             let transition = |(from, to, text, lasting): (usize, usize, String, Option<String>)| Transition {
                 origin: if from >= 12 { Origin::AnyState } else { Origin::State(from % count) },
                 target: if to >= 12 {
                     Target::Failure(text.clone())
                 } else {
-                    Target::State { state: to % count, values: vec![text.clone(); (to % count) % 4] }
+                    into(to % count, vec![text.clone(); (to % count) % 4])
                 },
                 guard: Guard::When { condition: text, lasting },
             };
             Chart {
                 machine: "m".to_owned(),
-                states: names.into_iter().enumerate().map(state).collect(),
+                states: names.into_iter().enumerate().map(numbered).collect(),
                 transitions: transitions.into_iter().map(transition).collect(),
             }
         },

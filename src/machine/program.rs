@@ -12,6 +12,8 @@ use super::op::{Block, Op, Register};
 pub const CODE_LIMIT: usize = 50_000;
 /// The most registers that a program may have.
 pub const REGISTER_LIMIT: usize = 60_000;
+/// How many states may lie in one another, so that a tick has a bounded number of them to see to.
+pub const NESTING_LIMIT: usize = 8;
 
 /// A compiled policy.
 ///
@@ -26,7 +28,7 @@ pub struct Program {
     pub whiskers: Vec<String>,
     /// The parameters; the one with index `i` lives in register `i`.
     pub parameters: Vec<Parameter>,
-    /// The states.
+    /// The states; an outer state comes before the states in it.
     pub states: Vec<State>,
     /// Index of the state that a run starts in.
     pub initial: usize,
@@ -58,6 +60,10 @@ pub struct Parameter {
 pub struct State {
     /// Its name.
     pub name: Arc<str>,
+    /// Index of the state that it lies in, which is less than its own.
+    pub parent: Option<usize>,
+    /// Index of the inner state that it begins in, and what computes that one's arguments; `None` if no state lies in it.
+    pub initial: Option<(usize, Block)>,
     /// What it does when it is entered, before anything else: sets its memory.
     pub entry: Block,
     /// What it does every tick.
@@ -113,8 +119,10 @@ pub enum Target {
     State {
         /// Its index.
         state: usize,
-        /// Computes the arguments and puts them where the state reads them.
+        /// Computes the arguments, of outer states that are entered with it too, and puts them where the states read them.
         arguments: Block,
+        /// Whether it goes on in the inner state that was active last, if there was one, and not in its initial one.
+        resume: bool,
     },
     /// To the end of the run, in failure, for this reason.
     Failure(Arc<str>),
@@ -176,12 +184,41 @@ impl Guard {
 
 impl Program {
     /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the state
-    /// does. Jumps only lead forward, so that a block never does more operations than it has.
+    /// does, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
-        let state = &self.states[state];
-        let guards = self.always.iter().chain(&state.transitions).map(|transition| transition.guard.code().len());
-        guards.sum::<usize>() + state.body.len()
+        let guards = |transitions: &[Transition]| {
+            transitions.iter().map(|transition| transition.guard.code().len()).sum::<usize>()
+        };
+        let active = self.outward(state).map(|state| &self.states[state]);
+        guards(&self.always) + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
+    }
+
+    /// The state with this index and those that it lies in, the innermost first.
+    pub fn outward(&self, state: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(state), |&state| self.states[state].parent)
+    }
+
+    /// Whether the state `inner` is the state `outer` or lies in it.
+    #[must_use]
+    pub fn contains(&self, outer: usize, inner: usize) -> bool {
+        self.outward(inner).any(|state| state == outer)
+    }
+
+    /// The innermost of the states that stay active when a transition of the state `from`, or of any state, leads to `target`:
+    /// it contains both, and is not the target.
+    #[must_use]
+    pub fn stays(&self, from: Option<usize>, target: usize) -> Option<usize> {
+        let from = from?;
+        self.outward(target).skip(1).find(|&outer| self.contains(outer, from))
+    }
+
+    /// Whether a transition of the state `from`, or of any state, has led where it leads already while the innermost active
+    /// state is `active`: it stands outside of its target, and that is active.
+    #[must_use]
+    pub fn is_settled(&self, from: Option<usize>, target: usize, active: usize) -> bool {
+        let from_outside = from.is_none_or(|from| from != target && self.contains(from, target));
+        from_outside && self.contains(target, active)
     }
 
     /// Sets the parameter `name` to `value` (SI), which has the dimension `dimension`.

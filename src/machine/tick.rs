@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::action::Action;
 use super::evaluate::evaluate;
-use super::program::{Guard, Program, Target, Transition};
+use super::program::{Guard, NESTING_LIMIT, Program, Target, Transition};
 use super::senses::Senses;
 
 /// The most transitions that one tick takes; a policy that wants more fails.
@@ -18,12 +18,15 @@ pub(crate) const TIME_SLACK: f64 = 1e-9;
 pub struct Machine {
     program: Arc<Program>,
     registers: Vec<f64>,
+    /// The innermost active state; those that it lies in are active too.
     state: usize,
-    entered_at: Option<f64>,
+    has_begun: bool,
+    /// When each state was entered last (s).
+    entered_at: Vec<f64>,
+    /// For every state, which of the states directly in it was active last.
+    last_inner: Vec<Option<usize>>,
     /// For every guard with a duration, since when its condition has held.
     holding_since: Vec<Option<f64>>,
-    /// How many timers, at the front, belong to the rules that hold always and outlive a transition.
-    lasting_timers: usize,
     failure: Option<Failure>,
 }
 
@@ -72,16 +75,17 @@ impl Machine {
         Self {
             registers: program.image.clone(),
             state: program.initial,
-            entered_at: None,
+            has_begun: false,
+            entered_at: vec![0.0; program.states.len()],
+            last_inner: vec![None; program.states.len()],
             holding_since: vec![None; program.timers],
-            lasting_timers: program.always.iter().filter(|rule| rule.guard.is_timed()).count(),
             failure: None,
             program,
         }
     }
 
-    /// A machine that has just entered a state, with `registers` as its memory.
-    pub(crate) fn entered(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
+    /// A machine that is about to enter a state, with `registers` as its memory.
+    pub(crate) fn entering(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
         Self { registers, state, ..Self::new(program) }
     }
 
@@ -91,13 +95,13 @@ impl Machine {
         &self.program
     }
 
-    /// Index of the active state.
+    /// Index of the active state, the innermost one.
     #[must_use]
     pub fn state(&self) -> usize {
         self.state
     }
 
-    /// Name of the active state, `Failure` after a failure.
+    /// Name of the active state, the innermost one; `Failure` after a failure.
     #[must_use]
     pub fn state_name(&self) -> &str {
         if self.failure.is_some() { "Failure" } else { &self.program.states[self.state].name }
@@ -109,8 +113,9 @@ impl Machine {
         self.failure.as_ref()
     }
 
-    /// One tick: first the rules that hold always, then the active state's transitions in their written order (and those of
-    /// the state entered, up to [`CHAIN_LIMIT`]), then what the active state does.
+    /// One tick: first the rules that hold always, then the active states' transitions, from the outermost state to the
+    /// innermost and in their written order (and again after each one taken, up to [`CHAIN_LIMIT`]), then what the active
+    /// states do, from the outermost to the innermost.
     ///
     /// An action with a number that is not finite is never given: the machine fails instead.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
@@ -119,41 +124,85 @@ impl Machine {
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
-        if self.entered_at.is_none() {
-            self.enter(&program, self.state, now, senses);
+        if !self.has_begun {
+            self.has_begun = true;
+            self.enter(&program, None, self.state, false, now, senses);
         }
 
-        let mut target = self.due(&program, &program.always, now, senses);
+        let mut due = self.due(&program, None, now, senses);
         for taken in 0..=CHAIN_LIMIT {
-            target = target.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses));
-            match target.take() {
-                None => return self.act(&program, senses),
-                Some(Target::Failure(reason)) => return self.fail(Failure::Policy(Arc::clone(reason))),
-                Some(Target::State { state, arguments }) if taken < CHAIN_LIMIT => {
-                    evaluate(&program.code, &program.states[self.state].exit, &mut self.registers, senses);
+            let way = Way::to(&program, self.state);
+            due = due.or_else(|| way.states().find_map(|state| self.due(&program, Some(state), now, senses)));
+            match due.take() {
+                None => return self.act(&program, &way, senses),
+                Some((_, Target::Failure(reason))) => return self.fail(Failure::Policy(Arc::clone(reason))),
+                Some((from, Target::State { state, arguments, resume })) if taken < CHAIN_LIMIT => {
+                    let stays = program.stays(from, *state);
+                    for left in program.outward(self.state).take_while(|&left| Some(left) != stays) {
+                        evaluate(&program.code, &program.states[left].exit, &mut self.registers, senses);
+                    }
                     evaluate(&program.code, arguments, &mut self.registers, senses);
-                    self.enter(&program, *state, now, senses);
+                    self.enter(&program, stays, *state, *resume, now, senses);
                 }
-                Some(Target::State { .. }) => {}
+                Some((_, Target::State { .. })) => {}
             }
         }
         self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
     }
 
-    fn enter<S: Senses>(&mut self, program: &Program, state: usize, now: f64, senses: &mut S) {
-        self.state = state;
-        self.entered_at = Some(now);
-        self.holding_since[self.lasting_timers..].fill(None);
-        evaluate(&program.code, &program.states[state].entry, &mut self.registers, senses);
+    /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
+    /// was in last, and so on.
+    fn enter<S: Senses>(
+        &mut self,
+        program: &Program,
+        stays: Option<usize>,
+        target: usize,
+        resume: bool,
+        now: f64,
+        senses: &mut S,
+    ) {
+        for state in Way::to(program, target).below(stays) {
+            self.enter_one(program, state, now, senses);
+        }
+        while let Some((initial, arguments)) = &program.states[self.state].initial {
+            let inner = match self.last_inner[self.state] {
+                Some(last) if resume => last,
+                _ => {
+                    evaluate(&program.code, arguments, &mut self.registers, senses);
+                    *initial
+                }
+            };
+            self.enter_one(program, inner, now, senses);
+        }
     }
 
-    fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Tick {
-        let state = &program.states[self.state];
-        let action = evaluate(&program.code, &state.body, &mut self.registers, senses).unwrap_or(Action::Hold);
-        if !action.is_finite() {
-            return self.fail(Failure::NotFinite { state: Arc::clone(&state.name) });
+    fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
+        let state = &program.states[index];
+        self.state = index;
+        self.entered_at[index] = now;
+        if let Some(parent) = state.parent {
+            self.last_inner[parent] = Some(index);
         }
-        Tick { action, outcome: Outcome::Running }
+        for transition in &state.transitions {
+            if let Guard::When { lasting: Some((_, timer)), .. } = transition.guard {
+                self.holding_since[timer] = None;
+            }
+        }
+        evaluate(&program.code, &state.entry, &mut self.registers, senses);
+    }
+
+    fn act<S: Senses>(&mut self, program: &Program, active: &Way, senses: &mut S) -> Tick {
+        let mut given = None;
+        for state in active.states() {
+            let action = evaluate(&program.code, &program.states[state].body, &mut self.registers, senses);
+            given = action.map(|action| (state, action)).or(given);
+        }
+        match given {
+            Some((state, action)) if !action.is_finite() => {
+                self.fail(Failure::NotFinite { state: Arc::clone(&program.states[state].name) })
+            }
+            _ => Tick { action: given.map_or(Action::Hold, |(_, action)| action), outcome: Outcome::Running },
+        }
     }
 
     fn fail(&mut self, failure: Failure) -> Tick {
@@ -161,24 +210,33 @@ impl Machine {
         Tick { action: Action::Stop, outcome: Outcome::Failed }
     }
 
-    /// The target of the first transition that is due. Every guard is looked at, so that the timers of the later ones run.
+    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds, unless it
+    /// has led where it leads already. Every guard is looked at, so that the timers of the later ones run.
     fn due<'p, S: Senses>(
         &mut self,
         program: &'p Program,
-        transitions: &'p [Transition],
+        from: Option<usize>,
         now: f64,
         senses: &mut S,
-    ) -> Option<&'p Target> {
-        let mut first = None;
+    ) -> Option<(Option<usize>, &'p Target)> {
+        let (transitions, since) = match from {
+            None => (&program.always, 0.0),
+            Some(state) => (&program.states[state].transitions, self.entered_at[state]),
+        };
+        let mut first: Option<&Transition> = None;
         for transition in transitions {
-            if self.holds(program, &transition.guard, now, senses) && first.is_none() {
-                first = Some(&transition.target);
+            if self.holds(program, &transition.guard, now - since, now, senses) {
+                first = first.or(Some(transition));
             }
         }
-        first
+        match &first?.target {
+            Target::State { state, .. } if program.is_settled(from, *state, self.state) => None,
+            target => Some((from, target)),
+        }
     }
 
-    fn holds<S: Senses>(&mut self, program: &Program, guard: &Guard, now: f64, senses: &mut S) -> bool {
+    /// Whether a guard holds whose state has been active for the time `active` (s).
+    fn holds<S: Senses>(&mut self, program: &Program, guard: &Guard, active: f64, now: f64, senses: &mut S) -> bool {
         match guard {
             Guard::When { code, truth, lasting } => {
                 evaluate(&program.code, code, &mut self.registers, senses);
@@ -193,9 +251,37 @@ impl Machine {
             }
             Guard::After { code, time } => {
                 evaluate(&program.code, code, &mut self.registers, senses);
-                let active = now - self.entered_at.unwrap_or(now);
                 active >= self.registers[usize::from(*time)] - TIME_SLACK
             }
         }
+    }
+}
+
+/// The states that are active with one of them, or entered on the way to it.
+struct Way {
+    /// From the outermost state at `first` to the innermost.
+    states: [usize; NESTING_LIMIT],
+    first: usize,
+}
+
+impl Way {
+    fn to(program: &Program, innermost: usize) -> Self {
+        let mut way = Self { states: [innermost; NESTING_LIMIT], first: NESTING_LIMIT };
+        for state in program.outward(innermost).take(NESTING_LIMIT) {
+            way.first -= 1;
+            way.states[way.first] = state;
+        }
+        way
+    }
+
+    /// From the outermost to the innermost.
+    fn states(&self) -> impl Iterator<Item = usize> + use<'_> {
+        self.states[self.first..].iter().copied()
+    }
+
+    /// The same, without `outer` and those around it.
+    fn below(&self, outer: Option<usize>) -> impl Iterator<Item = usize> + use<'_> {
+        let above = self.states().position(|state| Some(state) == outer);
+        self.states().skip(above.map_or(0, |above| above + 1))
     }
 }

@@ -6,7 +6,7 @@ use crate::signal::MAX_WHISKERS;
 
 use super::op::{Block, Op, Register};
 use super::operands::{Place, number};
-use super::program::{CODE_LIMIT, Guard, Program, REGISTER_LIMIT, State, Target, Transition};
+use super::program::{CODE_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition};
 
 /// The most states that a program may have, and the most transitions.
 const STRUCTURE_LIMIT: usize = 50_000;
@@ -60,6 +60,12 @@ pub enum Unsound {
         /// Operations of all its blocks and of the rules that hold always.
         operations: usize,
     },
+    /// A state lies in one that does not come before it, or too deep.
+    #[error("its state {0} lies in no state before it, or more than {NESTING_LIMIT} deep")]
+    Nesting(usize),
+    /// A state begins or is resumed where it cannot.
+    #[error("its state {0} cannot begin where it does")]
+    Beginning(usize),
     /// A timer of a rule that holds always is used by a state, or the other way round.
     #[error("its timer {0} belongs to another guard")]
     Timer(usize),
@@ -120,6 +126,7 @@ impl Program {
         distinct(values.chain(whiskers.iter().map(String::as_str)).chain(states.iter().map(|state| &*state.name)))?;
         self.verify_numbers()?;
         within("state", *initial, states.len())?;
+        self.verify_hierarchy()?;
         self.verify_transitions()?;
         self.verify_blocks()?;
         self.verify_operands()
@@ -144,8 +151,37 @@ impl Program {
         Ok(())
     }
 
-    /// Checks what guards and targets name. A transition starts the timers of states anew and leaves those of `always`, which
-    /// come first, running.
+    /// Checks that states lie in states that come before them, so that there is an outermost, and begin in a state directly in
+    /// them wherever there is one.
+    fn verify_hierarchy(&self) -> Result<(), Unsound> {
+        let mut depths: Vec<usize> = Vec::with_capacity(self.states.len());
+        for (index, state) in self.states.iter().enumerate() {
+            let outer = match state.parent {
+                None => 0,
+                Some(parent) => *depths.get(parent).ok_or(Unsound::Nesting(index))?,
+            };
+            if outer == NESTING_LIMIT {
+                return Err(Unsound::Nesting(index));
+            }
+            depths.push(outer + 1);
+        }
+        for (index, state) in self.states.iter().enumerate() {
+            if let Some(parent) = state.parent
+                && self.states[parent].initial.is_none()
+            {
+                return Err(Unsound::Beginning(parent));
+            }
+            if let Some((inner, _)) = state.initial
+                && self.states.get(inner).is_none_or(|inner| inner.parent != Some(index))
+            {
+                return Err(Unsound::Beginning(index));
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks what guards and targets name. Entering a state starts its timers anew and leaves those of `always`, which come
+    /// first, running.
     fn verify_transitions(&self) -> Result<(), Unsound> {
         let timed = |transitions: &[Transition]| transitions.iter().filter(|one| one.guard.is_timed()).count();
         let lasting = timed(&self.always);
@@ -172,7 +208,10 @@ impl Program {
             within("register", usize::from(register), self.image.len())?;
         }
         match &transition.target {
-            Target::State { state, .. } => within("state", *state, self.states.len()),
+            Target::State { state, resume, .. } => {
+                within("state", *state, self.states.len())?;
+                if *resume && self.states[*state].initial.is_none() { Err(Unsound::Beginning(*state)) } else { Ok(()) }
+            }
             Target::Failure(reason) if reason.chars().any(char::is_control) => Err(Unsound::Reason(reason.to_string())),
             Target::Failure(_) => Ok(()),
         }
@@ -188,6 +227,7 @@ impl Program {
         };
         let of_state = |state: &State| {
             let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
+            let own = own.into_iter().chain(state.initial.iter().map(|(_, arguments)| arguments.clone()));
             state.transitions.iter().flat_map(of_transition).chain(own).collect::<Vec<Block>>()
         };
         let always: Vec<Block> = self.always.iter().flat_map(of_transition).collect();
@@ -210,12 +250,16 @@ impl Program {
                 }
             }
         }
-        // Between two transitions each of a state's blocks is done once at most.
+        // Between two transitions each block of the active states is done once at most.
+        let sum = |blocks: &[Block]| blocks.iter().map(ExactSizeIterator::len).sum::<usize>();
+        let mut sums: Vec<usize> = Vec::with_capacity(states.len());
         for (index, state) in states.iter().enumerate() {
-            let operations = always.iter().chain(state).map(ExactSizeIterator::len).sum::<usize>();
+            let outer = self.states[index].parent.map_or_else(|| sum(&always), |parent| sums[parent]);
+            let operations = outer + sum(state);
             if operations > self.code.len() {
                 return Err(Unsound::Work { state: index, operations });
             }
+            sums.push(operations);
         }
         Ok(())
     }

@@ -21,6 +21,7 @@ pub(super) struct File {
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
     pub(super) laws: Vec<Law>,
+    /// In the order of the text: an outer state comes before the states in it.
     pub(super) states: Vec<State>,
     pub(super) always: Vec<Transition>,
     pub(super) tests: Vec<Test>,
@@ -103,7 +104,11 @@ pub(super) struct Law {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
     pub(super) name: Name,
+    /// Index of the state that it lies in.
+    pub(super) parent: Option<usize>,
     pub(super) arguments: Vec<Argument>,
+    /// `initial Name(values)`, of which there is one in a state with states in it.
+    pub(super) initial: Vec<Step>,
     /// `var name = value`
     pub(super) memory: Vec<(Name, Expression)>,
     pub(super) entry: Vec<Statement>,
@@ -125,9 +130,21 @@ pub(super) enum Guard {
     After(Expression),
 }
 
-/// `Name`, `Name(values)`, `Failure("reason")`
+/// `Name(values)`: a state and what it is entered with.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Step {
+    pub(super) name: Name,
+    pub(super) values: Vec<Expression>,
+    pub(super) span: Span,
+}
+
+/// `Name`, `Name(values)`, `Outer(values).Name(values)`, `resume Name(values)`, `Failure("reason")`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
+    /// Where `resume` stands: the state goes on where it was left.
+    pub(super) resume: Option<Span>,
+    /// The outer states that are written before the state.
+    pub(super) outer: Vec<Step>,
     pub(super) name: Name,
     pub(super) text: Option<Name>,
     pub(super) values: Vec<Expression>,

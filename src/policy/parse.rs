@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
     Argument, Binary, Bound, Derived, Expression, File, From, Guard, Kind, Law, Name, Parameter, Quantity, State,
-    Statement, Steer, Target, Test, Transition, Turn, TypeName, Use,
+    Statement, Steer, Step, Target, Test, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::pair::{Pair, Pairs, place};
@@ -56,7 +56,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 arguments: arguments(&mut reader)?,
                 body: block(reader.take(Rule::block)?)?,
             }),
-            Rule::state => file.states.push(state(&mut reader)?),
+            Rule::state => state(&mut reader, None, &mut file.states)?,
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             Rule::test => file.tests.push(test(&mut reader)?),
             _ => {}
@@ -125,12 +125,21 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     Ok(arguments)
 }
 
-fn state(reader: &mut Reader<'_>) -> Parsed<State> {
+/// Adds a state and those in it to `states`.
+fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
     let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut state = State { name, arguments, memory, entry, exit, body, transitions };
+    let initial = Vec::new();
+    let own = states.len();
+    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions });
     while let Ok(pair) = reader.next() {
+        if pair.as_rule() == Rule::state {
+            self::state(&mut Reader::new(pair), Some(own), states)?;
+            continue;
+        }
+        let state = &mut states[own];
         match pair.as_rule() {
+            Rule::start => state.initial.push(step(pair)?),
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
             Rule::memory => {
                 let mut memory = Reader::new(pair);
@@ -141,7 +150,14 @@ fn state(reader: &mut Reader<'_>) -> Parsed<State> {
             _ => state.body.push(statement(pair)?),
         }
     }
-    Ok(state)
+    Ok(())
+}
+
+fn step(pair: Pair<'_>) -> Parsed<Step> {
+    let span = place(&pair);
+    let mut reader = Reader::new(pair);
+    let name = reader.name()?;
+    Ok(Step { span: name.span.to(span), name, values: reader.values()?.unwrap_or_default() })
 }
 
 fn test(reader: &mut Reader<'_>) -> Parsed<Test> {
@@ -174,17 +190,30 @@ fn transition(pair: Pair<'_>) -> Parsed<Transition> {
         _ if reader.has(Rule::expression) => Guard::When { condition: first, lasting: Some(reader.expression()?) },
         _ => Guard::When { condition: first, lasting: None },
     };
-    let pair = reader.take(Rule::target)?;
+    Ok(Transition { guard, target: target(reader.take(Rule::target)?)? })
+}
+
+fn target(pair: Pair<'_>) -> Parsed<Target> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
+    let resume = if reader.has(Rule::kw_resume) { Some(place(&reader.next()?)) } else { None };
     let name = reader.name()?;
-    let text = if reader.has(Rule::text_argument) {
-        Some(text(&mut Reader::new(reader.take(Rule::text_argument)?))?)
-    } else {
-        None
-    };
-    let values = reader.values()?.unwrap_or_default();
-    Ok(Transition { guard, target: Target { name, text, values, span } })
+    if reader.has(Rule::text_argument) {
+        let text = text(&mut Reader::new(reader.take(Rule::text_argument)?))?;
+        return Ok(Target { resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
+    }
+    let mut last = Step { span: name.span, name, values: Vec::new() };
+    if reader.has(Rule::values) {
+        let pair = reader.next()?;
+        last.span = last.span.to(place(&pair));
+        last.values = values(pair)?;
+    }
+    let mut outer = Vec::new();
+    while reader.has(Rule::inner) {
+        outer.push(std::mem::replace(&mut last, step(reader.take(Rule::inner)?)?));
+    }
+    let Step { name, values, .. } = last;
+    Ok(Target { resume, outer, name, text: None, values, span })
 }
 
 fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {
@@ -394,16 +423,17 @@ impl<'i> Reader<'i> {
     }
 
     fn values(&mut self) -> Parsed<Option<Vec<Expression>>> {
-        if !self.has(Rule::values) {
-            return Ok(None);
-        }
-        let mut reader = Reader::new(self.take(Rule::values)?);
-        let mut values = Vec::new();
-        while reader.has(Rule::expression) {
-            values.push(reader.expression()?);
-        }
-        Ok(Some(values))
+        if self.has(Rule::values) { values(self.next()?).map(Some) } else { Ok(None) }
     }
+}
+
+fn values(pair: Pair<'_>) -> Parsed<Vec<Expression>> {
+    let mut reader = Reader::new(pair);
+    let mut values = Vec::new();
+    while reader.has(Rule::expression) {
+        values.push(reader.expression()?);
+    }
+    Ok(values)
 }
 
 /// Whether a pair is a word or a sign that only marks a place.

@@ -178,7 +178,8 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
         Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
         // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
-        Rule::kw_initial => (2, ITEM),
+        Rule::kw_initial if !among.contains(&Rule::kw_do) => (2, ITEM),
+        Rule::kw_state if among.contains(&Rule::kw_do) => (3, "`state`"),
         Rule::kw_do => (2, "a statement"),
         Rule::kw_expect => (2, "`expect`"),
         Rule::kw_when => (3, "`when`"),
@@ -223,6 +224,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_for => "for",
         Rule::kw_in => "in",
         Rule::kw_of => "of",
+        Rule::kw_resume => "resume",
         Rule::kw_and => "and",
         Rule::kw_or => "or",
         Rule::kw_not => "not",

@@ -10,12 +10,12 @@ use crate::score::Score;
 /// What is not as `test` expects of a `run` of `program` that got this `score`; nothing if the test has passed.
 #[must_use]
 pub fn violations(test: &PolicyTest, program: &Program, run: &Run, score: &Score) -> Vec<Diagnostic> {
-    let figure = |wanted| figure(wanted, run, score);
+    let figure = |wanted| figure(wanted, program, run, score);
     test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
 }
 
 /// A figure of a run (SI, truths as 1 and 0); not a number if the run does not have it.
-fn figure(figure: RunFigure, run: &Run, score: &Score) -> f64 {
+fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64 {
     let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
     let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
     match figure {
@@ -30,17 +30,23 @@ fn figure(figure: RunFigure, run: &Run, score: &Score) -> f64 {
         RunFigure::Hausdorff => measured(Metric::Hausdorff),
         RunFigure::Coverage => measured(Metric::Coverage),
         RunFigure::Visits(state) => {
-            let mut before = false;
+            let mut was_active = false;
             let entered = run.trace.ticks.iter().filter(|tick| {
-                let active = tick.state == state;
-                let was_active = std::mem::replace(&mut before, active);
-                active && !was_active
+                let active = is_active(program, state, tick.state);
+                let before = std::mem::replace(&mut was_active, active);
+                active && !before
             });
             entered.count() as f64
         }
         RunFigure::TimeIn(state) => {
-            let ticks = run.trace.ticks.iter().filter(|tick| tick.state == state);
+            let ticks = run.trace.ticks.iter().filter(|tick| is_active(program, state, tick.state));
             ticks.count() as f64 * run.trace.period
         }
     }
+}
+
+/// Whether a state is active when the innermost active one is `innermost`: the same, or one around it.
+fn is_active(program: &Program, state: usize, innermost: usize) -> bool {
+    let around = |index: &usize| program.states.get(*index)?.parent;
+    std::iter::successors(Some(innermost), around).any(|active| active == state)
 }

@@ -12,7 +12,7 @@ use super::search::{Found, Goal, Search};
 use super::unknown::{Domain, Unknown};
 
 /// Steps of the walk that looks for cycles among the states.
-const STEP_LIMIT: usize = 5_000;
+const STEP_LIMIT: usize = 10_000;
 /// Cycles that are looked at.
 const CYCLE_LIMIT: usize = 100;
 
@@ -35,7 +35,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         let start = path[0].0;
         let fails = |point: &Point, registers: Vec<f64>| {
             is_felt_freely(model, point) && {
-                let mut machine = Machine::entered(Arc::clone(&program), start, registers);
+                let mut machine = Machine::entering(Arc::clone(&program), start, registers);
                 machine.tick(&mut point.clone());
                 matches!(machine.failure(), Some(Failure::Chain { .. }))
             }
@@ -64,29 +64,32 @@ fn fault(model: &Model<'_>, path: &[(usize, &Edge<'_>)], witness: &str) -> Diagn
         .hint("let the guards exclude each other, or give one a duration: `when \u{2026} for 100 ms`")
 }
 
-/// Cycles of transitions that wait for nothing, among states that can be reached, the shortest first.
+/// Cycles of transitions that wait for nothing, among innermost states that can be reached, the shortest first.
 fn walk<'a>(model: &'a Model<'_>) -> Vec<Vec<(usize, &'a Edge<'a>)>> {
     let reached = reachable(model);
     let mut found = Vec::new();
     let mut steps = 0;
-    for start in (0..model.states.len()).filter(|&state| reached[state]) {
+    for start in (0..model.states.len()).filter(|&state| reached[state] && model.is_innermost(state)) {
         // Paths that are yet to be gone on: where they have come to, and how.
         let mut open: Vec<(usize, Vec<(usize, &Edge<'_>)>)> = vec![(start, Vec::new())];
         while let Some((state, path)) = open.pop() {
-            for edge in model.states[state].edges.iter().filter(|edge| edge.is_immediate()) {
+            let edges = model.active_edges(state).into_iter().filter(|edge| edge.is_immediate());
+            for edge in edges {
                 steps += 1;
+                for target in model.leads_on(edge, state) {
+                    steps += 1;
+                    let mut path = path.clone();
+                    path.push((state, edge));
+                    let is_new = path.len() < CHAIN_LIMIT && path.iter().all(|&(passed, _)| passed != target);
+                    if target == start {
+                        found.push(path);
+                    // Each cycle begins at the first of its states, and passes none twice.
+                    } else if target > start && is_new {
+                        open.push((target, path));
+                    }
+                }
                 if steps > STEP_LIMIT || found.len() >= CYCLE_LIMIT {
                     return sorted(found);
-                }
-                let Some(target) = edge.leads_to() else { continue };
-                let mut path = path.clone();
-                path.push((state, edge));
-                if target == start {
-                    found.push(path);
-                // Each cycle begins at the first of its states, and passes none twice.
-                } else if target > start && path.len() < CHAIN_LIMIT && path.iter().all(|&(passed, _)| passed != target)
-                {
-                    open.push((target, path));
                 }
             }
         }

@@ -46,10 +46,15 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     reach::unreachable(&model, &mut warnings);
     reach::without_a_way_out(&model, &mut warnings);
     let mut search = Search::new(&model);
-    let sources = std::iter::once((&[][..], model.always.as_slice()));
-    let sources = sources.chain(model.states.iter().map(|state| (model.always.as_slice(), state.edges.as_slice())));
-    for (above, edges) in sources {
-        transitions(&mut search, above, edges, &mut warnings);
+    transitions(&mut search, (&[], &[]), &model.always, &mut warnings);
+    // For every state, its transitions that can be due.
+    let mut due: Vec<Vec<Edge<'_>>> = Vec::with_capacity(model.states.len());
+    for (index, state) in model.states.iter().enumerate() {
+        let around = if search.is_exhausted() { Vec::new() } else { model.inward(index) };
+        let outer: Vec<Edge<'_>> =
+            around.into_iter().filter(|&outer| outer != index).flat_map(|outer| due[outer].iter().copied()).collect();
+        search.bounds.work += outer.len();
+        due.push(transitions(&mut search, (&model.always, &outer), &state.edges, &mut warnings));
     }
     in_order(warnings)
 }
@@ -61,17 +66,24 @@ pub(super) fn library_warnings(files: &Files) -> Vec<Diagnostic> {
     in_order(warnings)
 }
 
-/// Looks at the transitions of one source; those `above` are tried before them.
-fn transitions(search: &mut Search<'_>, above: &[Edge<'_>], edges: &[Edge<'_>], warnings: &mut Vec<Diagnostic>) {
+/// Looks at the transitions of one source, and gives those that can be due; the rules that hold always and the transitions of
+/// outer states are tried before them.
+fn transitions<'a>(
+    search: &mut Search<'_>,
+    (always, outer): (&[Edge<'a>], &[Edge<'a>]),
+    edges: &[Edge<'a>],
+    warnings: &mut Vec<Diagnostic>,
+) -> Vec<Edge<'a>> {
     let can_hold = guards::guards(search, edges, warnings);
     for index in (0..edges.len()).filter(|&index| can_hold[index]) {
         if search.is_exhausted() {
-            return;
+            break;
         }
-        if !shadow::shadowed(search, edges, &can_hold, index, warnings) {
-            overlap::overlap(search, above, edges, index, warnings);
+        if !shadow::shadowed(search, outer, edges, &can_hold, index, warnings) {
+            overlap::overlap(search, (always, outer), edges, index, warnings);
         }
     }
+    edges.iter().zip(can_hold).filter(|(_, can_hold)| *can_hold).map(|(edge, _)| *edge).collect()
 }
 
 fn in_order(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {

@@ -31,6 +31,8 @@ pub(super) struct Node<'a> {
 /// A transition: what it does and where it is written.
 #[derive(Clone, Copy)]
 pub(super) struct Edge<'a> {
+    /// The state that it belongs to; `None` if it is a rule that holds always.
+    pub(super) from: Option<usize>,
     pub(super) guard: &'a machine::Guard,
     pub(super) target: &'a machine::Target,
     pub(super) written: &'a ast::Transition,
@@ -51,6 +53,12 @@ impl<'a> Edge<'a> {
             ast::Guard::When { condition, .. } => condition.span,
             ast::Guard::After(time) => time.span,
         }
+    }
+
+    /// What the state that it leads to and the outer states on the way are entered with.
+    pub(super) fn values(&self) -> impl Iterator<Item = &'a ast::Expression> {
+        let target = &self.written.target;
+        target.outer.iter().flat_map(|step| &step.values).chain(&target.values)
     }
 
     /// Where the transition stands, from its guard on.
@@ -91,18 +99,60 @@ impl<'a> Model<'a> {
     pub(super) fn new(file: &'a File, lowered: &'a Lowered) -> Self {
         let program = &lowered.program;
         let states = file.states.iter().zip(&program.states).zip(&lowered.arguments);
-        let states = states.map(|((written, state), arguments)| Node {
+        let states = states.enumerate().map(|(index, ((written, state), arguments))| Node {
             name: &written.name,
-            edges: edges(&state.transitions, &written.transitions),
+            edges: edges(Some(index), &state.transitions, &written.transitions),
             arguments,
         });
         Self {
             file,
             program,
-            always: edges(&program.always, &file.always),
+            always: edges(None, &program.always, &file.always),
             states: states.collect(),
             flow: Flow::new(program),
         }
+    }
+
+    /// Whether no state lies in a state, so that it can be the innermost active one.
+    pub(super) fn is_innermost(&self, state: usize) -> bool {
+        self.program.states[state].initial.is_none()
+    }
+
+    /// The innermost states, with their indices.
+    pub(super) fn innermost(&self) -> impl Iterator<Item = (usize, &Node<'a>)> {
+        self.states.iter().enumerate().filter(|&(index, _)| self.is_innermost(index))
+    }
+
+    /// The transitions that can be taken while `innermost` is the innermost active state, but for those of `always`: those of
+    /// its outer states come first.
+    pub(super) fn active_edges(&self, innermost: usize) -> Vec<&Edge<'a>> {
+        self.inward(innermost).into_iter().flat_map(|state| &self.states[state].edges).collect()
+    }
+
+    /// A state and those that it lies in, the outermost first.
+    pub(super) fn inward(&self, state: usize) -> Vec<usize> {
+        let mut way: Vec<usize> = self.program.outward(state).collect();
+        way.reverse();
+        way
+    }
+
+    /// The innermost state that a transition leads to while `innermost` is the innermost active state, or the state that it
+    /// resumes; `None` for a failure, and where it has led already.
+    pub(super) fn leads_to_one(&self, edge: &Edge<'_>, innermost: usize) -> Option<usize> {
+        let machine::Target::State { state, resume, .. } = *edge.target else { return None };
+        if self.program.is_settled(edge.from, state, innermost) {
+            return None;
+        }
+        let begins_in = |&state: &usize| self.program.states[state].initial.as_ref().map(|&(inner, _)| inner);
+        if resume { Some(state) } else { std::iter::successors(Some(state), begins_in).last() }
+    }
+
+    /// The innermost states that a transition can lead to while `innermost` is the innermost active state.
+    pub(super) fn leads_on(&self, edge: &Edge<'_>, innermost: usize) -> Vec<usize> {
+        let Some(target) = self.leads_to_one(edge, innermost) else { return Vec::new() };
+        // The states in a state follow it.
+        let inside = (target..self.states.len()).take_while(|&state| self.program.contains(target, state));
+        inside.filter(|&state| self.is_innermost(state)).collect()
     }
 
     /// What a register is called.
@@ -143,7 +193,15 @@ impl<'a> Model<'a> {
     }
 }
 
-fn edges<'a>(transitions: &'a [machine::Transition], written: &'a [ast::Transition]) -> Vec<Edge<'a>> {
+fn edges<'a>(
+    from: Option<usize>,
+    transitions: &'a [machine::Transition],
+    written: &'a [ast::Transition],
+) -> Vec<Edge<'a>> {
     let pairs = transitions.iter().zip(written);
-    pairs.map(|(transition, written)| Edge { guard: &transition.guard, target: &transition.target, written }).collect()
+    let edge = |(transition, written): (&'a machine::Transition, _)| {
+        let machine::Transition { guard, target } = transition;
+        Edge { from, guard, target, written }
+    };
+    pairs.map(edge).collect()
 }

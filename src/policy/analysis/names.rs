@@ -34,7 +34,7 @@ impl<'a> Names<'a> {
                 }
                 Guard::After(time) => self.expression(time),
             }
-            self.expressions(&target.values);
+            self.expressions(target.outer.iter().flat_map(|step| &step.values).chain(&target.values));
         }
     }
 
@@ -67,7 +67,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    fn expressions(&mut self, expressions: impl IntoIterator<Item = &'a Expression>) {
+    pub(super) fn expressions(&mut self, expressions: impl IntoIterator<Item = &'a Expression>) {
         expressions.into_iter().for_each(|expression| self.expression(expression));
     }
 

@@ -1,30 +1,35 @@
 //! Guards that can hold at once and lead elsewhere, with a witness.
 
 use crate::diagnostic::Diagnostic;
+use crate::machine::Program;
 use crate::policy::ast::{Expression, Kind};
 
 use super::model::Edge;
 use super::search::{Found, Goal, Search};
+use super::shadow::comes_first;
 
 /// Warns if a transition's guard can hold together with that of one that is tried before it, so that the order alone
-/// decides where to go. `above` is tried before all of `edges`.
+/// decides where to go. The rules that hold always and the transitions of outer states are tried before all of `edges`; those of
+/// outer states watch over it on purpose.
 ///
 /// There is nothing to warn of where the first leads to a failure (a watch over limits goes first on purpose), where both
 /// lead to the same, or where the second is the rest: it holds wherever the first does. Points at which another one
 /// comes before both do not count.
 pub(super) fn overlap(
     search: &mut Search<'_>,
-    above: &[Edge<'_>],
+    (always, outer): (&[Edge<'_>], &[Edge<'_>]),
     edges: &[Edge<'_>],
     index: usize,
     warnings: &mut Vec<Diagnostic>,
 ) {
     let edge = &edges[index];
+    let program = search.model.program;
     let Some(second) = edge.condition().filter(|_| edge.is_immediate()) else { return };
-    let earlier: Vec<&Edge<'_>> = above.iter().chain(&edges[..index]).filter(|edge| edge.is_immediate()).collect();
+    let earlier: Vec<&Edge<'_>> =
+        always.iter().chain(outer).chain(&edges[..index]).filter(|edge| edge.is_immediate()).collect();
     for (at, before) in earlier.iter().enumerate() {
         let Some(first) = before.condition() else { continue };
-        if before.leads_to().is_none() || leads_to_the_same(before, edge) {
+        if before.leads_to().is_none() || leads_to_the_same(before, edge) || is_watch(program, before, edge) {
             continue;
         }
         let others =
@@ -47,11 +52,17 @@ pub(super) fn overlap(
     }
 }
 
+/// Whether the first of two transitions belongs to an outer state of the second's, or does not always come before it: it may
+/// have led where it leads.
+fn is_watch(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
+    before.from != edge.from && (before.from.is_some() || !comes_first(program, before, edge))
+}
+
 /// Whether two transitions lead to the same state with the same values, as far as names tell, or both to a failure.
 fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
     let same_value = |(a, b): (&Expression, &Expression)| match (&a.kind, &b.kind) {
         (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,
         _ => false,
     };
-    a.leads_to() == b.leads_to() && a.written.target.values.iter().zip(&b.written.target.values).all(same_value)
+    a.leads_to() == b.leads_to() && a.values().zip(b.values()).all(same_value)
 }

@@ -4,24 +4,43 @@ use crate::diagnostic::Diagnostic;
 
 use super::model::{Edge, Model};
 
+/// States times the transitions that each has: more of them are not looked at, so that no policy takes long.
+const PAIR_LIMIT: usize = 1_000_000;
+
 /// Which states a run can come to, by transitions as they are written, whenever they are due.
 pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
+    let program = model.program;
+    // Of a state that is reached only as the outer state of another one, it is not said that it begins where it would.
     let mut reached = vec![false; model.states.len()];
-    let mut open: Vec<usize> = model.always.iter().filter_map(Edge::leads_to).chain([model.program.initial]).collect();
-    while let Some(state) = open.pop() {
-        if !std::mem::replace(&mut reached[state], true) {
-            open.extend(model.states[state].edges.iter().filter_map(Edge::leads_to));
+    let mut entered = reached.clone();
+    let always = model.always.iter().filter_map(Edge::leads_to);
+    let mut open: Vec<usize> = always.chain([program.initial]).collect();
+    while let Some(target) = open.pop() {
+        if std::mem::replace(&mut entered[target], true) {
+            continue;
+        }
+        open.extend(program.states[target].initial.iter().map(|&(inner, _)| inner));
+        for state in program.outward(target) {
+            if !std::mem::replace(&mut reached[state], true) {
+                open.extend(model.states[state].edges.iter().filter_map(Edge::leads_to));
+            }
         }
     }
     reached
 }
 
-/// Warns of states that no run comes to.
+/// Warns of states that no run comes to. Of one that lies in another of them, that one says it all.
 pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
+    let program = model.program;
     let reached = reachable(model);
-    for (index, state) in model.states.iter().enumerate().filter(|&(index, _)| !reached[index]) {
-        let mut others = model.states.iter().enumerate().filter(|&(other, _)| other != index);
-        let is_target = others.any(|(_, other)| other.edges.iter().any(|edge| edge.leads_to() == Some(index)));
+    let is_told = |index: usize| program.states[index].parent.is_some_and(|parent| !reached[parent]);
+    for (index, state) in model.states.iter().enumerate().filter(|&(index, _)| !reached[index] && !is_told(index)) {
+        let mut others = model.states.iter().enumerate().filter(|&(other, _)| !program.contains(index, other));
+        let leads_here = |edge: &Edge<'_>| edge.leads_to().is_some_and(|target| program.contains(index, target));
+        let is_target = others.any(|(other, node)| {
+            let begins_here = program.states[other].initial.as_ref().is_some_and(|&(inner, _)| inner == index);
+            begins_here || node.edges.iter().any(leads_here)
+        });
         let label = if is_target { "only states that cannot be reached lead here" } else { "no transition leads here" };
         let message = format!("the state `{}` cannot be reached", state.name.text);
         warnings.push(
@@ -33,36 +52,55 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
 
 /// Warns of states that a run cannot leave, and of those from which it cannot fail.
 pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
-    let fails = |edge: &Edge<'_>| edge.leads_to().is_none();
-    if model.always.iter().any(fails) {
+    let fails = |edge: &&Edge<'_>| edge.leads_to().is_none();
+    if model.always.iter().any(|edge| fails(&edge)) {
         return;
     }
-    let states = || model.states.iter().enumerate();
-    // From the failures backwards: who leads there, who leads to those.
+    let program = model.program;
+    let pairs = model.innermost().map(|(index, _)| {
+        model.always.len() + program.outward(index).map(|state| model.states[state].edges.len()).sum::<usize>()
+    });
+    if pairs.sum::<usize>() > PAIR_LIMIT {
+        return;
+    }
+    // From the failures backwards: who leads there, who leads to those. Who resumes a state may come to any in it.
     let mut sources: Vec<Vec<usize>> = vec![Vec::new(); model.states.len()];
-    for (index, state) in states() {
-        for target in state.edges.iter().chain(&model.always).filter_map(Edge::leads_to) {
+    let (mut is_left, mut open) = (vec![false; model.states.len()], Vec::new());
+    for (index, _) in model.innermost() {
+        let edges = model.active_edges(index);
+        let can_fail = edges.iter().any(fails);
+        open.extend(can_fail.then_some(index));
+        program.outward(index).for_each(|state| is_left[state] |= can_fail);
+        for target in edges.into_iter().chain(&model.always).filter_map(|edge| model.leads_to_one(edge, index)) {
             sources[target].push(index);
+            // From within, a state is resumed where it is.
+            let leads_out = |state| !program.contains(state, target) && !program.contains(target, state);
+            program.outward(index).for_each(|state| is_left[state] |= leads_out(state));
         }
     }
-    let mut fallible = vec![false; model.states.len()];
-    let mut open: Vec<usize> =
-        states().filter(|(_, state)| state.edges.iter().any(fails)).map(|(index, _)| index).collect();
     let has_failure = !open.is_empty();
-    while let Some(state) = open.pop() {
-        if !std::mem::replace(&mut fallible[state], true) {
-            open.extend(&sources[state]);
+    let mut fallible = vec![false; model.states.len()];
+    while let Some(innermost) = open.pop() {
+        // An outer state has a way if one of the states in it has.
+        for state in program.outward(innermost) {
+            if !std::mem::replace(&mut fallible[state], true) {
+                open.extend(&sources[state]);
+            }
         }
     }
-    for (index, state) in states() {
+    // What is said of a state goes for those in it.
+    let mut told = vec![false; model.states.len()];
+    for (index, state) in model.states.iter().enumerate() {
         let name = &state.name.text;
-        let mut edges = state.edges.iter().chain(&model.always);
-        if edges.all(|edge| edge.leads_to() == Some(index)) {
+        told[index] = program.states[index].parent.is_some_and(|parent| told[parent]);
+        if !is_left[index] {
+            told[index] = true;
             let message = format!("the state `{name}` cannot be left");
             warnings.push(Diagnostic::warning("P0502", message, state.name.span, "nothing leads out of it").hint(
                 "write a transition, such as `after 60 s -> Failure(\"nothing more to do\")`, or an `always` rule",
             ));
-        } else if has_failure && !fallible[index] {
+        } else if has_failure && !fallible[index] && !told[index] {
+            told[index] = true;
             let message = format!("the state `{name}` has no way to `Failure`");
             warnings.push(no_failure(message, state.name.span));
         }

@@ -1,17 +1,18 @@
 //! Transitions that are never taken because another always comes before them.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::{Guard, Register, TIME_SLACK};
+use crate::machine::{Guard, Program, Register, TIME_SLACK};
 
 use super::guards::delay;
 use super::interval::Interval;
 use super::model::{Edge, Model};
 use super::search::{Found, Goal, Search};
 
-/// Warns of a transition that is never taken because others of the same source always come before it, and tells whether
-/// it did.
+/// Warns of a transition that is never taken because others of its state, or of the `outer` ones, always come before it, and
+/// tells whether it did. `outer` are the transitions of its outer states that can be due.
 pub(super) fn shadowed(
     search: &mut Search<'_>,
+    outer: &[Edge<'_>],
     edges: &[Edge<'_>],
     can_hold: &[bool],
     index: usize,
@@ -20,7 +21,13 @@ pub(super) fn shadowed(
     let edge = &edges[index];
     let time = delay(search, edge);
     let mut immediate = Vec::new();
-    for (other, before) in edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other]) {
+    let outer = outer.iter().filter(|before| comes_first(search.model.program, before, edge)).map(|before| (0, before));
+    let outer: Vec<(usize, &Edge<'_>)> = outer.collect();
+    search.bounds.work += outer.len();
+    let own = edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other]);
+    let own = own.map(|(other, before)| (other + 1, before));
+    let index = index + 1;
+    for (other, before) in outer.into_iter().chain(own) {
         if before.is_immediate() && (other < index || time.low > TIME_SLACK) {
             immediate.push(before);
         }
@@ -41,6 +48,14 @@ pub(super) fn shadowed(
     true
 }
 
+/// Whether a transition, of the same state or of one around it, is taken before another one whenever both are due. One of an
+/// outer state may have led where it leads, and leaves the other one its turn.
+pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
+    let (Some(target), Some(state)) = (before.leads_to(), edge.from) else { return true };
+    let is_related = program.contains(target, state) || program.contains(state, target);
+    before.from == edge.from || !is_related || !program.is_settled(before.from, target, target)
+}
+
 /// Whether one transition is always due before, or when, another is, and then taken rather than that.
 fn comes_before(
     search: &mut Search<'_>,
@@ -57,7 +72,7 @@ fn comes_before(
         return false;
     }
     if matches!(before.guard, Guard::After { .. }) {
-        // The times of both begin with the state; none of a condition begins before.
+        // The times of both begin with their states, that of an outer one first; none of a condition begins before.
         return !edge.is_immediate();
     }
     let goals: Vec<Goal<'_>> =

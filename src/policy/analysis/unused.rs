@@ -27,18 +27,26 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
         part(&names, &law.arguments, &law.name.text);
         used.extend(names);
     }
-    for state in &file.states {
-        let names = Names::of(|names| {
+    let own = file.states.iter().map(|state| {
+        Names::of(|names| {
+            state.initial.iter().for_each(|step| names.expressions(&step.values));
             state.memory.iter().for_each(|(_, value)| names.expression(value));
             for statements in [&state.entry, &state.body, &state.exit] {
                 names.statements(statements);
             }
             names.transitions(&state.transitions);
-        });
+        })
+    });
+    let mut of_states: Vec<Names<'_>> = own.collect();
+    // What a state knows, those in it know; they follow it.
+    while let (Some(names), Some(state)) = (of_states.pop(), file.states.get(of_states.len())) {
         part(&names, &state.arguments, &state.name.text);
         let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
         unread.extend(idle);
-        used.extend(names);
+        match state.parent {
+            Some(parent) => of_states[parent].extend(names),
+            None => used.extend(names),
+        }
     }
     used.transitions(&file.always);
     for name in unread {

@@ -36,11 +36,14 @@ impl Builder<'_> {
             let span = of.as_ref().map_or(base.span, |of| base.span.to(of.span));
             Argument { name: argument.name.text.clone(), type_name: self.text(span) }
         });
+        let outer = state.parent.map(|parent| &file.states[parent]);
+        let begin = outer.into_iter().flat_map(|outer| &outer.initial).find(|step| step.name.text == state.name.text);
         State {
             name: state.name.text.clone(),
             arguments: arguments.collect(),
-            parent: None,
-            initial: file.initial.iter().any(|initial| initial.text == state.name.text),
+            parent: state.parent,
+            initial: file.initial.iter().any(|initial| initial.text == state.name.text) || begin.is_some(),
+            values: begin.map_or_else(Vec::new, |step| self.texts(&step.values)),
         }
     }
 
@@ -55,12 +58,23 @@ impl Builder<'_> {
         };
         let target = match &transition.target {
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
-            ast::Target { name, values, .. } => Target::State {
-                state: *self.states.get(name.text.as_str())?,
-                values: values.iter().map(|value| self.text(value.span)).collect(),
-            },
+            ast::Target { resume, outer, name, values, .. } => {
+                let outer = outer
+                    .iter()
+                    .map(|step| Some((*self.states.get(step.name.text.as_str())?, self.texts(&step.values))));
+                Target::State {
+                    state: *self.states.get(name.text.as_str())?,
+                    outer: outer.collect::<Option<_>>()?,
+                    values: self.texts(values),
+                    resume: resume.is_some(),
+                }
+            }
         };
         Some(Transition { origin, guard, target })
+    }
+
+    fn texts(&self, expressions: &[ast::Expression]) -> Vec<String> {
+        expressions.iter().map(|expression| self.text(expression.span)).collect()
     }
 
     /// The text of an expression or a type, without comments, its parts one blank apart at most.

@@ -16,6 +16,12 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// Whether the state `inner` is the state `outer` or lies in it.
+    #[must_use]
+    pub fn contains(&self, outer: usize, inner: usize) -> bool {
+        std::iter::successors(Some(inner), |&state| self.states[state].parent).any(|state| state == outer)
+    }
+
     /// The states that lie in `parent`, or in none, with their indices.
     pub fn inside(&self, parent: Option<usize>) -> impl Iterator<Item = (usize, &State)> {
         self.states.iter().enumerate().filter(move |(_, state)| state.parent == parent)
@@ -45,6 +51,8 @@ pub struct State {
     pub parent: Option<usize>,
     /// Whether it is entered first: at the start, or when the state that it lies in is entered.
     pub initial: bool,
+    /// The values of its arguments when it is entered first.
+    pub values: Vec<String>,
 }
 
 /// An argument of a state.
@@ -97,8 +105,12 @@ pub enum Target {
     State {
         /// Its index.
         state: usize,
+        /// Outer states that are entered with it, by their indices, with the values of their arguments.
+        outer: Vec<(usize, Vec<String>)>,
         /// The values of its arguments.
         values: Vec<String>,
+        /// Whether it goes on in the inner state that was active last.
+        resume: bool,
     },
     /// To the end of the run, in failure, for this reason.
     Failure(String),

@@ -6,11 +6,13 @@
 mod code;
 mod expression;
 mod function;
+mod hierarchy;
 mod names;
 mod parameter;
 mod scope;
 mod statement;
 mod structure;
+mod target;
 mod test;
 
 use std::collections::{HashMap, HashSet};
@@ -24,6 +26,7 @@ use super::load::Files;
 use super::test::{FigurePlace, PolicyTest};
 use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
+use hierarchy::Hierarchy;
 use names::Names;
 use scope::{Meaning, Scope};
 
@@ -92,13 +95,14 @@ struct Compiler<'f> {
     /// The number of the file that is being written.
     here: usize,
     states: HashMap<&'f str, StateEntry>,
+    hierarchy: Hierarchy<'f>,
     /// Where laws and derived values are named whose own check failed.
     broken: HashSet<Span>,
     /// Laws and derived values that are being written into their place of use.
     writing: Vec<&'f Name>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
-    /// The memory that the state being written has declared.
+    /// The memory that the state being written and its outer states have declared.
     variables: Vec<&'f str>,
     /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
     memories: Vec<(Register, u16)>,
@@ -122,6 +126,7 @@ impl<'f> Compiler<'f> {
             files: Vec::new(),
             here: 0,
             states: HashMap::new(),
+            hierarchy: Hierarchy::default(),
             broken: HashSet::new(),
             writing: Vec::new(),
             doing: &[],
@@ -171,14 +176,19 @@ impl<'f> Compiler<'f> {
     /// A scope in which `arguments` stand for values that are not known yet.
     fn scope_of_arguments(&mut self, arguments: &'f [Argument]) -> Scope<'f> {
         let mut scope = Scope::default();
+        self.bind_arguments(&mut scope, arguments);
+        scope
+    }
+
+    /// Adds `arguments`, whose values are not known yet, to a scope.
+    fn bind_arguments(&mut self, scope: &mut Scope<'f>, arguments: &'f [Argument]) {
         for argument in arguments {
             let meaning = self.type_of(&argument.type_name).map(|r#type| {
                 let register = self.code.place(r#type.width());
                 Value { r#type, register }
             });
-            self.bind(&mut scope, &argument.name, meaning);
+            self.bind(scope, &argument.name, meaning);
         }
-        scope
     }
 
     /// The type that a name names, if it names one.

@@ -33,6 +33,11 @@ impl<'f> Scope<'f> {
         self.names.len()
     }
 
+    /// The names that came after the first `len`.
+    pub(super) fn since(&self, len: usize) -> Vec<(&'f Name, Meaning)> {
+        self.names[len..].to_vec()
+    }
+
     /// Forgets the names that came after the first `len`.
     pub(super) fn truncate(&mut self, len: usize) {
         self.names.truncate(len);

@@ -66,7 +66,7 @@ impl<'f> Compiler<'f> {
             let diagnostic = Diagnostic::error("P0406", message, name.span, "not memory of this state");
             let diagnostic = did_you_mean(diagnostic, &name.text, self.variables.iter().copied());
             self.report(diagnostic.hint(format!(
-                "only what a state declares with `var {} = \u{2026}` can be set, and only in that state itself",
+                "only what a state declares with `var {} = \u{2026}` can be set, in that state and in the states in it",
                 name.text
             )));
             return None;

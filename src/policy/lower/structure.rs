@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{self, Block, Op, Program};
-use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
-use crate::policy::hint::did_you_mean;
+use crate::machine::{self, Block, NESTING_LIMIT, Op, Program};
+use crate::policy::ast::{Argument, File, Guard, Name, State, Transition};
 use crate::policy::load::Files;
 use crate::policy::types::{Type, Value};
 use crate::signal::MAX_WHISKERS;
 
-use super::function::count;
+use super::hierarchy::Hierarchy;
 use super::scope::{Meaning, Scope};
 use super::{Compiler, StateEntry};
 
@@ -47,12 +46,12 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let parameters = items(compiler, files);
     let file = &files.main;
     // Every state's arguments need their places before any transition can lead there.
-    let scopes: Vec<Scope<'f>> = file.states.iter().map(|state| compiler.declare(state)).collect();
+    compiler.hierarchy = Hierarchy::new(&file.states);
+    let declared = compiler.declare(file);
     let mut timers = 0;
     let always = file.always.iter();
-    let always = always.filter_map(|rule| compiler.transition(&Scope::default(), rule, &mut timers)).collect();
-    let states = file.states.iter().zip(scopes);
-    let states = states.map(|(state, scope)| compiler.state(state, scope, &mut timers)).collect();
+    let always = always.filter_map(|rule| compiler.transition(&Scope::default(), None, rule, &mut timers)).collect();
+    let states = compiler.states(file, declared, &mut timers);
     let initial = compiler.initial(file);
     compiler.tests(file, &parameters);
 
@@ -138,49 +137,89 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Makes a state known, with places for its arguments.
-    fn declare(&mut self, state: &'f State) -> Scope<'f> {
-        let index = self.states.len();
-        let scope = self.scope_of_arguments(&state.arguments);
-        let names = state.arguments.iter().map(|argument| &argument.name.text);
-        let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
-        self.states.insert(&state.name.text, StateEntry { index, arguments });
-        scope
-    }
-
-    fn state(&mut self, state: &'f State, mut scope: Scope<'f>, timers: &mut usize) -> machine::State {
-        self.variables(&mut scope, state);
-        self.doing = &state.body;
-        let transitions = state.transitions.iter();
-        let transitions = transitions.filter_map(|transition| self.transition(&scope, transition, timers)).collect();
-        self.doing = &[];
-        let start = self.code.here();
-        self.statements(&mut scope, &state.body);
-        let body = self.code.since(start);
-
-        self.commandless = Some("leaving a state");
-        let start = self.code.here();
-        self.statements(&mut scope, &state.exit);
-        let exit = self.code.since(start);
-        let entry = self.entry(&mut scope, state);
-        self.commandless = None;
-        self.variables.clear();
-        self.watch_growth(state.name.span);
-        machine::State { name: Arc::from(state.name.text.as_str()), entry, body, exit, transitions }
+    /// Makes all states known, with places for their arguments and memory. Gives the names that each state adds to those of
+    /// its outer states.
+    fn declare(&mut self, file: &'f File) -> Vec<Vec<(&'f Name, Meaning)>> {
+        // How many names there are when a state has given its own.
+        let mut ends: Vec<usize> = Vec::with_capacity(file.states.len());
+        let mut scope = Scope::default();
+        let mut declared = Vec::with_capacity(file.states.len());
+        for (index, state) in file.states.iter().enumerate() {
+            if self.hierarchy.outward(index).count() == NESTING_LIMIT + 1 {
+                let message = format!("states lie in one another more than {NESTING_LIMIT} deep");
+                let diagnostic = Diagnostic::error("P0410", message, state.name.span, "this one is too deep");
+                self.report(diagnostic.hint("put fewer of them into one another"));
+            }
+            let start = state.parent.map_or(0, |parent| ends[parent]);
+            scope.truncate(start);
+            self.bind_arguments(&mut scope, &state.arguments);
+            let names = state.arguments.iter().map(|argument| &argument.name.text);
+            let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
+            self.states.insert(&state.name.text, StateEntry { index, arguments });
+            self.remember(&mut scope, state);
+            ends.push(scope.len());
+            declared.push(scope.since(start));
+        }
+        declared
     }
 
     /// Gives a state's memory its places. The values are written into the entry, which comes last, when it is known what
     /// else there is to reset.
-    fn variables(&mut self, scope: &mut Scope<'f>, state: &'f State) {
+    fn remember(&mut self, scope: &mut Scope<'f>, state: &'f State) {
         for (name, value) in &state.memory {
             let mark = self.code.mark();
             let value = self.expression(scope, value);
             self.code.rewind(mark);
             let memory = value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) });
             self.bind(scope, name, memory);
-            self.variables.push(&name.text);
         }
+    }
+
+    /// Writes all states; `declared` are the names that each adds to those of its outer states.
+    fn states(
+        &mut self,
+        file: &'f File,
+        declared: Vec<Vec<(&'f Name, Meaning)>>,
+        timers: &mut usize,
+    ) -> Vec<machine::State> {
+        let mut ends: Vec<(usize, usize)> = Vec::with_capacity(file.states.len());
+        let mut scope = Scope::default();
+        let states = file.states.iter().zip(declared).enumerate();
+        let states = states.map(|(index, (state, names))| {
+            let (start, variables) = state.parent.map_or((0, 0), |parent| ends[parent]);
+            scope.truncate(start);
+            self.variables.truncate(variables);
+            names.into_iter().for_each(|(name, meaning)| scope.insert(name, meaning));
+            self.variables.extend(state.memory.iter().map(|(name, _)| name.text.as_str()));
+            ends.push((scope.len(), self.variables.len()));
+            self.state(index, state, &mut scope, timers)
+        });
+        let states = states.collect();
+        self.variables.clear();
+        states
+    }
+
+    fn state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>, timers: &mut usize) -> machine::State {
         self.memories.clear();
+        self.doing = &state.body;
+        let transitions = state.transitions.iter();
+        let transitions =
+            transitions.filter_map(|transition| self.transition(scope, Some(index), transition, timers)).collect();
+        self.doing = &[];
+        let start = self.code.here();
+        self.statements(scope, &state.body);
+        let body = self.code.since(start);
+        let initial = self.inner_initial(scope, index, state);
+
+        self.commandless = Some("leaving a state");
+        let start = self.code.here();
+        self.statements(scope, &state.exit);
+        let exit = self.code.since(start);
+        let entry = self.entry(scope, state);
+        self.commandless = None;
+        self.watch_growth(state.name.span);
+        let name = Arc::from(state.name.text.as_str());
+        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions }
     }
 
     /// Writes what a state does when it is entered.
@@ -202,9 +241,11 @@ impl<'f> Compiler<'f> {
         self.code.since(start)
     }
 
+    /// Writes a transition of the state `from`, or of any state.
     fn transition(
         &mut self,
         scope: &Scope<'f>,
+        from: Option<usize>,
         transition: &'f Transition,
         timers: &mut usize,
     ) -> Option<machine::Transition> {
@@ -228,113 +269,7 @@ impl<'f> Compiler<'f> {
                 time.map(|time| machine::Guard::After { code, time: time.register })
             }
         };
-        let target = self.target(scope, &transition.target);
+        let target = self.target(scope, from, &transition.target);
         Some(machine::Transition { guard: guard?, target: target? })
-    }
-
-    fn target(&mut self, scope: &Scope<'f>, target: &'f Target) -> Option<machine::Target> {
-        if target.name.text == FAILURE {
-            let Some(reason) = &target.text else {
-                self.report(
-                    Diagnostic::error("P0304", "`Failure` needs a reason", target.span, "why?")
-                        .hint("write `Failure(\"what went wrong\")`"),
-                );
-                return None;
-            };
-            return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
-        }
-        let Some(entry) = self.states.get(target.name.text.as_str()) else {
-            let message = format!("there is no state `{}`", target.name.text);
-            let diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown state");
-            let known = self.states.keys().copied().chain([FAILURE]);
-            let diagnostic = did_you_mean(diagnostic, &target.name.text, known);
-            self.report(match &target.text {
-                Some(text) => diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)),
-                None => diagnostic,
-            });
-            return None;
-        };
-        let StateEntry { index: state, arguments } = entry.clone();
-        if let Some(text) = &target.text {
-            let message = format!("the state `{}` takes no text", target.name.text);
-            let diagnostic = Diagnostic::error("P0304", message, text.span, "a reason is for a failure");
-            self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
-            return None;
-        }
-        if target.values.len() != arguments.len() {
-            let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
-            let usage = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
-            let (takes, given) = (count(arguments.len()), target.values.len());
-            let message = format!("the state `{}` takes {takes}, not {given}", target.name.text);
-            let mut diagnostic = Diagnostic::error("P0304", message, target.span, "entered here");
-            if let Some(&made) = self.names().items.get(target.name.text.as_str()) {
-                diagnostic = diagnostic.note(made, "made here");
-            }
-            self.report(diagnostic.hint(format!("write `{}{usage}`", target.name.text)));
-            return None;
-        }
-        let arguments = self.pass(scope, target, &arguments)?;
-        Some(machine::Target::State { state, arguments })
-    }
-
-    /// Writes the values that a state is entered with. All are computed before the first is put into its place: a state may
-    /// hand its own arguments on to itself in another order.
-    fn pass(&mut self, scope: &Scope<'f>, target: &'f Target, arguments: &[(String, Meaning)]) -> Option<Block> {
-        let start = self.code.here();
-        let pairs = target.values.iter().zip(arguments);
-        let given: Vec<Option<(Value, Value)>> = pairs
-            .map(|(value, &(_, argument))| {
-                let Some(argument) = argument else {
-                    self.expression(scope, value);
-                    return None;
-                };
-                Some((self.expect(scope, value, argument.r#type)?, argument))
-            })
-            .collect();
-        let mut copies = Vec::with_capacity(given.len());
-        for (value, argument) in given.into_iter().collect::<Option<Vec<_>>>()? {
-            let between = self.code.place(value.r#type.width());
-            self.code.copy(between, value.register, value.r#type.width());
-            copies.push((argument.register, between, value.r#type.width()));
-        }
-        for (to, from, width) in copies {
-            self.code.copy(to, from, width);
-        }
-        Some(self.code.since(start))
-    }
-
-    fn initial(&mut self, file: &'f File) -> Option<usize> {
-        let [name] = file.initial.as_slice() else {
-            let diagnostic = match file.initial.as_slice() {
-                [first, second, ..] => {
-                    Diagnostic::error("P0404", "a machine starts in one state", second.span, "a second initial state")
-                        .note(first.span, "the first")
-                        .hint("keep one of them")
-                }
-                _ => Diagnostic::error(
-                    "P0404",
-                    "the machine has no initial state",
-                    file.name.span,
-                    "where does it start?",
-                )
-                .hint("write `initial` and the name of a state"),
-            };
-            self.report(diagnostic);
-            return None;
-        };
-        let Some(entry) = self.states.get(name.text.as_str()) else {
-            let message = format!("there is no state `{}`", name.text);
-            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
-            self.report(did_you_mean(diagnostic, &name.text, self.states.keys().copied()));
-            return None;
-        };
-        if !entry.arguments.is_empty() {
-            self.report(
-                Diagnostic::error("P0404", "the initial state cannot have arguments", name.span, "starts here")
-                    .hint(format!("start in a state without arguments, and let it lead to `{}`", name.text)),
-            );
-            return None;
-        }
-        Some(entry.index)
     }
 }

@@ -54,7 +54,9 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
         if state.initial {
             let start = parent.map_or(START.to_owned(), |parent| format!("start of {}", chart.states[parent].name));
             lines.push(&format!("{} [shape=point, width=0.15]", quoted(&start)));
-            lines.push(&format!("{} -> {}", quoted(&start), quoted(&state.name)));
+            let label = Label::of_initial(chart, index);
+            let label = if label.is_empty() { String::new() } else { format!(" [label=\"{}\"]", self::label(&label)) };
+            lines.push(&format!("{} -> {}{label}", quoted(&start), quoted(&state.name)));
         }
     }
 }

@@ -26,12 +26,23 @@ impl Label {
         Self { number: number(chart, index), guard: guard(transition), effects: effects(chart, transition) }
     }
 
+    /// The label of the arrow to an initial state: nothing but what that is entered with.
+    pub(super) fn of_initial(chart: &Chart, state: usize) -> Self {
+        let effects = given(chart, state, &chart.states[state].values).collect();
+        Self { number: None, guard: String::new(), effects }
+    }
+
+    /// Whether there is nothing to be written.
+    pub(super) fn is_empty(&self) -> bool {
+        self.guard.is_empty() && self.effects.is_empty()
+    }
+
     /// All of it on one line.
     pub(super) fn line(&self) -> String {
         let number = self.number.map(|number| number.to_string());
         let effects = (!self.effects.is_empty()).then(|| format!("/ {}", self.effects.join(", ")));
         let parts = number.into_iter().chain([self.guard.clone()]).chain(effects);
-        parts.collect::<Vec<_>>().join(" ")
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
     /// The guard in short lines.
@@ -96,9 +107,16 @@ fn guard(transition: &Transition) -> String {
 fn effects(chart: &Chart, transition: &Transition) -> Vec<String> {
     match &transition.target {
         Target::Failure(reason) => vec![format!("\"{reason}\"")],
-        Target::State { state, values } => {
-            let arguments = &chart.states[*state].arguments;
-            arguments.iter().zip(values).map(|(argument, value)| format!("{} = {value}", argument.name)).collect()
+        Target::State { state, outer, values, resume } => {
+            let resumed = resume.then(|| "resume".to_owned()).into_iter();
+            let outer = outer.iter().flat_map(|(outer, values)| given(chart, *outer, values));
+            resumed.chain(outer).chain(given(chart, *state, values)).collect()
         }
     }
+}
+
+/// The values that a state is given, with the names of its arguments.
+fn given<'c>(chart: &'c Chart, state: usize, values: &'c [String]) -> impl Iterator<Item = String> + use<'c> {
+    let arguments = chart.states[state].arguments.iter();
+    arguments.zip(values).map(|(argument, value)| format!("{} = {value}", argument.name))
 }

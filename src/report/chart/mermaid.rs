@@ -45,7 +45,9 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
             lines.push(&head);
         }
         if state.initial {
-            lines.push(&format!("[*] --> {}", id(index)));
+            let label = Label::of_initial(chart, index);
+            let label = if label.is_empty() { String::new() } else { format!(": {}", escaped(&label.line())) };
+            lines.push(&format!("[*] --> {}{label}", id(index)));
         }
     }
 }

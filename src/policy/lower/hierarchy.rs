@@ -1,0 +1,49 @@
+//! Which states lie in which.
+
+use crate::policy::ast::State;
+
+/// Which states lie in which.
+#[derive(Debug, Default)]
+pub(super) struct Hierarchy<'f> {
+    /// In the order of the text: an outer state comes before the states in it.
+    pub(super) states: &'f [State],
+    /// For every state, those that lie directly in it.
+    inner: Vec<Vec<usize>>,
+}
+
+impl<'f> Hierarchy<'f> {
+    pub(super) fn new(states: &'f [State]) -> Self {
+        let mut inner = vec![Vec::new(); states.len()];
+        for (index, state) in states.iter().enumerate() {
+            if let Some(parent) = state.parent {
+                inner[parent].push(index);
+            }
+        }
+        Self { states, inner }
+    }
+
+    /// The states that lie directly in a state.
+    pub(super) fn inner(&self, state: usize) -> &[usize] {
+        &self.inner[state]
+    }
+
+    /// A state and those that it lies in, the innermost first.
+    pub(super) fn outward(&self, state: usize) -> impl Iterator<Item = usize> + use<'f> {
+        let states = self.states;
+        std::iter::successors(Some(state), move |&state| states[state].parent)
+    }
+
+    /// Whether a state is `outer` or lies in it.
+    pub(super) fn contains(&self, outer: usize, state: usize) -> bool {
+        self.outward(state).any(|state| state == outer)
+    }
+
+    /// The states that a transition of the state `from`, or of any state, enters on the way to `target`: from the outermost
+    /// that does not stay active to the target itself.
+    pub(super) fn entered(&self, from: Option<usize>, target: usize) -> Vec<usize> {
+        let stays = |outer: usize| outer != target && from.is_some_and(|from| self.contains(outer, from));
+        let mut way: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
+        way.reverse();
+        way
+    }
+}

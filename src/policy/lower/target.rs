@@ -1,0 +1,286 @@
+//! Where a machine goes: the targets of transitions, and the states in which it and its outer states begin.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::machine::{self, Block};
+use crate::policy::ast::{Expression, File, Name, State, Step, Target};
+use crate::policy::hint::did_you_mean;
+use crate::policy::types::Value;
+
+use super::function::count;
+use super::scope::{Meaning, Scope};
+use super::structure::FAILURE;
+use super::{Compiler, StateEntry};
+
+/// The values that a state is given, and the arguments that they are for.
+type Given<'f> = (&'f [Expression], Vec<(String, Meaning)>);
+
+impl<'f> Compiler<'f> {
+    /// Writes the target of a transition of the state `from`, or of any state.
+    pub(super) fn target(
+        &mut self,
+        scope: &Scope<'f>,
+        from: Option<usize>,
+        target: &'f Target,
+    ) -> Option<machine::Target> {
+        if target.name.text == FAILURE && target.outer.is_empty() && target.resume.is_none() {
+            let Some(reason) = &target.text else {
+                self.report(
+                    Diagnostic::error("P0304", "`Failure` needs a reason", target.span, "why?")
+                        .hint("write `Failure(\"what went wrong\")`"),
+                );
+                return None;
+            };
+            return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
+        }
+        if target.name.text == FAILURE {
+            let message = "`Failure` ends a run wherever it is";
+            let diagnostic = Diagnostic::error("P0408", message, target.span, "lies in no state and cannot be resumed");
+            self.report(diagnostic.hint("write `Failure(\"what went wrong\")` alone"));
+            return None;
+        }
+        let Some(StateEntry { index: state, arguments }) = self.states.get(target.name.text.as_str()).cloned() else {
+            let diagnostic = self.unknown_state(&target.name);
+            self.report(match &target.text {
+                Some(text) => diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)),
+                None => diagnostic,
+            });
+            return None;
+        };
+        if let Some(text) = &target.text {
+            let message = format!("the state `{}` takes no text", target.name.text);
+            let diagnostic = Diagnostic::error("P0304", message, text.span, "a reason is for a failure");
+            self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
+            return None;
+        }
+        if let Some(resume) = target.resume
+            && self.hierarchy.inner(state).is_empty()
+        {
+            let message = format!("the state `{}` has no states in it that it could resume", target.name.text);
+            self.report(
+                Diagnostic::error("P0409", message, resume, "resumes nothing")
+                    .hint(format!("write `-> {}` to enter it", target.name.text)),
+            );
+            return None;
+        }
+        let way = self.hierarchy.entered(from, state);
+        let mut given = self.outer_values(target, state, &way)?;
+        self.check_count(&target.name, target.span, &target.values, &arguments)?;
+        given.push((&target.values, arguments));
+        let arguments = self.pass(scope, &given)?;
+        Some(machine::Target::State { state, arguments, resume: target.resume.is_some() })
+    }
+
+    /// The values of the outer states on the `way` to a state, which are entered with it.
+    fn outer_values(&mut self, target: &'f Target, state: usize, way: &[usize]) -> Option<Vec<Given<'f>>> {
+        let path = self.path(way);
+        let mut steps = Vec::with_capacity(target.outer.len());
+        let mut behind = 0;
+        for step in &target.outer {
+            let Some(index) = self.states.get(step.name.text.as_str()).map(|entry| entry.index) else {
+                let diagnostic = self.unknown_state(&step.name);
+                self.report(diagnostic);
+                return None;
+            };
+            let outer = &way[..way.len() - 1];
+            let Some(level) = outer.iter().position(|&on_way| on_way == index).filter(|&level| level >= behind) else {
+                let (name, inner) = (&step.name.text, &target.name.text);
+                let is_outer = self.hierarchy.contains(index, state) && index != state && !outer.contains(&index);
+                self.report(if is_outer {
+                    let message = format!("`{name}` stays active on the way to `{inner}`");
+                    Diagnostic::error("P0408", message, step.span, "is not entered")
+                        .hint(format!("write `{path}`, without the states that stay active"))
+                } else {
+                    let message = format!("the state `{inner}` does not lie there in `{name}`");
+                    Diagnostic::error("P0408", message, step.span, "is no outer state of what follows")
+                        .hint(format!("write `{path}`"))
+                });
+                return None;
+            };
+            behind = level + 1;
+            steps.push((level, step));
+        }
+        let mut given = Vec::with_capacity(way.len());
+        for (level, &index) in way[..way.len() - 1].iter().enumerate() {
+            let outer = &self.hierarchy.states[index].name;
+            let arguments = self.states.get(outer.text.as_str())?.arguments.clone();
+            if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
+                self.check_count(&step.name, step.span, &step.values, &arguments)?;
+                given.push((step.values.as_slice(), arguments));
+            } else if !arguments.is_empty() {
+                let message = format!("the state `{}` is entered with `{}`", outer.text, target.name.text);
+                let label = format!("the values of `{}` are missing", outer.text);
+                self.report(
+                    Diagnostic::error("P0307", message, target.span, label)
+                        .note(outer.span, "lies in this")
+                        .hint(format!("write `{path}`")),
+                );
+                return None;
+            }
+        }
+        Some(given)
+    }
+
+    /// How the last of the states on a way is written, with those outer ones that take values.
+    fn path(&self, way: &[usize]) -> String {
+        let usages = way.iter().enumerate().filter_map(|(level, &index)| {
+            let name = &self.hierarchy.states[index].name.text;
+            let arguments = &self.states.get(name.as_str())?.arguments;
+            (level + 1 == way.len() || !arguments.is_empty()).then(|| usage(name, arguments))
+        });
+        usages.collect::<Vec<_>>().join(".")
+    }
+
+    fn unknown_state(&self, name: &Name) -> Diagnostic {
+        let message = format!("there is no state `{}`", name.text);
+        let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
+        did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]))
+    }
+
+    /// Whether a state is given as many values as it takes.
+    fn check_count(
+        &mut self,
+        name: &Name,
+        span: Span,
+        values: &[Expression],
+        arguments: &[(String, Meaning)],
+    ) -> Option<()> {
+        if values.len() == arguments.len() {
+            return Some(());
+        }
+        let (takes, given) = (count(arguments.len()), values.len());
+        let message = format!("the state `{}` takes {takes}, not {given}", name.text);
+        let mut diagnostic = Diagnostic::error("P0304", message, span, "entered here");
+        if let Some(&made) = self.names().items.get(name.text.as_str()) {
+            diagnostic = diagnostic.note(made, "made here");
+        }
+        self.report(diagnostic.hint(format!("write `{}`", usage(&name.text, arguments))));
+        None
+    }
+
+    /// Writes the values that states are entered with. All are computed before the first is put into its place: a state may
+    /// hand its own arguments on to itself in another order.
+    fn pass(&mut self, scope: &Scope<'f>, given: &[Given<'f>]) -> Option<Block> {
+        let start = self.code.here();
+        let pairs = given.iter().flat_map(|(values, arguments)| values.iter().zip(arguments));
+        let values: Vec<Option<(Value, Value)>> = pairs
+            .map(|(value, &(_, argument))| {
+                let Some(argument) = argument else {
+                    self.expression(scope, value);
+                    return None;
+                };
+                Some((self.expect(scope, value, argument.r#type)?, argument))
+            })
+            .collect();
+        let mut copies = Vec::with_capacity(values.len());
+        for (value, argument) in values.into_iter().collect::<Option<Vec<_>>>()? {
+            let between = self.code.place(value.r#type.width());
+            self.code.copy(between, value.register, value.r#type.width());
+            copies.push((argument.register, between, value.r#type.width()));
+        }
+        for (to, from, width) in copies {
+            self.code.copy(to, from, width);
+        }
+        Some(self.code.since(start))
+    }
+
+    /// The state in which the machine begins.
+    pub(super) fn initial(&mut self, file: &'f File) -> Option<usize> {
+        let [name] = file.initial.as_slice() else {
+            let diagnostic = match file.initial.as_slice() {
+                [first, second, ..] => second_initial("a machine starts in one state", first.span, second.span),
+                _ => Diagnostic::error(
+                    "P0404",
+                    "the machine has no initial state",
+                    file.name.span,
+                    "where does it start?",
+                )
+                .hint("write `initial` and the name of a state"),
+            };
+            self.report(diagnostic);
+            return None;
+        };
+        let Some(entry) = self.states.get(name.text.as_str()) else {
+            let message = format!("there is no state `{}`", name.text);
+            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
+            self.report(did_you_mean(diagnostic, &name.text, self.states.keys().copied()));
+            return None;
+        };
+        let index = entry.index;
+        let fault = if let Some(outer) = self.hierarchy.states[index].parent {
+            let outer = &self.hierarchy.states[outer].name.text;
+            let hint = format!("start in an outermost state; `{outer}` begins in its own initial state");
+            Some((format!("the initial state cannot lie in another, such as `{outer}`"), hint))
+        } else if entry.arguments.is_empty() {
+            None
+        } else {
+            let hint = format!("start in a state without arguments, and let it lead to `{}`", name.text);
+            Some(("the initial state cannot have arguments".to_owned(), hint))
+        };
+        let Some((message, hint)) = fault else { return Some(index) };
+        self.report(Diagnostic::error("P0404", message, name.span, "starts here").hint(hint));
+        None
+    }
+
+    /// The inner state in which a state begins, and the values that it begins with; `None` if there are no states in it.
+    pub(super) fn inner_initial(
+        &mut self,
+        scope: &Scope<'f>,
+        index: usize,
+        state: &'f State,
+    ) -> Option<(usize, Block)> {
+        let name = &state.name.text;
+        let inner = self.hierarchy.inner(index).iter().map(|&inner| self.hierarchy.states[inner].name.text.as_str());
+        let names: Vec<String> = inner.clone().map(|name| format!("`{name}`")).collect();
+        let step = match state.initial.as_slice() {
+            [] if names.is_empty() => return None,
+            [] => {
+                let message = format!("the state `{name}` has states in it, but no initial one");
+                self.report(
+                    Diagnostic::error("P0404", message, state.name.span, "where does it begin?")
+                        .hint(format!("write `initial` and the name of {}", names.join(" or "))),
+                );
+                return None;
+            }
+            [step] => step,
+            [first, second, ..] => {
+                self.report(second_initial("a state begins in one of the states in it", first.span, second.span));
+                return None;
+            }
+        };
+        let Step { name: begin, values, span } = step;
+        let Some(StateEntry { index: child, arguments }) = self.states.get(begin.text.as_str()).cloned() else {
+            let message = format!("there is no state `{}`", begin.text);
+            let diagnostic = Diagnostic::error("P0201", message, begin.span, "unknown state");
+            let diagnostic = did_you_mean(diagnostic, &begin.text, inner);
+            self.report(diagnostic);
+            return None;
+        };
+        if !self.hierarchy.inner(index).contains(&child) {
+            let message = format!("the state `{}` does not lie directly in `{name}`", begin.text);
+            let diagnostic = Diagnostic::error("P0404", message, begin.span, "cannot begin here");
+            self.report(if names.is_empty() {
+                diagnostic.hint(format!("no state lies in `{name}`: leave `initial` out"))
+            } else {
+                diagnostic.hint(format!("write `initial` and the name of {}", names.join(" or ")))
+            });
+            return None;
+        }
+        self.check_count(begin, *span, values, &arguments)?;
+        let values = self.pass(scope, &[(values, arguments)])?;
+        Some((child, values))
+    }
+}
+
+fn second_initial(message: &str, first: Span, second: Span) -> Diagnostic {
+    Diagnostic::error("P0404", message, second, "a second initial state")
+        .note(first, "the first")
+        .hint("keep one of them")
+}
+
+/// How a state is written with its values.
+fn usage(name: &str, arguments: &[(String, Meaning)]) -> String {
+    let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
+    if names.is_empty() { name.to_owned() } else { format!("{name}({})", names.join(", ")) }
+}

@@ -1,0 +1,26 @@
+//! What the compiler says of machines that could go round within a tick.
+
+use proptest::prelude::*;
+use vibrissa::diagnostic::Source;
+use vibrissa::machine::Failure;
+use vibrissa::policy::compile;
+
+use super::oracle::{run_both, touches};
+use super::tree::{Features, trees};
+
+/// So few states that eight transitions come to one of them twice.
+const FEW: Features = Features { states: 7, rules: 9, times: false, resume: false, always: false };
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_compiles_goes_round_in_no_tick(tree in trees(FEW), touches in touches()) {
+        let Ok(program) = compile(&Source::new("tree.fsm", tree.text())) else {
+            return Err(TestCaseError::reject("goes round"));
+        };
+        let machine = run_both(&tree, program, &touches)?;
+        let goes_round = matches!(machine.failure(), Some(Failure::Chain { .. }));
+        prop_assert!(!goes_round, "{}", tree.text());
+    }
+}

@@ -1,0 +1,10 @@
+//! States in states: what they mean, by example and against an interpreter of their own.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod claims;
+mod cycles;
+mod interpreter;
+mod oracle;
+mod tree;
