@@ -6,9 +6,7 @@ use cavalier_contours::polyline::{
     PlineOffsetOptions, PlineSource, PlineSourceMut, PlineVertex, Polyline, TouchingLoopBehavior,
 };
 
-use super::{
-    Arc, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, Vector2, perpendicular, rotate,
-};
+use super::{Arc, Contour, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, Vector2, perpendicular, rotate};
 
 /// How far (m) a parallel contour may be off. Its corners are crossings, so they are less exact than its pieces.
 const TOLERANCE: f64 = 2e-8;
@@ -31,8 +29,8 @@ pub enum OffsetError {
     },
     /// What was computed does not stand its check.
     #[error(
-        "no sound parallel contour was found at {distance} m: it may be about to touch itself, split or vanish there; try \
-         another distance"
+        "there is no sound parallel contour at {distance} m: at this very distance it touches itself, splits or vanishes; \
+         take one a micrometre more or less"
     )]
     Unsound {
         /// The distance (m).
@@ -64,8 +62,8 @@ impl Contour {
     /// ```
     ///
     /// # Errors
-    /// If the distance is not finite, or no parallel contour was found that stands its check: mostly where rounding
-    /// decides its form, because it is about to touch itself, but for some rare contours over a range of distances.
+    /// If the distance is not finite, or no parallel contour was found that stands its check: rounding decides its form,
+    /// because at this very distance it touches itself, splits or vanishes. A micrometre more or less has one.
     pub fn offset(&self, distance: f64) -> Result<Vec<Self>, OffsetError> {
         if !distance.is_finite() {
             return Err(OffsetError::NotFinite { distance });
@@ -91,26 +89,17 @@ impl Contour {
         };
         // The library counts a distance to the left as positive.
         let found = to_polyline(self, origin).parallel_offset_opt(-distance * PER_METRE, &options);
-        let found = found.iter().map(|polyline| to_pieces(polyline, origin));
+        let found = stitched(found).into_iter().map(|polyline| (to_pieces(&polyline, origin), polyline.is_closed()));
         // At a cusp it also finds the half circle on the other side.
-        let found = found.filter(|pieces| pieces.iter().all(|piece| self.is_beside(piece, distance)));
-        let found = found.map(|pieces| self.like(pieces)).collect::<Result<Vec<_>, _>>().ok()?;
+        let found = found.filter(|(pieces, _)| pieces.iter().all(|piece| self.is_beside(piece, distance)));
+        let found = found.map(|(pieces, closed)| if closed { Self::closed(pieces) } else { Self::open(pieces) });
+        let found = found.collect::<Result<Vec<_>, _>>().ok()?;
         self.has_parallel(&found, distance).then_some(found)
     }
 
     /// Whether the middle of a piece is on the side of this contour that the sign of the distance says.
     fn is_beside(&self, piece: &Piece, distance: f64) -> bool {
         self.signed_distance(piece.point_at(0.5 * piece.length())) * distance > 0.0
-    }
-
-    /// A contour of the same kind as this one; closed too if an open one's parallel runs into its own start.
-    fn like(&self, pieces: Vec<Piece>) -> Result<Self, ContourError> {
-        let closed = self.closed
-            || pieces
-                .first()
-                .zip(pieces.last())
-                .is_some_and(|(first, last)| (first.start() - last.end()).norm() <= JOIN_TOLERANCE);
-        if closed { Self::closed(pieces) } else { Self::open(pieces) }
     }
 
     /// Whether the contours are at the distance, and whether they lack none of the points there.
@@ -165,6 +154,39 @@ fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
         add(contour.point_at(contour.length), 0.0);
     }
     polyline
+}
+
+/// Joins open parallels where the end of one meets the start of another, or of its own.
+///
+/// Where a contour ends in an arc, the circle around its end touches the arc's parallel. Crossings with the one and with the
+/// other are then one place to what the library takes for nothing, but not to its joints nor to those of a contour: it leaves
+/// parallels in parts there, and slivers between the crossings.
+fn stitched(found: Vec<Polyline>) -> Vec<Polyline> {
+    let meet = |end: &Polyline, start: &Polyline| {
+        let joint = end.last().zip(start.get(0));
+        joint.is_some_and(|(end, start)| (end.pos() - start.pos()).length() <= TOLERANCE * PER_METRE)
+    };
+    let long = found.into_iter().filter(|polyline| polyline.path_length() > TOLERANCE * PER_METRE);
+    let (mut whole, mut parts): (Vec<_>, Vec<_>) = long.partition(PlineSource::is_closed);
+    while let Some(mut part) = parts.pop() {
+        if let Some(before) = parts.iter().position(|before| meet(before, &part)) {
+            parts[before].remove_last();
+            parts[before].extend_vertexes(part.iter_vertexes());
+            continue;
+        }
+        if let Some(next) = parts.iter().position(|next| meet(&part, next)) {
+            part.remove_last();
+            part.extend_vertexes(parts.swap_remove(next).iter_vertexes());
+            parts.push(part);
+            continue;
+        }
+        if part.vertex_count() > 2 && meet(&part, &part) {
+            part.remove_last();
+            part.set_is_closed(true);
+        }
+        whole.push(part);
+    }
+    whole
 }
 
 fn to_pieces(polyline: &Polyline, origin: Point2) -> Vec<Piece> {
