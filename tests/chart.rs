@@ -15,6 +15,8 @@ use vibrissa::report::{chart_dot, chart_mermaid, chart_svg};
 const THESIS: &str = include_str!("../policies/thesis.fsm");
 /// Ten states with all that makes a chart hard to draw.
 const HARD: &str = include_str!("fixtures/charts/hard.fsm");
+/// Three levels of states.
+const NESTED: &str = include_str!("fixtures/charts/nested.fsm");
 
 fn state(name: &str, parent: Option<usize>, initial: bool) -> State {
     State { name: name.to_owned(), arguments: Vec::new(), parent, initial, values: Vec::new() }
@@ -39,7 +41,7 @@ fn the_texts_are_as_reviewed() {
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.bind(|| {
-        for (name, text) in [("thesis", THESIS), ("hard", HARD)] {
+        for (name, text) in [("thesis", THESIS), ("hard", HARD), ("nested", NESTED)] {
             let chart = chart_of(text);
             insta::assert_snapshot!(format!("{name}.mermaid"), chart_mermaid(&chart));
             insta::assert_snapshot!(format!("{name}.dot"), chart_dot(&chart));
@@ -76,13 +78,16 @@ fn agree(chart: &Chart, origin: Origin, machine: &[machine::Transition]) {
 
 #[test]
 fn a_chart_has_every_state_and_transition_of_the_machine_in_their_order() {
-    for text in [THESIS, HARD] {
+    for text in [THESIS, HARD, NESTED] {
         let (chart, program) = (chart_of(text), program_of(text));
         assert_eq!(chart.machine, program.name);
         let names: Vec<_> = chart.states.iter().map(|state| &*state.name).collect();
         assert_eq!(names, program.states.iter().map(|state| &*state.name).collect::<Vec<_>>());
-        let initial: Vec<_> = (0..names.len()).filter(|&state| chart.states[state].initial).collect();
-        assert_eq!(initial, [program.initial]);
+        for (index, (drawn, compiled)) in chart.states.iter().zip(&program.states).enumerate() {
+            assert_eq!(drawn.parent, compiled.parent);
+            let outer = compiled.parent.and_then(|outer| program.states[outer].initial.as_ref());
+            assert_eq!(drawn.initial, outer.map_or(program.initial, |&(inner, _)| inner) == index);
+        }
         agree(&chart, Origin::AnyState, &program.always);
         for (index, state) in program.states.iter().enumerate() {
             agree(&chart, Origin::State(index), &state.transitions);
@@ -224,7 +229,7 @@ fn stands_clear(picture: &str) {
 
 #[test]
 fn in_a_picture_nothing_hides_anything() {
-    for text in [THESIS, HARD] {
+    for text in [THESIS, HARD, NESTED] {
         stands_clear(&chart_svg(&chart_of(text)).unwrap());
     }
 }
@@ -308,8 +313,10 @@ fn nested_states_are_drawn_as_such() {
     );
     let dot = chart_dot(&chart);
     assert!(dot.contains("subgraph \"cluster Outer\" {\n    \"Outer\" [label=\"Outer\"]\n    \"Inner\""), "{dot}");
-    let shown = see(&chart_svg(&chart).unwrap()).texts;
-    assert!(shown.iter().any(|(text, _)| text == "in Outer"));
+    let seen = see(&chart_svg(&chart).unwrap());
+    let place = |name: &str| seen.texts.iter().find(|(text, _)| text == name).unwrap().1;
+    let around = |name: &str| seen.frames.iter().filter(|frame| within(&place(name), frame)).count();
+    assert_eq!(["Outer", "Inner", "Other"].map(around), [1, 2, 1]);
 }
 
 #[test]
@@ -320,19 +327,28 @@ fn a_chart_that_nobody_could_make_out_has_no_picture() {
     assert_eq!(chart_dot(&chart).matches("after").count(), 101);
 }
 
-/// A chart of up to 12 states with texts of any length.
+/// A chart of up to 12 states, in one another or not, with texts of any length.
 fn charts() -> impl Strategy<Value = Chart> {
     let text = prop_oneof!["[a-z.]{1,12}( [a-z0-9<>|]{1,30}){0,12}", "[a-z]{1,120}", "\\PC{0,40}"];
     let transition = (0..14_usize, 0..13_usize, text.clone(), prop::option::of(text));
-    let states = prop::collection::vec("[A-Z][a-z]{0,30}", 1..12);
+    let states = prop::collection::vec(("[A-Z][a-z]{0,30}", 0..4_usize), 1..12);
     (states, prop::collection::vec(transition, 0..40), any::<prop::sample::Index>()).prop_map(
-        |(names, transitions, initial)| {
-            let count = names.len();
-            let initial = initial.index(count);
+        |(states, transitions, initial)| {
+            let count = states.len();
+            // Each state lies beside the one before it, in it, or beside one around it.
+            let mut parents: Vec<Option<usize>> = vec![None];
+            for (before, (_, depth)) in states[1..].iter().enumerate() {
+                let around = std::iter::successors(Some(before), |&state| parents[state]);
+                let around: Vec<usize> = around.collect();
+                parents.push(around.iter().rev().take(*depth).last().copied());
+            }
+            let outermost: Vec<usize> = (0..count).filter(|&state| parents[state].is_none()).collect();
+            let initial = outermost[initial.index(outermost.len())];
             let argument = |k: usize| Argument { name: format!("a{k}"), type_name: "vector of length".to_owned() };
-            let numbered = |(k, name): (usize, String)| {
+            let numbered = |(k, (name, _)): (usize, (String, usize))| {
+                let is_first = parents[k].is_some() && !parents[..k].contains(&parents[k]);
                 let arguments = (0..k % 4).map(argument).collect();
-                State { arguments, ..state(&format!("{name}{k}"), None, k == initial) }
+                State { arguments, ..state(&format!("{name}{k}"), parents[k], k == initial || is_first) }
             };
             let transition = |(from, to, text, lasting): (usize, usize, String, Option<String>)| Transition {
                 origin: if from >= 12 { Origin::AnyState } else { Origin::State(from % count) },
@@ -345,7 +361,7 @@ fn charts() -> impl Strategy<Value = Chart> {
             };
             Chart {
                 machine: "m".to_owned(),
-                states: names.into_iter().enumerate().map(numbered).collect(),
+                states: states.into_iter().enumerate().map(numbered).collect(),
                 transitions: transitions.into_iter().map(transition).collect(),
             }
         },
@@ -359,21 +375,24 @@ proptest! {
     fn in_the_picture_of_any_chart_nothing_hides_anything(chart in charts()) {
         let picture = chart_svg(&chart).unwrap();
         stands_clear(&picture);
-        // One arrow for all transitions between two states, and one to the initial state.
+        // One arrow for all transitions between two states, and one to each initial state.
         let ends = |transition: &Transition| match transition.target {
             Target::State { state, .. } => (format!("{:?}", transition.origin), Some(state)),
             Target::Failure(_) => (format!("{:?}", transition.origin), None),
         };
         let arrows: BTreeSet<_> = chart.transitions.iter().map(ends).collect();
-        prop_assert_eq!(picture.matches("stroke-width=\"1.3\"").count(), arrows.len() + 1);
+        let initial = chart.states.iter().filter(|state| state.initial).count();
+        prop_assert_eq!(picture.matches("stroke-width=\"1.3\"").count(), arrows.len() + initial);
     }
 
     #[test]
     fn the_texts_of_any_chart_have_a_line_a_transition(chart in charts()) {
         let mermaid = chart_mermaid(&chart);
         let last = usize::from(chart.has_failure());
-        prop_assert_eq!(mermaid.lines().filter(|line| line.contains(" --> ")).count(), chart.transitions.len() + 1 + last);
+        let initial = chart.states.iter().filter(|state| state.initial).count();
+        let arrows = chart.transitions.len() + initial;
+        prop_assert_eq!(mermaid.lines().filter(|line| line.contains(" --> ")).count(), arrows + last);
         let dot = chart_dot(&chart);
-        prop_assert_eq!(dot.lines().filter(|line| line.contains("\" -> \"")).count(), chart.transitions.len() + 1);
+        prop_assert_eq!(dot.lines().filter(|line| line.contains("\" -> \"")).count(), arrows);
     }
 }

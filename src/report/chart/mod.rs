@@ -6,6 +6,7 @@ mod label;
 mod layout;
 mod lines;
 mod mermaid;
+mod nest;
 mod svg;
 mod symbol;
 mod wrap;

@@ -4,9 +4,10 @@ use svg::node::element::{Group, Path, Rectangle, Title};
 
 use super::caption::Caption;
 use super::label::Label;
-use super::layout::{Arrow, Node, Place, layout};
+use super::layout::Place;
+use super::nest::{Span, arrange};
 use super::symbol::Symbol;
-use crate::policy::chart::{Chart, Origin, Target};
+use crate::policy::chart::{Chart, Origin, Target, Transition};
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, px, text, width_of};
 
@@ -52,19 +53,25 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     let symbols = symbols(chart);
     let links = links(chart, &symbols);
     let (loops, links): (Vec<_>, Vec<_>) = links.into_iter().partition(|link| link.from == link.to);
-    let node = |(index, symbol): (usize, &Symbol)| {
+    let beside = |index: usize| {
         let beside = loops.iter().find(|link| link.from == index).map(|link| link.caption.size());
-        Node { size: symbol.size(chart), beside: beside.map_or((0.0, 0.0), |(width, height)| (LOOP.0 + width, height)) }
+        beside.map_or((0.0, 0.0), |(width, height)| (LOOP.0 + width, height))
     };
-    let nodes: Vec<_> = symbols.iter().enumerate().map(node).collect();
-    let arrows = links.iter().map(|link| Arrow { from: link.from, to: link.to, label: link.caption.size() });
-    let layout = layout(&nodes, &arrows.collect::<Vec<_>>());
+    let beside: Vec<_> = (0..symbols.len()).map(beside).collect();
+    let spans = links.iter().map(|link| Span { from: link.from, to: link.to, label: link.caption.size() });
+    let layout = arrange(chart, &symbols, &beside, &spans.collect::<Vec<_>>());
 
     let remark = remark(chart);
     let least = width_of(&chart.machine, TITLE).max(width_of(remark, REMARK));
     let (width, height) = (layout.size.0.max(least) + 2.0 * MARGIN, layout.size.1 + HEAD + MARGIN);
     let mut drawing = Group::new();
     drawing = drawing.set("transform", format!("translate({} {})", px(0.5 * (width - layout.size.0)), px(HEAD)));
+    // A frame lies behind all that is in it.
+    let holds_others =
+        |symbol: Symbol| matches!(symbol, Symbol::State(state) if chart.inside(Some(state)).next().is_some());
+    for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| holds_others(**symbol)) {
+        drawing = drawing.add(symbol.draw_frame(chart, centre, size));
+    }
     for way in &layout.ways {
         drawing = drawing.add(line(curve(&way.points)));
         if let [.., before, tip] = way.points[..] {
@@ -75,7 +82,7 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
         drawing = drawing.add(link.caption.draw(way.label));
     }
     for link in &loops {
-        let ((x, y), width) = layout.nodes[link.from];
+        let ((x, y), (width, _)) = layout.symbols[link.from];
         let (right, out) = (x + 0.5 * width, x + 0.5 * width + LOOP.0);
         let mut bow = Outline::default();
         bow.move_to((right, y - LOOP.1));
@@ -83,8 +90,8 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
         drawing = drawing.add(line(bow)).add(arrowhead((right, y + LOOP.1), (-1.0, 0.0)));
         drawing = drawing.add(link.caption.draw((out + 0.5 * link.caption.size().0, y)));
     }
-    for (symbol, &(centre, width)) in symbols.iter().zip(&layout.nodes) {
-        drawing = drawing.add(symbol.draw(chart, centre, width));
+    for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| !holds_others(**symbol)) {
+        drawing = drawing.add(symbol.draw(chart, centre, size.0));
     }
     let document = svg::Document::new()
         .set("width", px(width))
@@ -108,11 +115,36 @@ fn remark(chart: &Chart) -> &'static str {
 
 /// The symbols of a chart; the layout begins with the first.
 fn symbols(chart: &Chart) -> Vec<Symbol> {
-    let mut symbols = vec![Symbol::Start];
+    let mut symbols = vec![Symbol::Start(None)];
+    let starts = chart.states.iter().filter(|state| state.initial && state.parent.is_some());
+    symbols.extend(starts.map(|state| Symbol::Start(state.parent)));
     symbols.extend((0..chart.states.len()).map(Symbol::State));
-    symbols.extend(chart.has_any_state().then_some(Symbol::AnyState));
+    symbols.extend(chart.has_any_state().then_some(Symbol::AnyState(None)));
+    for (from, to) in chart.transitions.iter().map(|transition| ends(chart, transition)) {
+        for symbol in [from, to] {
+            if matches!(symbol, Symbol::AnyState(Some(_)) | Symbol::Anew(_)) && !symbols.contains(&symbol) {
+                symbols.push(symbol);
+            }
+        }
+    }
     symbols.extend(chart.has_failure().then_some(Symbol::Failure));
     symbols
+}
+
+/// The symbols that a transition leads from and to. What leads from a state into it, or out of those in it into it, is drawn
+/// within it.
+fn ends(chart: &Chart, transition: &Transition) -> (Symbol, Symbol) {
+    match (transition.origin, &transition.target) {
+        (Origin::AnyState, Target::State { state, .. }) => (Symbol::AnyState(None), Symbol::State(*state)),
+        (Origin::AnyState, Target::Failure(_)) => (Symbol::AnyState(None), Symbol::Failure),
+        (Origin::State(from), Target::Failure(_)) => (Symbol::State(from), Symbol::Failure),
+        (Origin::State(from), &Target::State { state, .. }) => {
+            let leads_in = from != state && chart.contains(from, state);
+            let leads_out = from != state && chart.contains(state, from);
+            let origin = if leads_in { Symbol::AnyState(Some(from)) } else { Symbol::State(from) };
+            (origin, if leads_out { Symbol::Anew(state) } else { Symbol::State(state) })
+        }
+    }
 }
 
 /// All transitions from one symbol to another, or what leads to an initial state.
@@ -123,28 +155,22 @@ struct Link {
 }
 
 fn links(chart: &Chart, symbols: &[Symbol]) -> Vec<Link> {
-    let mut bundles: Vec<(Symbol, Symbol, Vec<usize>)> = Vec::new();
+    let mut bundles: Vec<(Symbol, Symbol, Vec<Label>)> = Vec::new();
     for (index, state) in chart.states.iter().enumerate().filter(|(_, state)| state.initial) {
-        bundles.push((state.parent.map_or(Symbol::Start, Symbol::State), Symbol::State(index), Vec::new()));
+        let label = Some(Label::of_initial(chart, index)).filter(|label| !label.is_empty());
+        bundles.push((Symbol::Start(state.parent), Symbol::State(index), label.into_iter().collect()));
     }
     for (index, transition) in chart.transitions.iter().enumerate() {
-        let from = match transition.origin {
-            Origin::AnyState => Symbol::AnyState,
-            Origin::State(state) => Symbol::State(state),
-        };
-        let to = match transition.target {
-            Target::State { state, .. } => Symbol::State(state),
-            Target::Failure(_) => Symbol::Failure,
-        };
-        let same_ends = |bundle: &&mut (Symbol, Symbol, Vec<usize>)| bundle.0 == from && bundle.1 == to;
+        let (from, to) = ends(chart, transition);
+        let label = Label::new(chart, index);
+        let same_ends = |bundle: &&mut (Symbol, Symbol, Vec<Label>)| bundle.0 == from && bundle.1 == to;
         match bundles.iter_mut().find(same_ends) {
-            Some(bundle) => bundle.2.push(index),
-            None => bundles.push((from, to, vec![index])),
+            Some(bundle) => bundle.2.push(label),
+            None => bundles.push((from, to, vec![label])),
         }
     }
     let place = |symbol: Symbol| symbols.iter().position(|other| *other == symbol);
-    let link = |(from, to, transitions): (Symbol, Symbol, Vec<usize>)| {
-        let labels: Vec<_> = transitions.iter().map(|&index| Label::new(chart, index)).collect();
+    let link = |(from, to, labels): (Symbol, Symbol, Vec<Label>)| {
         let colour = if to == Symbol::Failure { style::ALARM } else { style::GREY };
         Some(Link { from: place(from)?, to: place(to)?, caption: Caption::new(&labels, colour) })
     };

@@ -2,7 +2,7 @@
 
 use svg::node::element::{Circle, Group, Rectangle};
 
-use super::label::{ANY_STATE, FAILURE, arguments};
+use super::label::{ANY_STATE, FAILURE, arguments, signature};
 use super::layout::{Place, Size};
 use crate::policy::chart::Chart;
 use crate::report::style::{self, Anchor, px, text, width_of};
@@ -22,20 +22,55 @@ const START: f64 = 14.0;
 /// A symbol of a statechart.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Symbol {
-    /// Where a run starts.
-    Start,
+    /// Where a run starts, or a state that others lie in.
+    Start(Option<usize>),
     /// The state with this index.
     State(usize),
-    /// Every state.
-    AnyState,
+    /// Every state, or every one in a state.
+    AnyState(Option<usize>),
+    /// For those in it: the state with this index, which is left and entered anew.
+    Anew(usize),
     /// The end in failure.
     Failure,
 }
 
 impl Symbol {
-    /// Its size (px).
+    /// The state that it lies in.
+    pub(super) fn container(self, chart: &Chart) -> Option<usize> {
+        match self {
+            Self::Start(container) | Self::AnyState(container) => container,
+            Self::Anew(state) => Some(state),
+            Self::State(state) => chart.states[state].parent,
+            Self::Failure => None,
+        }
+    }
+
+    /// The size of its title, if it is a state that others lie in (px).
+    pub(super) fn title_size(self, chart: &Chart) -> Size {
+        (width_of(&self.title(chart), NAME), LINE)
+    }
+
+    /// The frame of a state that others lie in, and its title.
+    pub(super) fn draw_frame(self, chart: &Chart, (x, y): Place, (width, height): Size) -> Group {
+        let (left, top) = (x - 0.5 * width, y - 0.5 * height);
+        let frame = Rectangle::new().set("x", px(left)).set("y", px(top)).set("rx", 10);
+        let frame = frame.set("width", px(width)).set("height", px(height));
+        let frame = frame.set("fill", "#ffffff").set("stroke", style::INK);
+        let title =
+            text(left + BESIDE, top + BESIDE + 0.75 * LINE, Anchor::Start, NAME, style::INK, &self.title(chart));
+        Group::new().add(frame).add(title.set("font-weight", 600))
+    }
+
+    fn title(self, chart: &Chart) -> String {
+        match self {
+            Self::State(index) => signature(&chart.states[index]),
+            _ => self.name(chart).to_owned(),
+        }
+    }
+
+    /// Its size, if nothing lies in it (px).
     pub(super) fn size(self, chart: &Chart) -> Size {
-        if self == Self::Start {
+        if matches!(self, Self::Start(_)) {
             return (START, START);
         }
         let remarks = self.remarks(chart);
@@ -46,7 +81,7 @@ impl Symbol {
 
     /// The symbol round `centre`, as wide as told.
     pub(super) fn draw(self, chart: &Chart, (x, y): Place, width: f64) -> Group {
-        if self == Self::Start {
+        if matches!(self, Self::Start(_)) {
             let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", px(0.5 * START));
             return Group::new().add(dot.set("fill", style::INK));
         }
@@ -59,11 +94,13 @@ impl Symbol {
         };
         let mut group = Group::new();
         group = match self {
-            Self::AnyState => group.add(frame(0.0).set("fill", "#ffffff").set("stroke-dasharray", "5 3")),
+            Self::AnyState(_) | Self::Anew(_) => {
+                group.add(frame(0.0).set("fill", "#ffffff").set("stroke-dasharray", "5 3"))
+            }
             // The final state of a statechart has two lines round it.
             Self::Failure => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5).set("fill", style::FAILURE)),
             Self::State(index) => group.add(frame(0.0).set("fill", style::STATES[index % style::STATES.len()])),
-            Self::Start => group,
+            Self::Start(_) => group,
         };
         let remarks = self.remarks(chart);
         let mut y = y - 0.5 * LINE * remarks.len() as f64 + 5.0;
@@ -79,19 +116,19 @@ impl Symbol {
 
     fn name(self, chart: &Chart) -> &str {
         match self {
-            Self::Start => "",
-            Self::State(index) => &chart.states[index].name,
-            Self::AnyState => ANY_STATE,
+            Self::Start(_) => "",
+            Self::State(index) | Self::Anew(index) => &chart.states[index].name,
+            Self::AnyState(_) => ANY_STATE,
             Self::Failure => FAILURE,
         }
     }
 
     /// What stands under the name.
     fn remarks(self, chart: &Chart) -> Vec<String> {
-        let Self::State(index) = self else { return Vec::new() };
-        let state = &chart.states[index];
-        let inside = state.parent.map(|parent| format!("in {}", chart.states[parent].name));
-        let arguments = (!state.arguments.is_empty()).then(|| arguments(state));
-        arguments.into_iter().chain(inside).collect()
+        match self {
+            Self::State(index) if !chart.states[index].arguments.is_empty() => vec![arguments(&chart.states[index])],
+            Self::Anew(_) => vec!["entered anew".to_owned()],
+            _ => Vec::new(),
+        }
     }
 }

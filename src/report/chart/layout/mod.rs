@@ -7,6 +7,7 @@ mod rank;
 mod settle;
 
 pub(super) use net::layout;
+pub(super) use rank::ranks;
 
 /// A size: width, height (px).
 pub(super) type Size = (f64, f64);
@@ -14,9 +15,18 @@ pub(super) type Size = (f64, f64);
 /// A place: to the right, down (px).
 pub(super) type Place = (f64, f64);
 
-/// A box that arrows lead to and leave from.
+/// An edge of all that is laid out, where arrows come in and go out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Edge {
+    Top,
+    Bottom,
+}
+
+/// A box that arrows lead to and leave from, or a place at an edge.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
+    /// The edge at which it is; what is at the top and has a size comes first there, on the left.
+    pub(super) edge: Option<Edge>,
     /// Its size; it may come out wider, so that its arrows have room.
     pub(super) size: Size,
     /// The room beside it, to the right, for arrows to itself and their label; zero if there are none.
@@ -32,6 +42,8 @@ pub(super) struct Arrow {
     pub(super) to: usize,
     /// The size of its label; zero if it has none.
     pub(super) label: Size,
+    /// Where it leaves and where it reaches its nodes, to the right of their axes (px), if that is given.
+    pub(super) ports: [Option<f64>; 2],
 }
 
 /// Where everything is; the upper left corner of all is the origin.

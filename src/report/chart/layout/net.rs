@@ -1,9 +1,8 @@
 //! From nodes and arrows to places.
 
 use super::order::order;
-use super::rank::rank;
 use super::settle::{Wish, settle};
-use super::{Arrow, Layout, Node, Place, Way};
+use super::{Arrow, Edge, Layout, Node, Place, Way};
 
 /// Least room between what stands side by side (px).
 const BESIDE: f64 = 22.0;
@@ -49,6 +48,8 @@ struct Segment {
     lower: usize,
     /// Where it is attached, to the right of the axis of the upper and of the lower (px).
     ports: (f64, f64),
+    /// Whether that is given.
+    fixed: (bool, bool),
 }
 
 /// An arrow as vertices, from top to bottom: its upper node, what stands for it between, its lower node.
@@ -61,9 +62,9 @@ struct Chain {
     leads_up: bool,
 }
 
-/// Lays out `nodes`, the first at the top, and `arrows`.
-pub(in crate::report::chart) fn layout(nodes: &[Node], arrows: &[Arrow]) -> Layout {
-    let mut net = Net::new(nodes, arrows);
+/// Lays out `nodes` in layers that `ranks` gives, and `arrows`.
+pub(in crate::report::chart) fn layout(nodes: &[Node], arrows: &[Arrow], ranks: &[usize]) -> Layout {
+    let mut net = Net::new(nodes, arrows, ranks);
     net.attach(nodes);
     net.spread();
     net.finish(nodes)
@@ -79,16 +80,14 @@ struct Net {
 }
 
 impl Net {
-    fn new(nodes: &[Node], arrows: &[Arrow]) -> Self {
-        let ends: Vec<_> = arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect();
-        let ranks = rank(nodes.len(), &ends);
+    fn new(nodes: &[Node], arrows: &[Arrow], ranks: &[usize]) -> Self {
         let vertex = |(node, rank): (&Node, &usize)| {
             let half = 0.5 * node.size.0;
             let height = node.size.1.max(node.beside.1);
             Vertex { layer: 2 * rank, reach: (half, half + node.beside.0), height, x: 0.0 }
         };
         let mut net = Self {
-            vertices: nodes.iter().zip(&ranks).map(vertex).collect(),
+            vertices: nodes.iter().zip(ranks).map(vertex).collect(),
             segments: Vec::new(),
             chains: Vec::new(),
             layers: Vec::new(),
@@ -101,8 +100,16 @@ impl Net {
         for (index, vertex) in net.vertices.iter().enumerate() {
             layers[vertex.layer].push(index);
         }
-        let ends: Vec<_> = net.segments.iter().map(|segment| (segment.upper, segment.lower)).collect();
-        net.layers = order(layers, &ends);
+        let at = |vertex: usize, port: f64| if port == 0.0 { 0.0 } else { 0.5 * port / net.vertices[vertex].reach.0 };
+        let end =
+            |&Segment { upper, lower, ports, .. }: &Segment| (upper, lower, (at(upper, ports.0), at(lower, ports.1)));
+        net.layers = order(layers, &net.segments.iter().map(end).collect::<Vec<_>>());
+        // What has a size at the top is a title: the line of text begins with it.
+        let is_title =
+            |&vertex: &usize| nodes.get(vertex).is_some_and(|node| node.edge == Some(Edge::Top) && node.size.1 > 0.0);
+        if let Some(top) = net.layers.first_mut() {
+            top.sort_by_key(|vertex| !is_title(vertex));
+        }
         net
     }
 
@@ -120,8 +127,22 @@ impl Net {
         }
         chain.vertices.push(lower);
         let segments = chain.vertices.iter().zip(&chain.vertices[1..]);
-        self.segments.extend(segments.map(|(&upper, &lower)| Segment { upper, lower, ports: (0.0, 0.0) }));
+        let segment = |(&upper, &lower)| Segment { upper, lower, ports: (0.0, 0.0), fixed: (false, false) };
+        self.segments.extend(segments.map(segment));
+        let [at_upper, at_lower] = if leads_up { [arrow.ports[1], arrow.ports[0]] } else { arrow.ports };
+        if let (Some(port), Some(first)) = (at_upper, self.segments.get_mut(chain.first)) {
+            (first.ports.0, first.fixed.0) = (port, true);
+        }
+        if let (Some(port), Some(last)) = (at_lower, self.segments.last_mut()) {
+            (last.ports.1, last.fixed.1) = (port, true);
+        }
         self.chains.push(chain);
+    }
+
+    /// Whether a segment reaches a node, from above or from below, at a place that is not given.
+    fn is_free(&self, segment: usize, node: usize, from_above: bool) -> bool {
+        let Segment { upper, lower, fixed, .. } = self.segments[segment];
+        if from_above { lower == node && !fixed.1 } else { upper == node && !fixed.0 }
     }
 
     /// Spreads the arrows' ends along the sides of the nodes, in the order of where they lead.
@@ -131,9 +152,9 @@ impl Net {
             layer.iter().enumerate().for_each(|(place, &vertex)| places[vertex] = place);
         }
         for node in 0..nodes.len() {
-            let mut above: Vec<_> = (0..self.segments.len()).filter(|&k| self.segments[k].lower == node).collect();
+            let mut above: Vec<_> = (0..self.segments.len()).filter(|&k| self.is_free(k, node, true)).collect();
             above.sort_by_key(|&k| places[self.segments[k].upper]);
-            let mut below: Vec<_> = (0..self.segments.len()).filter(|&k| self.segments[k].upper == node).collect();
+            let mut below: Vec<_> = (0..self.segments.len()).filter(|&k| self.is_free(k, node, false)).collect();
             below.sort_by_key(|&k| places[self.segments[k].lower]);
             let vertex = &mut self.vertices[node];
             let least = 0.5 * PORTS.0 * (above.len().max(below.len()) as f64 + 1.0);
@@ -157,7 +178,7 @@ impl Net {
     fn spread(&mut self) {
         // For each vertex, its neighbours, what would be between the two if the segment were straight, and its stiffness.
         let mut pulls: Vec<Vec<(usize, f64, f64)>> = self.vertices.iter().map(|_| Vec::new()).collect();
-        for &Segment { upper, lower, ports } in &self.segments {
+        for &Segment { upper, lower, ports, .. } in &self.segments {
             let lines = [upper, lower].iter().filter(|&&end| self.vertices[end].is_line()).count();
             let stiffness = if lines == 2 { STIFFNESS } else { 1.0 };
             pulls[upper].push((lower, ports.1 - ports.0, stiffness));
@@ -278,7 +299,11 @@ impl Net {
         // Within its layer a node may be lower than the layer.
         let edge = |index: usize, side: f64| {
             let (top, bottom) = bands[self.vertices[index].layer];
-            0.5 * (top + bottom + side * nodes[index].size.1)
+            match nodes[index].edge {
+                None => 0.5 * (top + bottom + side * nodes[index].size.1),
+                Some(Edge::Top) => top,
+                Some(Edge::Bottom) => bottom,
+            }
         };
         if let (Some(&upper), Some(&lower)) = (chain.vertices.first(), chain.vertices.last())
             && let (Some(first), Some(last)) = (points.first().copied(), points.last().copied())

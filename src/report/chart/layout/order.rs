@@ -3,17 +3,18 @@
 /// Sweeps over all layers in search of fewer crossings.
 const SWEEPS: usize = 24;
 
-/// Segments between vertices of neighbouring layers: the upper, the lower.
-type Segments = [(usize, usize)];
+/// Segments between vertices of neighbouring layers: the upper, the lower, and where each is attached there, from -0.5 at the left
+/// end of the vertex to 0.5 at its right end.
+type Segments = [(usize, usize, (f64, f64))];
 
 /// Orders the vertices of each layer, so that few of `segments` cross: by barycentres, layer by layer, down and up in turns, and
 /// by exchanging neighbours. Gives the best order that was met.
 pub(super) fn order(mut layers: Vec<Vec<usize>>, segments: &Segments) -> Vec<Vec<usize>> {
     let count = layers.iter().map(Vec::len).sum();
     let mut neighbours = vec![[Vec::new(), Vec::new()]; count];
-    for &(upper, lower) in segments {
-        neighbours[lower][ABOVE].push(upper);
-        neighbours[upper][BELOW].push(lower);
+    for &(upper, lower, (at_upper, at_lower)) in segments {
+        neighbours[lower][ABOVE].push((upper, at_upper));
+        neighbours[upper][BELOW].push((lower, at_lower));
     }
     let mut best = (crossings(&layers, &neighbours), layers.clone());
     for sweep in 0..SWEEPS {
@@ -25,8 +26,8 @@ pub(super) fn order(mut layers: Vec<Vec<usize>>, segments: &Segments) -> Vec<Vec
             let layer = &mut layers[index];
             let barycentre = |vertex: &usize| {
                 let near = &neighbours[*vertex][side];
-                let sum: usize = near.iter().map(|&near| places[near]).sum();
-                if near.is_empty() { places[*vertex] as f64 } else { sum as f64 / near.len() as f64 }
+                let sum: f64 = near.iter().map(|&near| place(near, &places)).sum();
+                if near.is_empty() { places[*vertex] as f64 } else { sum / near.len() as f64 }
             };
             layer.sort_by(|a, b| barycentre(a).total_cmp(&barycentre(b)));
             renumber(layer, &mut places);
@@ -45,8 +46,15 @@ const ABOVE: usize = 0;
 /// Index of the neighbours below.
 const BELOW: usize = 1;
 
+/// A vertex and where on it a segment is attached.
+type End = (usize, f64);
+
 /// The neighbours of each vertex, above and below.
-type Neighbours = [[Vec<usize>; 2]];
+type Neighbours = [[Vec<End>; 2]];
+
+fn place((vertex, at): End, places: &[usize]) -> f64 {
+    places[vertex] as f64 + at
+}
 
 /// Exchanges vertices that stand side by side, where that saves crossings.
 fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [usize]) {
@@ -68,8 +76,9 @@ fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [us
 }
 
 /// How many segments to the neighbours `of_left` cross one to the neighbours `of_right` of a vertex further right.
-fn inversions(of_left: &[usize], of_right: &[usize], places: &[usize]) -> usize {
-    of_left.iter().map(|&a| of_right.iter().filter(|&&b| places[b] < places[a]).count()).sum()
+fn inversions(of_left: &[End], of_right: &[End], places: &[usize]) -> usize {
+    let crossed = |a: End| of_right.iter().filter(|&&b| place(b, places) < place(a, places)).count();
+    of_left.iter().map(|&a| crossed(a)).sum()
 }
 
 fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {

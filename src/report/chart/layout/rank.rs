@@ -1,11 +1,30 @@
 //! Which layer a node stands in.
 
+use super::Edge;
+
+/// The layer of each node, from 0 at the top, with those at the edges in layers of their own. Arrows (from, to) are those
+/// between nodes that are at no edge.
+pub(in crate::report::chart) fn ranks(edges: &[Option<Edge>], arrows: &[(usize, usize)]) -> Vec<usize> {
+    let mut ranks = rank(edges.len(), arrows);
+    let below_top = usize::from(edges.contains(&Some(Edge::Top)));
+    let inside = ranks.iter().zip(edges).filter(|(_, edge)| edge.is_none()).map(|(rank, _)| rank + below_top);
+    let bottom = inside.max().map_or(below_top, |last| last + 1);
+    for (rank, edge) in ranks.iter_mut().zip(edges) {
+        *rank = match edge {
+            None => *rank + below_top,
+            Some(Edge::Top) => 0,
+            Some(Edge::Bottom) => bottom,
+        };
+    }
+    ranks
+}
+
 /// The layer of each of `count` nodes, from 0 at the top, so that the ends of every arrow (from, to) stand in different layers.
 ///
 /// Arrows lead down where they can: an arrow that leads back to a node from which the search for ways, begun at the first node,
 /// came, leads up. Nodes stand as high as what leads to them allows, unless more arrows leave a node than lead there: such a
 /// node stands as low as what it leads to allows, so that its arrows are short. No arrow may have one node for both ends.
-pub(super) fn rank(count: usize, arrows: &[(usize, usize)]) -> Vec<usize> {
+fn rank(count: usize, arrows: &[(usize, usize)]) -> Vec<usize> {
     let arrows = without_cycles(count, arrows);
     let mut ranks = vec![0_usize; count];
     // Without cycles, the longest way has fewer arrows than there are nodes.
