@@ -11,6 +11,7 @@ use svg::node::element::tag::Type;
 use svg::parser::Event;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
+use vibrissa::machine::{Cause, Failsafe};
 use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
 use vibrissa::run::Run;
 use vibrissa::scene::{Outcome, Scene};
@@ -68,6 +69,18 @@ fn a_result_has_the_keys_of_the_command_line() {
             insta::assert_snapshot!(name, json(&result(&run)));
         }
     });
+}
+
+#[test]
+fn a_result_tells_of_failsafes() {
+    let mut run = half_round();
+    for tick in [7, 300] {
+        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite });
+    }
+    let failsafes = result(&run).failsafes;
+    assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));
+    assert_eq!(failsafes.first_s, Some(run.trace.ticks[7].time));
+    assert_eq!(failsafes.first_cause.as_deref(), Some("its command was not a finite number"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
 use crate::machine::Program;
-use crate::report::{Hashes, Identity, RunResult, picture, table};
+use crate::report::{Failsafes, Hashes, Identity, RunResult, picture, table};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::score::Score;
@@ -61,6 +61,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
             ));
         }
         let result = RunResult::new(job.identity, &run, &score);
+        tell_failsafes(&result);
         if let Some(directory) = &arguments.out {
             write_report(directory, &job.scene, &run, &score, &result)?;
         }
@@ -150,6 +151,20 @@ fn milliseconds(seconds: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive time, only to be shown")]
     let milliseconds = (seconds * 1e3) as u64;
     milliseconds
+}
+
+/// Tells that states were left by their failsafe.
+fn tell_failsafes(result: &RunResult) {
+    let Failsafes { count, first_s: Some(time), first_state: Some(state), first_cause: Some(cause) } =
+        &result.failsafes
+    else {
+        return;
+    };
+    let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
+    output::message(format_args!(
+        "{}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}",
+        result.scenario
+    ));
 }
 
 /// For how long the platform's body touched something; `None` if it did not.

@@ -7,6 +7,7 @@
 mod action;
 mod artifact;
 mod evaluate;
+mod failsafe;
 mod op;
 mod operands;
 mod program;
@@ -21,6 +22,7 @@ pub(crate) use tick::TIME_SLACK;
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
+pub use failsafe::{Cause, Failsafe};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{CODE_LIMIT, Guard, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition};
 pub use senses::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use super::action::Action;
 use super::evaluate::evaluate;
+use super::failsafe::{Cause, Failsafe};
+use super::op::Block;
 use super::program::{Guard, Program, Target, Transition};
 use super::senses::Senses;
 
@@ -54,6 +56,8 @@ pub struct Tick {
     pub action: Action,
     /// Whether the machine goes on.
     pub outcome: Outcome,
+    /// The state that was left by its failsafe, if one was.
+    pub failsafe: Option<Failsafe>,
 }
 
 /// Whether a machine goes on.
@@ -112,10 +116,12 @@ impl Machine {
     /// One tick: first the rules that hold always, then the active state's transitions in their written order (and those of
     /// the state entered, up to [`CHAIN_LIMIT`]), then what the active state does.
     ///
-    /// An action with a number that is not finite is never given: the machine fails instead.
+    /// An action with a number that is not finite is never given. Instead, and where a tick wants too many transitions, the
+    /// active state is left by its failsafe, or else by the program's, and what the state entered does counts; without a
+    /// failsafe, or if that state's action is not finite either, the machine fails.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
-            return Tick { action: Action::Stop, outcome: Outcome::Failed };
+            return Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None };
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
@@ -127,17 +133,22 @@ impl Machine {
         for taken in 0..=CHAIN_LIMIT {
             target = target.or_else(|| self.due(&program, &program.states[self.state].transitions, now, senses));
             match target.take() {
-                None => return self.act(&program, senses),
+                None => return self.act(&program, now, senses),
                 Some(Target::Failure(reason)) => return self.fail(Failure::Policy(Arc::clone(reason))),
                 Some(Target::State { state, arguments }) if taken < CHAIN_LIMIT => {
-                    evaluate(&program.code, &program.states[self.state].exit, &mut self.registers, senses);
-                    evaluate(&program.code, arguments, &mut self.registers, senses);
-                    self.enter(&program, *state, now, senses);
+                    self.take(&program, *state, arguments, now, senses);
                 }
                 Some(Target::State { .. }) => {}
             }
         }
-        self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
+        self.leave(&program, Cause::Chain, now, senses)
+    }
+
+    /// Goes from the active state to another.
+    fn take<S: Senses>(&mut self, program: &Program, state: usize, arguments: &Block, now: f64, senses: &mut S) {
+        evaluate(&program.code, &program.states[self.state].exit, &mut self.registers, senses);
+        evaluate(&program.code, arguments, &mut self.registers, senses);
+        self.enter(program, state, now, senses);
     }
 
     fn enter<S: Senses>(&mut self, program: &Program, state: usize, now: f64, senses: &mut S) {
@@ -147,18 +158,41 @@ impl Machine {
         evaluate(&program.code, &program.states[state].entry, &mut self.registers, senses);
     }
 
-    fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Tick {
-        let state = &program.states[self.state];
-        let action = evaluate(&program.code, &state.body, &mut self.registers, senses).unwrap_or(Action::Hold);
-        if !action.is_finite() {
-            return self.fail(Failure::NotFinite { state: Arc::clone(&state.name) });
+    fn act<S: Senses>(&mut self, program: &Program, now: f64, senses: &mut S) -> Tick {
+        match self.action(program, senses) {
+            Some(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+            None => self.leave(program, Cause::NotFinite, now, senses),
         }
-        Tick { action, outcome: Outcome::Running }
+    }
+
+    /// What the active state does; `None` if it is not finite.
+    fn action<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Option<Action> {
+        let body = &program.states[self.state].body;
+        let action = evaluate(&program.code, body, &mut self.registers, senses).unwrap_or(Action::Hold);
+        action.is_finite().then_some(action)
+    }
+
+    /// Leaves the active state, in which the machine cannot go on, by the failsafe. The state entered only acts: whatever it
+    /// would do next has time until the next tick.
+    fn leave<S: Senses>(&mut self, program: &Program, cause: Cause, now: f64, senses: &mut S) -> Tick {
+        let left = self.state;
+        let tick = match program.failsafe_of(left) {
+            None => return self.fail(cause.failure(&program.states[left].name)),
+            Some(Target::Failure(reason)) => self.fail(Failure::Policy(Arc::clone(reason))),
+            Some(Target::State { state, arguments }) => {
+                self.take(program, *state, arguments, now, senses);
+                match self.action(program, senses) {
+                    Some(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+                    None => self.fail(Cause::NotFinite.failure(&program.states[*state].name)),
+                }
+            }
+        };
+        Tick { failsafe: Some(Failsafe { left, cause }), ..tick }
     }
 
     fn fail(&mut self, failure: Failure) -> Tick {
         self.failure = Some(failure);
-        Tick { action: Action::Stop, outcome: Outcome::Failed }
+        Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None }
     }
 
     /// The target of the first transition that is due. Every guard is looked at, so that the timers of the later ones run.

@@ -20,6 +20,8 @@ pub(super) struct File {
     pub(super) laws: Vec<Law>,
     pub(super) states: Vec<State>,
     pub(super) always: Vec<Transition>,
+    /// `failsafe -> target`
+    pub(super) failsafes: Vec<Target>,
 }
 
 /// `param name = value in low .. high`
@@ -87,6 +89,7 @@ pub(super) struct State {
     pub(super) exit: Vec<Statement>,
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
+    pub(super) failsafes: Vec<Target>,
 }
 
 /// `when …` and `after …`

@@ -29,6 +29,7 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
         laws: Vec::new(),
         states: Vec::new(),
         always: Vec::new(),
+        failsafes: Vec::new(),
     };
     for item in grammar::parse(source)?.flat_map(Pair::into_inner) {
         let rule = item.as_rule();
@@ -55,6 +56,7 @@ pub(super) fn parse(source: &Source) -> Parsed<File> {
             }),
             Rule::state => file.states.push(state(&mut reader)?),
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
+            Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             _ => {}
         }
     }
@@ -109,11 +111,13 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
 
 fn state(reader: &mut Reader<'_>) -> Parsed<State> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
-    let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut state = State { name, arguments, memory, entry, exit, body, transitions };
+    let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (transitions, failsafes) = (Vec::new(), Vec::new());
+    let mut state = State { name, arguments, memory, entry, exit, body, transitions, failsafes };
     while let Ok(pair) = reader.next() {
         match pair.as_rule() {
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
+            Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
             Rule::memory => {
                 let mut memory = Reader::new(pair);
                 state.memory.push((memory.name()?, memory.expression()?));
@@ -135,7 +139,10 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
         _ if reader.has(Rule::expression) => Guard::When { condition: first, lasting: Some(reader.expression()?) },
         _ => Guard::When { condition: first, lasting: None },
     };
-    let pair = reader.take(Rule::target)?;
+    Ok(Transition { guard, target: target(reader.take(Rule::target)?)? })
+}
+
+fn target(pair: Pair<'_, Rule>) -> Parsed<Target> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
     let name = reader.name()?;
@@ -146,7 +153,7 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
         None
     };
     let values = reader.values()?.unwrap_or_default();
-    Ok(Transition { guard, target: Target { name, text, values, span } })
+    Ok(Target { name, text, values, span })
 }
 
 fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
@@ -379,6 +386,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_law
             | Rule::kw_state
             | Rule::kw_always
+            | Rule::kw_failsafe
             | Rule::kw_when
             | Rule::kw_after
             | Rule::kw_for

@@ -8,7 +8,7 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
 /// What begins an item, in the order in which they usually come.
-const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`)";
+const ITEM: &str = "an item (`whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `failsafe`)";
 
 /// Words that can only stand outside of every brace.
 const ITEM_WORDS: [&str; 7] = ["machine", "whisker", "param", "initial", "law", "state", "always"];
@@ -199,6 +199,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_law => "law",
         Rule::kw_state => "state",
         Rule::kw_always => "always",
+        Rule::kw_failsafe => "failsafe",
         Rule::kw_when => "when",
         Rule::kw_after => "after",
         Rule::kw_if => "if",

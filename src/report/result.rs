@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::run::Run;
+use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::Score;
 
@@ -38,6 +38,8 @@ pub struct RunResult {
     pub coverage: f64,
     /// Symmetric Hausdorff distance between the estimated and the reference contour.
     pub hausdorff_mm: Option<f64>,
+    /// The states that were left by their failsafe.
+    pub failsafes: Failsafes,
     /// The retrievals of a whisker that had lost the object.
     pub retrieval: Retrieval,
     /// Distance from the axis of a tunnel; `None` outside of one.
@@ -87,6 +89,19 @@ pub struct ErrorMm {
     pub max: Option<f64>,
     /// Number of estimates.
     pub n: usize,
+}
+
+/// States that were left by their failsafe.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Failsafes {
+    /// How many times one was.
+    pub count: usize,
+    /// When the first was.
+    pub first_s: Option<f64>,
+    /// Name of the state that was left then.
+    pub first_state: Option<String>,
+    /// Why it was left.
+    pub first_cause: Option<String>,
 }
 
 /// Retrievals of a whisker that had lost the object.
@@ -150,6 +165,7 @@ impl RunResult {
             },
             coverage: score.coverage,
             hausdorff_mm: score.hausdorff.map(millimetres),
+            failsafes: failsafes(&run.trace),
             // Policies cannot retrieve yet, and there are no tunnels.
             retrieval: Retrieval::default(),
             axis_mm: None,
@@ -160,6 +176,16 @@ impl RunResult {
             },
             hash,
         }
+    }
+}
+
+fn failsafes(trace: &Trace) -> Failsafes {
+    let first = trace.failsafes().next();
+    Failsafes {
+        count: trace.failsafes().count(),
+        first_s: first.map(|(tick, _)| tick.time),
+        first_state: first.and_then(|(_, failsafe)| trace.states.get(failsafe.left).cloned()),
+        first_cause: first.map(|(_, failsafe)| failsafe.cause.to_string()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::machine;
+use crate::machine::{self, Failsafe};
 use crate::scene::{Outcome, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
@@ -65,10 +65,10 @@ pub fn drive(
         tick_times.push(before_tick.elapsed());
         command = next;
 
-        let tick = record(&control, command, world.body_touches());
+        let tick = record(&control, command, ticked.failsafe, world.body_touches());
         trace.ticks.push(tick);
         progress(tick.time);
-        if ticked == machine::Outcome::Failed {
+        if ticked.outcome == machine::Outcome::Failed {
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
         if let Some(aim) = &stop.loop_closed
@@ -87,7 +87,7 @@ pub fn drive(
     Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times }
 }
 
-fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord {
+fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_touches: bool) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
     let mut tick = TickRecord {
         time: perception.time(),
@@ -96,6 +96,7 @@ fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
         command,
+        failsafe,
         body_touches,
     };
     for whisker in 0..machine.program().whiskers.len() {

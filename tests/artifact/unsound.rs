@@ -84,6 +84,8 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
     });
+    told(|program| program.failsafe = Some(Target::State { state: 0, arguments: 1..u32::MAX }));
+    told(|program| program.states[1].failsafe = Some(Target::State { state: 0, arguments: 9..8 }));
 }
 
 #[test]
@@ -119,6 +121,9 @@ fn states_and_timers_are_bounded_and_timers_keep_to_their_kind() {
         *state = 9;
     });
     assert!(told.contains("names state 9 of 2"), "{told}");
+    let stray = || Some(Target::State { state: 7, arguments: 0..0 });
+    assert!(refusal(|program| program.failsafe = stray()).contains("names state 7 of 2"));
+    assert!(refusal(|program| program.states[1].failsafe = stray()).contains("names state 7 of 2"));
     assert!(refusal(|program| program.timers = usize::MAX).contains("timers"));
     assert!(refusal(|program| program.timers = 0).contains("timers"));
     let told = refusal(|program| {
@@ -209,6 +214,8 @@ fn names_and_reasons_are_plain() {
     assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` is given twice"));
     let told = refusal(|program| program.always[0].target = Target::Failure("\u{1b}[2J".into()));
     assert!(told.contains(r"\u{1b}"), "{told}");
+    let told = refusal(|program| program.states[0].failsafe = Some(Target::Failure("\n".into())));
+    assert!(told.contains(r"\n"), "{told}");
     for text in ["a\nb".to_owned(), "long".repeat(100)] {
         let mut artifact = policies::everything();
         artifact.origin.file = text;

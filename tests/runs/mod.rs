@@ -23,6 +23,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             deflections: [0.0; MAX_WHISKERS],
             tips: [None; MAX_WHISKERS],
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
+            failsafe: None,
             body_touches: false,
         };
         for (whisker, tips) in tips.iter().enumerate() {

@@ -24,6 +24,8 @@ pub(super) struct Model<'a> {
 pub(super) struct Node<'a> {
     pub(super) name: &'a ast::Name,
     pub(super) edges: Vec<Edge<'a>>,
+    /// Where it is left to when the machine cannot go on in it.
+    pub(super) failsafe: Option<&'a machine::Target>,
     /// What it is entered with.
     pub(super) arguments: &'a [(String, Value)],
 }
@@ -60,10 +62,7 @@ impl<'a> Edge<'a> {
 
     /// The state that it leads to; `None` for a failure.
     pub(super) fn leads_to(&self) -> Option<usize> {
-        match self.target {
-            machine::Target::State { state, .. } => Some(*state),
-            machine::Target::Failure(_) => None,
-        }
+        leads_to(self.target)
     }
 
     /// The condition, unless the guard is a time alone.
@@ -80,6 +79,21 @@ impl<'a> Edge<'a> {
     }
 }
 
+impl Node<'_> {
+    /// Where its own transitions and its failsafe lead: states, and `None` for a failure.
+    pub(super) fn ways_out(&self) -> impl Iterator<Item = Option<usize>> {
+        self.edges.iter().map(Edge::leads_to).chain(self.failsafe.map(leads_to))
+    }
+}
+
+/// The state that a target is; `None` for a failure.
+fn leads_to(target: &machine::Target) -> Option<usize> {
+    match target {
+        machine::Target::State { state, .. } => Some(*state),
+        machine::Target::Failure(_) => None,
+    }
+}
+
 /// Code that computes a truth.
 #[derive(Clone, Copy)]
 pub(super) struct Condition<'a> {
@@ -91,9 +105,10 @@ impl<'a> Model<'a> {
     pub(super) fn new(file: &'a File, lowered: &'a Lowered) -> Self {
         let program = &lowered.program;
         let states = file.states.iter().zip(&program.states).zip(&lowered.arguments);
-        let states = states.map(|((written, state), arguments)| Node {
+        let states = states.enumerate().map(|(index, ((written, state), arguments))| Node {
             name: &written.name,
             edges: edges(&state.transitions, &written.transitions),
+            failsafe: program.failsafe_of(index),
             arguments,
         });
         Self {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Expression, Guard, Kind, Statement, Transition, Turn};
+use crate::policy::ast::{Expression, Guard, Kind, Statement, Target, Transition, Turn};
 
 /// Names that are used.
 #[derive(Debug, Default)]
@@ -36,6 +36,10 @@ impl<'a> Names<'a> {
             }
             self.expressions(&target.values);
         }
+    }
+
+    pub(super) fn targets(&mut self, targets: &'a [Target]) {
+        targets.iter().for_each(|target| self.expressions(&target.values));
     }
 
     pub(super) fn statements(&mut self, statements: &'a [Statement]) {

@@ -10,7 +10,7 @@ pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
     let mut open: Vec<usize> = model.always.iter().filter_map(Edge::leads_to).chain([model.program.initial]).collect();
     while let Some(state) = open.pop() {
         if !std::mem::replace(&mut reached[state], true) {
-            open.extend(model.states[state].edges.iter().filter_map(Edge::leads_to));
+            open.extend(model.states[state].ways_out().flatten());
         }
     }
     reached
@@ -21,7 +21,7 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     let reached = reachable(model);
     for (index, state) in model.states.iter().enumerate().filter(|&(index, _)| !reached[index]) {
         let mut others = model.states.iter().enumerate().filter(|&(other, _)| other != index);
-        let is_target = others.any(|(_, other)| other.edges.iter().any(|edge| edge.leads_to() == Some(index)));
+        let is_target = others.any(|(_, other)| other.ways_out().any(|target| target == Some(index)));
         let label = if is_target { "only states that cannot be reached lead here" } else { "no transition leads here" };
         let message = format!("the state `{}` cannot be reached", state.name.text);
         warnings.push(
@@ -41,13 +41,13 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     // From the failures backwards: who leads there, who leads to those.
     let mut sources: Vec<Vec<usize>> = vec![Vec::new(); model.states.len()];
     for (index, state) in states() {
-        for target in state.edges.iter().chain(&model.always).filter_map(Edge::leads_to) {
+        for target in state.ways_out().chain(model.always.iter().map(Edge::leads_to)).flatten() {
             sources[target].push(index);
         }
     }
     let mut fallible = vec![false; model.states.len()];
     let mut open: Vec<usize> =
-        states().filter(|(_, state)| state.edges.iter().any(fails)).map(|(index, _)| index).collect();
+        states().filter(|(_, state)| state.ways_out().any(|target| target.is_none())).map(|(index, _)| index).collect();
     let has_failure = !open.is_empty();
     while let Some(state) = open.pop() {
         if !std::mem::replace(&mut fallible[state], true) {
@@ -56,8 +56,8 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     }
     for (index, state) in states() {
         let name = &state.name.text;
-        let mut edges = state.edges.iter().chain(&model.always);
-        if edges.all(|edge| edge.leads_to() == Some(index)) {
+        let mut ways_out = state.ways_out().chain(model.always.iter().map(Edge::leads_to));
+        if ways_out.all(|target| target == Some(index)) {
             let message = format!("the state `{name}` cannot be left");
             warnings.push(Diagnostic::warning("P0502", message, state.name.span, "nothing leads out of it").hint(
                 "write a transition, such as `after 60 s -> Failure(\"nothing more to do\")`, or an `always` rule",

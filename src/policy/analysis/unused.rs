@@ -31,6 +31,7 @@ pub(super) fn unused(file: &File, warnings: &mut Vec<Diagnostic>) {
                 names.statements(statements);
             }
             names.transitions(&state.transitions);
+            names.targets(&state.failsafes);
         });
         part(&names, &state.arguments, &state.name.text);
         let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
@@ -38,6 +39,7 @@ pub(super) fn unused(file: &File, warnings: &mut Vec<Diagnostic>) {
         used.extend(names);
     }
     used.transitions(&file.always);
+    used.targets(&file.failsafes);
     for name in unread {
         warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));
     }

@@ -31,6 +31,7 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
     let mut timers = 0;
     let always = file.always.iter();
     let always = always.filter_map(|rule| compiler.transition(&Scope::default(), rule, &mut timers)).collect();
+    let failsafe = compiler.failsafe(&Scope::default(), &file.failsafes);
     let states = file.states.iter().zip(scopes);
     let states = states.map(|(state, scope)| compiler.state(state, scope, &mut timers)).collect();
     let initial = compiler.initial(file);
@@ -49,6 +50,7 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
         states,
         initial: initial?,
         always,
+        failsafe,
         code: std::mem::take(&mut compiler.code.ops),
         image: std::mem::take(&mut compiler.code.image),
         timers,
@@ -155,6 +157,7 @@ impl<'f> Compiler<'f> {
         self.doing = &state.body;
         let transitions = state.transitions.iter();
         let transitions = transitions.filter_map(|transition| self.transition(&scope, transition, timers)).collect();
+        let failsafe = self.failsafe(&scope, &state.failsafes);
         self.doing = &[];
         let start = self.code.here();
         self.statements(&mut scope, &state.body);
@@ -168,7 +171,7 @@ impl<'f> Compiler<'f> {
         self.commandless = None;
         self.variables.clear();
         self.watch_growth(state.name.span);
-        machine::State { name: Arc::from(state.name.text.as_str()), entry, body, exit, transitions }
+        machine::State { name: Arc::from(state.name.text.as_str()), entry, body, exit, transitions, failsafe }
     }
 
     /// Gives a state's memory its places. The values are written into the entry, which comes last, when it is known what
@@ -232,6 +235,19 @@ impl<'f> Compiler<'f> {
         };
         let target = self.target(scope, &transition.target);
         Some(machine::Transition { guard: guard?, target: target? })
+    }
+
+    /// Where to go when the machine cannot go on. There is one at most.
+    fn failsafe(&mut self, scope: &Scope<'f>, failsafes: &'f [Target]) -> Option<machine::Target> {
+        let mut written = failsafes.iter().map(|target| (target.span, self.target(scope, target)));
+        let (first, failsafe) = written.next()?;
+        let others: Vec<Span> = written.map(|(span, _)| span).collect();
+        for second in others {
+            let message = "a state, or a machine, has one failsafe";
+            let diagnostic = Diagnostic::error("P0408", message, second, "a second failsafe");
+            self.report(diagnostic.note(first, "the first").hint("keep one of them"));
+        }
+        failsafe
     }
 
     fn target(&mut self, scope: &Scope<'f>, target: &'f Target) -> Option<machine::Target> {
