@@ -5,7 +5,7 @@ mod common;
 
 use common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
-use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mover, Outcome, SetError, Turn};
+use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mark, Mover, Outcome, SetError, Turn};
 use vibrissa::units::Dimension;
 
 /// The speed (m/s) that an action asks for.
@@ -268,6 +268,18 @@ fn only_the_branch_that_is_taken_records() {
     let mut script = Script::touches("x.");
     run(text, &mut script);
     assert_eq!(script.recorded, [0, 1]);
+}
+
+#[test]
+fn marks_are_made_on_entry_on_exit_and_in_statements_and_give_no_command() {
+    let text = "machine m whisker a, b initial A
+        law noted(w: whisker) { mark lost w }
+        state A { exit { mark lost a } when a.touching -> B }
+        state B { entry { mark found b } do noted(b) stop }";
+    let mut script = Script::touches(".xx");
+    let (_, ticks) = run(text, &mut script);
+    assert_eq!(script.marked, [(0, Mark::Lost), (1, Mark::Found), (1, Mark::Lost), (1, Mark::Lost)]);
+    assert_eq!(ticks.iter().map(|&(_, action)| action).collect::<Vec<_>>(), [Action::Hold, Action::Stop, Action::Stop]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Perception as a whole: samples in, senses out.
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
 use crate::rig::Rig;
 use crate::signal::Sample;
 
@@ -98,6 +98,12 @@ impl Perception {
         let whisker = &self.whiskers[whisker];
         (whisker.recorded && whisker.touches()).then(|| whisker.tip_world())
     }
+
+    /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
+    pub fn marks(&self, whisker: usize) -> impl Iterator<Item = (Mark, Point2)> {
+        let whisker = &self.whiskers[whisker];
+        whisker.marks.iter().flatten().map(|&mark| (mark, whisker.tip_world()))
+    }
 }
 
 impl Senses for Perception {
@@ -149,5 +155,9 @@ impl Senses for Perception {
 
     fn record(&mut self, whisker: usize) {
         self.whiskers[whisker].record();
+    }
+
+    fn mark(&mut self, whisker: usize, mark: Mark) {
+        self.whiskers[whisker].mark(mark);
     }
 }

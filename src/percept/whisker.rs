@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::geometry::{Point2, Pose, Vector2, rotate};
+use crate::machine::Mark;
 use crate::rig::Whisker;
 
 use super::local_contour::LocalContour;
@@ -35,6 +36,8 @@ pub(super) struct PerceivedWhisker {
     /// Whether this tick's tip was recorded, and the last one's was.
     pub(super) recorded: bool,
     recorded_before: bool,
+    /// The marks that this tick made, in their order.
+    pub(super) marks: [Option<Mark>; Mark::ALL.len()],
 }
 
 impl PerceivedWhisker {
@@ -56,6 +59,7 @@ impl PerceivedWhisker {
             contour: LocalContour::default(),
             recorded: false,
             recorded_before: false,
+            marks: Default::default(),
         }
     }
 
@@ -88,6 +92,16 @@ impl PerceivedWhisker {
         self.yaw = body.heading + self.direction_body;
         self.recorded_before = self.recorded;
         self.recorded = false;
+        self.marks = Default::default();
+    }
+
+    /// Notes a mark, once a tick.
+    pub(super) fn mark(&mut self, mark: Mark) {
+        if !self.marks.contains(&Some(mark))
+            && let Some(free) = self.marks.iter_mut().find(|free| free.is_none())
+        {
+            *free = Some(mark);
+        }
     }
 
     pub(super) fn touches(&self) -> bool {

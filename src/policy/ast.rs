@@ -136,6 +136,11 @@ pub(super) enum Statement {
         span: Span,
     },
     Record(Expression),
+    /// `mark name whisker`
+    Mark {
+        name: Name,
+        whisker: Expression,
+    },
     Steer(Box<Steer>),
     Hold(Span),
     Stop(Span),

@@ -182,6 +182,7 @@ fn statement(pair: Pair<'_, Rule>) -> Parsed<Statement> {
         }
         Rule::apply => Statement::Do { law: reader.name()?, values: reader.values()?.unwrap_or_default(), span },
         Rule::record => Statement::Record(reader.expression()?),
+        Rule::mark => Statement::Mark { name: reader.name()?, whisker: reader.expression()? },
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);
             let whisker = if mover.has(Rule::expression) { Some(mover.expression()?) } else { None };
@@ -396,6 +397,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_else
             | Rule::kw_do
             | Rule::kw_record
+            | Rule::kw_mark
             | Rule::kw_steer
             | Rule::kw_along
             | Rule::kw_at

@@ -206,6 +206,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_else => "else",
         Rule::kw_do => "do",
         Rule::kw_record => "record",
+        Rule::kw_mark => "mark",
         Rule::kw_steer => "steer",
         Rule::kw_hold => "hold",
         Rule::kw_stop => "stop",

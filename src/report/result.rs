@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::Score;
+use crate::score::{RetrievalFigures, Score, Spread};
 
 /// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
 ///
@@ -40,8 +40,8 @@ pub struct RunResult {
     pub hausdorff_mm: Option<f64>,
     /// The states that were left by their failsafe.
     pub failsafes: Failsafes,
-    /// The retrievals of a whisker that had lost the object.
-    pub retrieval: Retrieval,
+    /// The retrievals of whiskers that had lost the object; `None` if the policy made no marks.
+    pub retrieval: Option<Retrieval>,
     /// Distance from the axis of a tunnel; `None` outside of one.
     pub axis_mm: Option<MeanStd>,
     /// Wall time of a control tick.
@@ -104,15 +104,17 @@ pub struct Failsafes {
     pub first_cause: Option<String>,
 }
 
-/// Retrievals of a whisker that had lost the object.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+/// Retrievals of whiskers that had lost the object, by the thesis's definitions (section 5.2).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Retrieval {
     /// How many there were.
     pub count: usize,
-    /// Distance from the point where contact was lost to the one where it was found again.
+    /// Distance from the edge point, the last tip recorded before contact was lost, to where it was found again.
     pub radius_mm: MeanStd,
-    /// Length of the platform's path between the two.
+    /// Length of the path of the platform's centre of mass between the two.
     pub distance_mm: MeanStd,
+    /// Time between the two.
+    pub time_s: MeanStd,
 }
 
 /// Mean and sample standard deviation, in the unit of the key that holds them.
@@ -166,8 +168,8 @@ impl RunResult {
             coverage: score.coverage,
             hausdorff_mm: score.hausdorff.map(millimetres),
             failsafes: failsafes(&run.trace),
-            // Policies cannot retrieve yet, and there are no tunnels.
-            retrieval: Retrieval::default(),
+            retrieval: score.retrieval.as_ref().map(Retrieval::new),
+            // There are no tunnels.
             axis_mm: None,
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
@@ -175,6 +177,27 @@ impl RunResult {
                 max: latency.map(|latency| microseconds(latency.max)),
             },
             hash,
+        }
+    }
+}
+
+impl Retrieval {
+    fn new(figures: &RetrievalFigures) -> Self {
+        Self {
+            count: figures.count,
+            radius_mm: MeanStd::new(figures.radius, 1e3),
+            distance_mm: MeanStd::new(figures.distance, 1e3),
+            time_s: MeanStd::new(figures.time, 1.0),
+        }
+    }
+}
+
+impl MeanStd {
+    /// A spread (SI) in a unit of which there are `units` in the SI's.
+    fn new(spread: Option<Spread>, units: f64) -> Self {
+        Self {
+            mean: spread.map(|spread| spread.mean * units),
+            std: spread.and_then(|spread| spread.std).map(|std| std * units),
         }
     }
 }

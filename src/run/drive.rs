@@ -9,7 +9,7 @@ use crate::world::{Fault, World};
 
 use super::control::Control;
 use super::loop_watch::LoopWatch;
-use super::trace::{TickRecord, Trace};
+use super::trace::{MarkRecord, TickRecord, Trace};
 
 /// What a run gave.
 #[derive(Debug, Clone)]
@@ -47,6 +47,7 @@ pub fn drive(
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
         period,
         ticks: Vec::with_capacity(most_ticks.min(ROOM)),
+        marks: Vec::new(),
     };
     let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
     let mut watches = [LoopWatch::default(); MAX_WHISKERS];
@@ -66,6 +67,7 @@ pub fn drive(
         command = next;
 
         let tick = record(&control, command, ticked.failsafe, world.body_touches());
+        trace.marks.extend(marks(&control, trace.ticks.len()));
         trace.ticks.push(tick);
         progress(tick.time);
         if ticked.outcome == machine::Outcome::Failed {
@@ -85,6 +87,14 @@ pub fn drive(
     };
     let final_state = control.machine().state_name().to_owned();
     Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times }
+}
+
+/// What the tick with this index marked.
+fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
+    (0..control.machine().program().whiskers.len()).flat_map(move |whisker| {
+        let marks = control.perception().marks(whisker);
+        marks.map(move |(mark, tip_world)| MarkRecord { mark, whisker, tick, tip_world })
+    })
 }
 
 fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_touches: bool) -> TickRecord {

@@ -1,7 +1,7 @@
 //! What happened in a run, tick by tick.
 
 use crate::geometry::{Point2, Pose};
-use crate::machine::Failsafe;
+use crate::machine::{Failsafe, Mark};
 use crate::signal::{Command, MAX_WHISKERS};
 
 /// What happened in a run, tick by tick.
@@ -15,6 +15,21 @@ pub struct Trace {
     pub period: f64,
     /// The ticks.
     pub ticks: Vec<TickRecord>,
+    /// What the policy marked, in the order of time; of one tick, whisker by whisker.
+    pub marks: Vec<MarkRecord>,
+}
+
+/// One mark.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkRecord {
+    /// What was marked.
+    pub mark: Mark,
+    /// Index of the whisker.
+    pub whisker: usize,
+    /// Index of the tick, which has the time and the pose of the platform.
+    pub tick: usize,
+    /// The estimate of the whisker's tip (m, world frame).
+    pub tip_world: Point2,
 }
 
 /// One tick.

@@ -27,7 +27,7 @@ state Start {
   if b.touching { set last = b }
   set closest = lowpass(closest, 5 Hz) + pid(closest - 10 mm, 2, 1 Hz, 0.1 s, 50 mm)
   stop
-  exit { record last }
+  exit { record last  mark lost last }
   failsafe -> Touch(b, fast, vector(1, 0))
   when a.touching -> Touch(a, fast, vector(1, 2))  when b.touching for 100 ms -> Touch(b, -fast, vector(0, 1)) }
 state Touch(w: whisker, s: speed, v: vector) {

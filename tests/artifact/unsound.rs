@@ -1,6 +1,6 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
-use vibrissa::machine::{Artifact, ArtifactError, Guard, Op, Program, Target, WhiskerScalar};
+use vibrissa::machine::{Artifact, ArtifactError, Guard, Mark, Op, Program, Target, WhiskerScalar};
 
 use super::{erratic, policies};
 
@@ -28,7 +28,7 @@ fn whisker_argument(program: &Program) -> u16 {
 #[test]
 fn registers_are_bounded() {
     let last = |program: &Program| u16::try_from(program.image.len() - 1).unwrap();
-    let changes: [fn(&mut Op, u16); 13] = [
+    let changes: [fn(&mut Op, u16); 14] = [
         |op, end| *op = Op::Copy { to: end + 1, a: 3 },
         |op, end| *op = Op::Copy { to: 5, a: end + 1 },
         |op, end| *op = Op::Norm { to: 5, a: end },
@@ -36,6 +36,7 @@ fn registers_are_bounded() {
         |op, _| *op = Op::BodyPosition { to: u16::MAX },
         |op, end| *op = Op::SteerBodyFacing { along: end, speed: 0, heading: 0 },
         |op, end| *op = Op::Record { whisker: end + 1 },
+        |op, end| *op = Op::Mark { whisker: end + 1, mark: Mark::Lost },
         |op, end| *op = Op::LowPass { to: 5, a: 3, b: 3, memory: end - 1 },
         |op, end| *op = Op::LowPass { to: 5, a: 3, b: end + 1, memory: end - 2 },
         |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 2, memory: end - 3 },

@@ -57,7 +57,7 @@ impl<'a> Names<'a> {
                     self.0.insert(&law.text);
                     self.expressions(values);
                 }
-                Statement::Record(whisker) => self.expression(whisker),
+                Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
                 Statement::Steer(steer) => {
                     self.expressions(&steer.whisker);
                     self.expression(&steer.along);
