@@ -117,6 +117,31 @@ fn expressions_are_on_one_line_without_comments() {
 }
 
 #[test]
+fn a_failsafe_is_drawn_and_has_no_number() {
+    let chart = chart_of(
+        "machine m initial S failsafe -> T(2)
+        state S { stop when time > 1 s -> T(1) after 2 s -> T(3) failsafe -> Failure(\"lost\") }
+        state T(x: number) { steer body along vector(x, 0) at 1 m/s turning 0 rad/s after 1 s -> S }",
+    );
+    let failsafes = chart.transitions.iter().filter(|transition| transition.guard == Guard::Failsafe);
+    let failsafes: Vec<_> = failsafes.map(|transition| (transition.origin, &transition.target)).collect();
+    let (all, own) = (
+        Target::State { state: 1, outer: Vec::new(), values: vec!["2".to_owned()], resume: false },
+        Target::Failure("lost".to_owned()),
+    );
+    assert_eq!(failsafes, [(Origin::AnyState, &all), (Origin::State(0), &own)]);
+    let mermaid = chart_mermaid(&chart);
+    for line in [
+        "any --> s1: failsafe / x = 2",
+        "s0 --> s1: 2 after 2 s / x = 3",
+        "s0 --> failure: failsafe / #quot;lost#quot;",
+    ] {
+        assert!(mermaid.contains(line), "{line}: {mermaid}");
+    }
+    assert!(chart_dot(&chart).contains("failsafe") && chart_svg(&chart).unwrap().contains("failsafe"));
+}
+
+#[test]
 fn a_policy_with_a_fault_has_no_chart() {
     let source = Source::new("policy.fsm", "machine m initial S state S { when 1 -> Nowhere }");
     assert_eq!(chart(&source).unwrap_err(), compile(&source).unwrap_err());

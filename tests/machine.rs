@@ -5,7 +5,7 @@ mod common;
 
 use common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
-use vibrissa::machine::{Action, CHAIN_LIMIT, Failure, Mover, SetError, Turn};
+use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mark, Mover, Outcome, SetError, Turn};
 use vibrissa::units::Dimension;
 
 /// The speed (m/s) that an action asks for.
@@ -171,6 +171,75 @@ fn a_command_that_is_not_finite_fails_with_the_states_name() {
 }
 
 #[test]
+fn a_state_that_gives_no_finite_command_is_left_by_its_failsafe_in_the_same_tick() {
+    let text = "machine m whisker w initial A
+        state A {
+          var x = 1
+          exit { set x = 10 * x + 2 }
+          set x = x + 2
+          steer body along vector(1, 0) at 1 m/s / w.side turning 0 rad/s
+          failsafe -> Safe(x)
+        }
+        state Safe(x: number) {
+          var y = 10 * x
+          entry { set y = y + 3 }
+          steer body along vector(1, 0) at y * 1 m/s turning 0 rad/s
+          when true -> A
+        }";
+    let feel = |side| vec![Feel { side, ..Feel::default() }];
+    let mut script = Script::new(vec![feel(1.0), feel(0.0), feel(1.0)]);
+    let (machine, ticks) = run(text, &mut script);
+    let ticks: Vec<_> = ticks.iter().map(|(state, action)| (state.as_str(), speed(*action))).collect();
+    // The statements of A (x = 3, then 5), its exit (52), the value, the entry of Safe, its statements; its transition waits.
+    assert_eq!(ticks, [("A", 1.0), ("Safe", 523.0), ("A", 1.0)]);
+    assert_eq!(machine.failure(), None);
+}
+
+#[test]
+fn the_failsafe_of_a_state_comes_before_that_of_the_machine() {
+    let text = |own: &str| {
+        format!(
+            "machine m initial A failsafe -> B
+            state A {{ steer body along vector(1, 0) at 1 m/s / 0 turning 0 rad/s {own} }}
+            state B {{ stop }} state C {{ stop }}"
+        )
+    };
+    assert_eq!(states(&text("failsafe -> C"), &mut Script::touches("..")), ["C", "C"]);
+    assert_eq!(states(&text(""), &mut Script::touches("..")), ["B", "B"]);
+    let (machine, _) = run(&text("failsafe -> Failure(\"lame\")"), &mut Script::touches("."));
+    assert_eq!(machine.failure().unwrap().to_string(), "lame");
+}
+
+#[test]
+fn a_tick_says_which_state_was_left_by_its_failsafe_and_why() {
+    let bad = "steer body along vector(1, 0) at 1 m/s / 0 turning 0 rad/s";
+    let text = format!(
+        "machine m initial A state A {{ stop when true -> B }} state B {{ {bad} failsafe -> C }} state C {{ {bad} }}"
+    );
+    let mut machine = Machine::new(program(&text).into());
+    let tick = machine.tick(&mut Script::touches("."));
+    assert_eq!(tick.failsafe, Some(Failsafe { left: 1, cause: Cause::NotFinite }));
+    // The state that a failsafe leads to is the last that is tried.
+    assert_eq!((tick.action, tick.outcome), (Action::Stop, Outcome::Failed));
+    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into() }));
+    assert_eq!(machine.tick(&mut Script::touches(".")).failsafe, None);
+}
+
+#[test]
+fn a_ninth_transition_takes_the_failsafe_of_the_state_that_wants_it() {
+    let link =
+        |index: usize| format!("state S{index} {{ when true -> S{} failsafe -> Failure(\"S{index}\") }}", index + 1);
+    let states: Vec<String> = (0..CHAIN_LIMIT).map(link).collect();
+    let last =
+        format!("state S{CHAIN_LIMIT} {{ when true -> Last failsafe -> Safe }} state Last {{ }} state Safe {{ stop }}");
+    let mut machine = Machine::new(program(&format!("machine m initial S0 {} {last}", states.join(" "))).into());
+    let tick = machine.tick(&mut Script::touches("."));
+    assert_eq!(machine.state_name(), "Safe");
+    assert_eq!(tick.failsafe, Some(Failsafe { left: CHAIN_LIMIT, cause: Cause::Chain }));
+    assert_eq!((tick.action, tick.outcome), (Action::Stop, Outcome::Running));
+}
+
+#[test]
 fn a_state_that_does_nothing_holds_and_of_several_actions_the_last_counts() {
     let idle = "machine m initial A  state A { }";
     assert_eq!(run(idle, &mut Script::touches(".")).1[0].1, Action::Hold);
@@ -199,6 +268,18 @@ fn only_the_branch_that_is_taken_records() {
     let mut script = Script::touches("x.");
     run(text, &mut script);
     assert_eq!(script.recorded, [0, 1]);
+}
+
+#[test]
+fn marks_are_made_on_entry_on_exit_and_in_statements_and_give_no_command() {
+    let text = "machine m whisker a, b initial A
+        law noted(w: whisker) { mark lost w }
+        state A { exit { mark lost a } when a.touching -> B }
+        state B { entry { mark found b } do noted(b) stop }";
+    let mut script = Script::touches(".xx");
+    let (_, ticks) = run(text, &mut script);
+    assert_eq!(script.marked, [(0, Mark::Lost), (1, Mark::Found), (1, Mark::Lost), (1, Mark::Lost)]);
+    assert_eq!(ticks.iter().map(|&(_, action)| action).collect::<Vec<_>>(), [Action::Hold, Action::Stop, Action::Stop]);
 }
 
 #[test]

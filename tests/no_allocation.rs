@@ -59,11 +59,11 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
         let base_angle = [0.0, -3e-4, -3e-4, -2e-3][tick / 30];
         let samples = samples(tick, base_angle);
         let before = COUNT.get();
-        let (command, outcome) = control.tick(&samples);
+        let (command, given) = control.tick(&samples);
         assert_eq!(COUNT.get() - before, 0, "tick {tick}");
         assert!(command.is_finite());
         let state = control.machine().state_name();
-        assert_eq!(outcome == Outcome::Failed, state == "Failure");
+        assert_eq!(given.outcome == Outcome::Failed, state == "Failure");
         if seen.last().map(String::as_str) != Some(state) {
             seen.push(state.to_owned());
         }

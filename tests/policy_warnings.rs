@@ -52,6 +52,18 @@ fn every_warning_is_given_as_reviewed() {
 }
 
 #[test]
+fn a_failsafe_is_a_way_out_and_uses_what_it_hands_over() {
+    for (own, machines) in [("failsafe -> B(p)", ""), ("", "failsafe -> B(p)")] {
+        let text = format!(
+            "machine m initial A param p = 1 {machines} state A {{ stop {own} }}
+            state B(x: number) {{ steer body along vector(x, 0) at 1 m/s turning 0 rad/s after 1 s -> Failure(\"late\") }}"
+        );
+        assert_eq!(codes(&text), [""; 0], "{text}");
+        assert_eq!(codes(&text.replace("failsafe -> B(p)", "")), ["P0504", "P0502", "P0501"]);
+    }
+}
+
+#[test]
 fn what_decides_by_intent_is_no_overlap() {
     assert_eq!(codes_of("when r.touching -> B  when l.touching -> C"), ["P0512"]);
     for fine in [

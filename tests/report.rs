@@ -11,8 +11,9 @@ use svg::node::element::tag::Type;
 use svg::parser::Event;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
+use vibrissa::machine::{Cause, Failsafe, Mark};
 use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
-use vibrissa::run::Run;
+use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
 
@@ -68,6 +69,45 @@ fn a_result_has_the_keys_of_the_command_line() {
             insta::assert_snapshot!(name, json(&result(&run)));
         }
     });
+}
+
+#[test]
+fn a_result_tells_of_failsafes() {
+    let mut run = half_round();
+    for tick in [7, 300] {
+        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite });
+    }
+    let failsafes = result(&run).failsafes;
+    assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));
+    assert_eq!(failsafes.first_s, Some(run.trace.ticks[7].time));
+    assert_eq!(failsafes.first_cause.as_deref(), Some("its command was not a finite number"));
+}
+
+/// The run of [`half_round`], lost and found again twice.
+fn retrieved() -> Run {
+    let mut run = half_round();
+    let mark = |(mark, tick): (Mark, usize)| MarkRecord {
+        mark,
+        whisker: 0,
+        tick,
+        tip_world: run.trace.ticks[tick].tips[0].unwrap(),
+    };
+    run.trace.marks = [(Mark::Lost, 90), (Mark::Found, 120), (Mark::Lost, 300), (Mark::Found, 345)].map(mark).into();
+    run
+}
+
+#[test]
+fn a_result_tells_of_retrievals_and_a_picture_shows_them() {
+    let run = retrieved();
+    let retrieval = result(&run).retrieval.unwrap();
+    assert_eq!(retrieval.count, 2);
+    // The platform of these runs goes at 50 mm/s.
+    assert!((retrieval.distance_mm.mean.unwrap() - 62.5).abs() < 1e-9);
+    assert!((retrieval.time_s.mean.unwrap() - 1.25).abs() < 1e-9 && retrieval.radius_mm.std.unwrap() > 0.0);
+    let picture = draw(&scene(), "thesis", &run);
+    texts_stand_clear(&picture);
+    assert!(picture.contains("edge lost") && picture.contains("contact found again") && picture.contains("retrievals"));
+    assert!(!draw(&scene(), "thesis", &half_round()).contains("edge lost"));
 }
 
 #[test]

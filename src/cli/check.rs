@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::diagnostic::{Position, Record, records};
-use crate::machine::{Artifact, FORMAT, State};
+use crate::machine::{Artifact, FORMAT, Program, State, Target};
 use crate::policy::{self, Checked as Found};
 use crate::units::format_si;
 
@@ -34,6 +34,8 @@ struct Summary {
     whiskers: Vec<String>,
     parameters: Vec<ParameterSummary>,
     states: Vec<StateSummary>,
+    /// Where states without a failsafe of their own are left to.
+    failsafe: Option<String>,
     /// Bytes of a running machine's registers.
     memory_bytes: usize,
 }
@@ -68,6 +70,8 @@ struct StateSummary {
     place: Position,
     initial: bool,
     transitions: usize,
+    /// Where it is left to when the machine cannot go on in it; `null` for the machine's failsafe.
+    failsafe: Option<String>,
     /// The most operations that a tick in this state does without leaving it.
     operations: usize,
 }
@@ -143,9 +147,11 @@ fn summary(artifact: &Artifact) -> Summary {
         place: places.states[index].name,
         initial: index == program.initial,
         transitions: state.transitions.len(),
+        failsafe: state.failsafe.as_ref().map(|target| name(program, target)),
         operations: program.operations(index),
     };
     Summary {
+        failsafe: program.failsafe.as_ref().map(|target| name(program, target)),
         name: program.name.clone(),
         whiskers: program.whiskers.clone(),
         parameters: program.parameters.iter().zip(&program.image).map(parameter).collect(),
@@ -154,17 +160,25 @@ fn summary(artifact: &Artifact) -> Summary {
     }
 }
 
+/// What a target is called.
+fn name(program: &Program, target: &Target) -> String {
+    match target {
+        Target::State { state, .. } => program.states[*state].name.to_string(),
+        Target::Failure(reason) => format!("Failure(\"{reason}\")"),
+    }
+}
+
 fn describe(file: &str, machine: &Summary) -> String {
     let mut table = comfy_table::Table::new();
     table.load_style(comfy_table::presets::NOTHING);
-    table.set_header(["state", "transitions", "operations a tick, at most"]);
+    let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
+    let headings = ["state", "transitions", "operations a tick, at most"];
+    table.set_header(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
-        table.add_row([
-            format!("{}{initial}", state.name),
-            state.transitions.to_string(),
-            state.operations.to_string(),
-        ]);
+        let cells = [format!("{}{initial}", state.name), state.transitions.to_string(), state.operations.to_string()];
+        let failsafe = state.failsafe.clone().unwrap_or_default();
+        table.add_row(cells.into_iter().chain(has_failsafe.then_some(failsafe)));
     }
     let mut text = format!(
         "{file}: machine {}, whiskers {}, {} bytes of memory\n",
@@ -179,6 +193,9 @@ fn describe(file: &str, machine: &Summary) -> String {
             let _ = write!(text, " in {low} .. {high}");
         }
         text += "\n";
+    }
+    if let Some(failsafe) = &machine.failsafe {
+        let _ = writeln!(text, "  failsafe -> {failsafe}");
     }
     text + &table.trim_fmt()
 }

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
 use crate::machine::Program;
-use crate::report::{Hashes, Identity, RunResult, picture};
+use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
 use crate::scene::Scene;
 use crate::score::Score;
@@ -145,7 +145,9 @@ impl Job {
             let touched = touched.as_secs_f64();
             output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
         }
-        RunResult::new(self.identity.clone(), run, score)
+        let result = RunResult::new(self.identity.clone(), run, score);
+        tell_failsafes(&result);
+        result
     }
 
     /// Writes a picture and the result of its run to `stem` with their extensions.
@@ -182,6 +184,20 @@ fn milliseconds(seconds: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive time, only to be shown")]
     let milliseconds = (seconds * 1e3) as u64;
     milliseconds
+}
+
+/// Tells that states were left by their failsafe.
+fn tell_failsafes(result: &RunResult) {
+    let Failsafes { count, first_s: Some(time), first_state: Some(state), first_cause: Some(cause) } =
+        &result.failsafes
+    else {
+        return;
+    };
+    let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
+    output::message(format_args!(
+        "{}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}",
+        result.scenario
+    ));
 }
 
 /// For how long the platform's body touched something; `None` if it did not.

@@ -46,6 +46,15 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// A pose of which nothing is known: every coordinate is not a number.
+    pub const UNKNOWN: Self = Self { position: Point2::new(f64::NAN, f64::NAN), heading: f64::NAN };
+
+    /// Whether every coordinate is a finite number.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.position.x.is_finite() && self.position.y.is_finite() && self.heading.is_finite()
+    }
+
     /// World coordinates of a point given in this frame.
     #[must_use]
     pub fn point_to_world(&self, point: Point2) -> Point2 {

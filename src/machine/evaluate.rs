@@ -71,6 +71,7 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             }
             Op::Jump { target } => next = target as usize,
             Op::Record { whisker } => senses.record(file.index(whisker)),
+            Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
             Op::SteerBodyFacing { along, speed, heading } => {
                 action = Some(file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading))));
             }

@@ -7,6 +7,7 @@
 mod action;
 mod artifact;
 mod evaluate;
+mod failsafe;
 mod op;
 mod operands;
 mod program;
@@ -21,11 +22,12 @@ pub(crate) use tick::TIME_SLACK;
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
+pub use failsafe::{Cause, Failsafe};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
     CODE_LIMIT, Guard, NESTING_LIMIT, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition,
 };
-pub use senses::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+pub use senses::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
 pub use tick::{CHAIN_LIMIT, Failure, Machine, Outcome, Tick};
 pub use verify::Unsound;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::senses::{BodyScalar, WhiskerScalar, WhiskerVector};
+use super::senses::{BodyScalar, Mark, WhiskerScalar, WhiskerVector};
 
 /// A place in the register file.
 pub type Register = u16;
@@ -92,6 +92,8 @@ pub enum Op {
     Jump { target: u32 },
     /// Takes a whisker's tip as a point of the estimated contour.
     Record { whisker: Register },
+    /// Notes what has become of a whisker's contact.
+    Mark { whisker: Register, mark: Mark },
     /// Steers the body, facing a heading.
     SteerBodyFacing { along: Wide, speed: Register, heading: Register },
     /// Steers the body, turning at a rate.

@@ -109,7 +109,7 @@ impl Op {
             Self::Clear { memory, count } => operands.write(Place { first: memory, width: count }),
             Self::JumpUnless { a, target } => operands.read([number(a)]).jump(target),
             Self::Jump { target } => operands.jump(target),
-            Self::Record { whisker } => operands.whisker(whisker),
+            Self::Record { whisker } | Self::Mark { whisker, .. } => operands.whisker(whisker),
             Self::SteerBodyFacing { along, speed, heading: turn }
             | Self::SteerBodyTurning { along, speed, rate: turn } => {
                 operands.read([vector(along), number(speed), number(turn)])

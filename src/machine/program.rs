@@ -34,6 +34,8 @@ pub struct Program {
     pub initial: usize,
     /// Transitions that are tried first, whatever the state.
     pub always: Vec<Transition>,
+    /// Where a state without a failsafe of its own is left to when the machine cannot go on in it.
+    pub failsafe: Option<Target>,
     /// All code; blocks are ranges of it.
     pub code: Vec<Op>,
     /// The register file at the start of a run.
@@ -72,6 +74,9 @@ pub struct State {
     pub exit: Block,
     /// Its transitions in the order in which they are tried.
     pub transitions: Vec<Transition>,
+    /// Where it is left to when the machine cannot go on in it: its command is not finite, or a tick wants too many
+    /// transitions.
+    pub failsafe: Option<Target>,
 }
 
 /// A way out of a state.
@@ -183,6 +188,14 @@ impl Guard {
 }
 
 impl Program {
+    /// Where the state with this index is left to when the machine cannot go on in it: by its own failsafe, or else by the
+    /// machine's, given with the state that it belongs to.
+    #[must_use]
+    pub fn failsafe_of(&self, state: usize) -> Option<(Option<usize>, &Target)> {
+        let own = |state: usize| Some((Some(state), self.states[state].failsafe.as_ref()?));
+        self.outward(state).find_map(own).or_else(|| Some((None, self.failsafe.as_ref()?)))
+    }
+
     /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the state
     /// does, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
     #[must_use]

@@ -28,6 +28,32 @@ pub trait Senses {
 
     /// Takes the whisker's tip, if it touches, as a point of the estimated contour.
     fn record(&mut self, whisker: usize);
+
+    /// Takes note of what has become of the whisker's contact. Nothing that can be read depends on it; by default nobody notes it.
+    fn mark(&mut self, _whisker: usize, _mark: Mark) {}
+}
+
+/// What a policy can note of a whisker's contact, for whoever looks at the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mark {
+    /// The object's edge was lost.
+    Lost,
+    /// Contact was found again.
+    Found,
+}
+
+impl Mark {
+    /// Every mark.
+    pub const ALL: [Self; 2] = [Self::Lost, Self::Found];
+
+    /// The word that stands for it in a policy.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lost => "lost",
+            Self::Found => "found",
+        }
+    }
 }
 
 /// Numbers that belong to the body.

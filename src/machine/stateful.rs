@@ -1,7 +1,8 @@
 //! Operations that remember: a low-pass filter, a PID controller.
 //!
 //! Their memory is registers that hold zero until the first use, and again whenever their state is entered. Each takes the
-//! time from the last use to this one, so that a late tick is filtered as what it is.
+//! time from the last use to this one, so that a late tick is filtered as what it is. What is not a finite number shows in the
+//! value and goes no further: the memory stays as it was.
 
 /// Started (1) or not (0), time of the last use (s), filtered value.
 type LowPassMemory = [f64; 3];
@@ -19,11 +20,11 @@ pub(super) fn low_pass(memory: LowPassMemory, now: f64, value: f64, cutoff: f64)
     } else {
         value
     };
-    ([1.0, now, filtered], filtered)
+    if filtered.is_finite() { ([1.0, now, filtered], filtered) } else { (memory, filtered) }
 }
 
 /// One step of a PID controller with the gains `[p, i, d, limit]`. The output stays within ± `limit`; while it is at the
-/// limit the integral does not grow.
+/// limit the integral does not grow. Over a gap, in which the output is not a finite number, nothing is integrated.
 pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f64; 4]) -> (PidMemory, f64) {
     let [started, before, integral, last] = memory;
     let passed = if started > 0.5 { now - before } else { 0.0 };
@@ -33,7 +34,11 @@ pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f6
     let integral = if output.abs() <= limit.abs() { grown } else { integral };
     // Not `clamp`, which panics on a limit that is not a number; that one must show in the output.
     let limited = if output.abs() <= limit.abs() { output } else { limit.abs() * output.signum() };
-    ([1.0, now, integral, error], limited)
+    if limited.is_finite() && integral.is_finite() && error.is_finite() {
+        ([1.0, now, integral, error], limited)
+    } else {
+        ([0.0, before, memory[2], last], limited)
+    }
 }
 
 #[cfg(test)]
@@ -70,6 +75,24 @@ mod tests {
             assert!(output <= 2.0);
         }
         assert!(pid(memory, 1000.0, -2.0, [1.0, 1.0, 0.0, 2.0]).1 < 0.0);
+    }
+
+    #[test]
+    fn after_what_is_not_a_number_a_filter_goes_on_and_a_controller_has_integrated_nothing() {
+        let (memory, _) = low_pass([0.0; 3], 0.0, 1.0, 2.0);
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let (kept, shown) = low_pass(memory, 0.1, bad, 2.0);
+            assert!(!shown.is_finite());
+            assert_eq!(low_pass(kept, 0.2, 3.0, 2.0), low_pass(memory, 0.2, 3.0, 2.0));
+        }
+        let gains = [1.0, 1.0, 1.0, 100.0];
+        let (memory, _) = pid(pid([0.0; 4], 0.0, 1.0, gains).0, 1.0, 1.0, gains);
+        for bad in [f64::NAN, f64::INFINITY] {
+            let (kept, _) = pid(memory, 2.0, bad, gains);
+            let (kept, output) = pid(kept, 60.0, 3.0, gains);
+            assert!((output - 4.0).abs() < 1e-12, "p and the integral from before");
+            assert!((pid(kept, 61.0, 3.0, gains).1 - 7.0).abs() < 1e-12, "and on it goes");
+        }
     }
 
     #[test]

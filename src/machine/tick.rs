@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use super::action::Action;
 use super::evaluate::evaluate;
+use super::failsafe::{Cause, Failsafe};
+use super::op::Block;
 use super::program::{Guard, NESTING_LIMIT, Program, Target, Transition};
 use super::senses::Senses;
 
@@ -57,6 +59,8 @@ pub struct Tick {
     pub action: Action,
     /// Whether the machine goes on.
     pub outcome: Outcome,
+    /// The state that was left by its failsafe, if one was.
+    pub failsafe: Option<Failsafe>,
 }
 
 /// Whether a machine goes on.
@@ -117,10 +121,12 @@ impl Machine {
     /// innermost and in their written order (and again after each one taken, up to [`CHAIN_LIMIT`]), then what the active
     /// states do, from the outermost to the innermost.
     ///
-    /// An action with a number that is not finite is never given: the machine fails instead.
+    /// An action with a number that is not finite is never given. Instead, and where a tick wants too many transitions, the
+    /// active state is left by its failsafe, or else by the program's, and what the state entered does counts; without a
+    /// failsafe, or if that state's action is not finite either, the machine fails.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
-            return Tick { action: Action::Stop, outcome: Outcome::Failed };
+            return Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None };
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
@@ -134,20 +140,32 @@ impl Machine {
             let way = Way::to(&program, self.state);
             due = due.or_else(|| way.states().find_map(|state| self.due(&program, Some(state), now, senses)));
             match due.take() {
-                None => return self.act(&program, &way, senses),
+                None => return self.act(&program, now, senses),
                 Some((_, Target::Failure(reason))) => return self.fail(Failure::Policy(Arc::clone(reason))),
                 Some((from, Target::State { state, arguments, resume })) if taken < CHAIN_LIMIT => {
-                    let stays = program.stays(from, *state);
-                    for left in program.outward(self.state).take_while(|&left| Some(left) != stays) {
-                        evaluate(&program.code, &program.states[left].exit, &mut self.registers, senses);
-                    }
-                    evaluate(&program.code, arguments, &mut self.registers, senses);
-                    self.enter(&program, stays, *state, *resume, now, senses);
+                    self.take(&program, from, (*state, arguments, *resume), now, senses);
                 }
                 Some((_, Target::State { .. })) => {}
             }
         }
-        self.fail(Failure::Chain { state: Arc::clone(&program.states[self.state].name) })
+        self.leave(&program, (self.state, Cause::Chain), now, senses)
+    }
+
+    /// Goes to a target of a state's transition, or of one that belongs to none.
+    fn take<S: Senses>(
+        &mut self,
+        program: &Program,
+        from: Option<usize>,
+        (target, arguments, resume): (usize, &Block, bool),
+        now: f64,
+        senses: &mut S,
+    ) {
+        let stays = program.stays(from, target);
+        for left in program.outward(self.state).take_while(|&left| Some(left) != stays) {
+            evaluate(&program.code, &program.states[left].exit, &mut self.registers, senses);
+        }
+        evaluate(&program.code, arguments, &mut self.registers, senses);
+        self.enter(program, stays, target, resume, now, senses);
     }
 
     /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
@@ -191,23 +209,47 @@ impl Machine {
         evaluate(&program.code, &state.entry, &mut self.registers, senses);
     }
 
-    fn act<S: Senses>(&mut self, program: &Program, active: &Way, senses: &mut S) -> Tick {
+    fn act<S: Senses>(&mut self, program: &Program, now: f64, senses: &mut S) -> Tick {
+        match self.action(program, senses) {
+            Ok(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+            Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses),
+        }
+    }
+
+    /// What the active states do: the last action that one of them gives. If it is not finite, the state that gave it.
+    fn action<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Result<Action, usize> {
         let mut given = None;
-        for state in active.states() {
+        for state in Way::to(program, self.state).states() {
             let action = evaluate(&program.code, &program.states[state].body, &mut self.registers, senses);
             given = action.map(|action| (state, action)).or(given);
         }
         match given {
-            Some((state, action)) if !action.is_finite() => {
-                self.fail(Failure::NotFinite { state: Arc::clone(&program.states[state].name) })
-            }
-            _ => Tick { action: given.map_or(Action::Hold, |(_, action)| action), outcome: Outcome::Running },
+            Some((state, action)) if !action.is_finite() => Err(state),
+            _ => Ok(given.map_or(Action::Hold, |(_, action)| action)),
         }
+    }
+
+    /// Leaves the active state, because of a state in which the machine cannot go on, by the failsafe. The state entered only
+    /// acts: whatever it would do next has time until the next tick.
+    fn leave<S: Senses>(&mut self, program: &Program, why: (usize, Cause), now: f64, senses: &mut S) -> Tick {
+        let (left, (stuck, cause)) = (self.state, why);
+        let tick = match program.failsafe_of(left) {
+            None => return self.fail(cause.failure(&program.states[stuck].name)),
+            Some((_, Target::Failure(reason))) => self.fail(Failure::Policy(Arc::clone(reason))),
+            Some((from, Target::State { state, arguments, resume })) => {
+                self.take(program, from, (*state, arguments, *resume), now, senses);
+                match self.action(program, senses) {
+                    Ok(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+                    Err(state) => self.fail(Cause::NotFinite.failure(&program.states[state].name)),
+                }
+            }
+        };
+        Tick { failsafe: Some(Failsafe { left, cause }), ..tick }
     }
 
     fn fail(&mut self, failure: Failure) -> Tick {
         self.failure = Some(failure);
-        Tick { action: Action::Stop, outcome: Outcome::Failed }
+        Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None }
     }
 
     /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds, unless it

@@ -98,7 +98,7 @@ pub enum Unsound {
 impl Program {
     /// Checks all that running the program relies on.
     ///
-    /// A program that passes does no more work in a tick than its code is long, for each transition taken, and touches only
+    /// A program that passes does no more work in a tick than its code is long, for each transition taken (a failsafe among them), and touches only
     /// registers, states, timers and whiskers that there are; its parameters stay what they were set to. That its commands are
     /// finite is seen to by [`Machine::tick`](super::Machine::tick), that they are bounded by steering.
     ///
@@ -107,7 +107,7 @@ impl Program {
     /// with a state for a whisker and no whisker, and one with a control character in a reason.
     pub fn verify(&self) -> Result<(), Unsound> {
         // Taken apart, so that a field that is new is not forgotten.
-        let Self { name, whiskers, parameters, states, initial, always, code, image, timers: _ } = self;
+        let Self { name, whiskers, parameters, states, initial, always, failsafe: _, code, image, timers: _ } = self;
         let transitions = always.len() + states.iter().map(|state| state.transitions.len()).sum::<usize>();
         for (what, count, limit) in [
             ("whiskers", whiskers.len(), MAX_WHISKERS),
@@ -191,7 +191,9 @@ impl Program {
         }
         self.always.iter().try_for_each(|rule| self.verify_transition(rule, 0..lasting))?;
         let mut transitions = self.states.iter().flat_map(|state| &state.transitions);
-        transitions.try_for_each(|transition| self.verify_transition(transition, lasting..self.timers))
+        transitions.try_for_each(|transition| self.verify_transition(transition, lasting..self.timers))?;
+        let of_states = self.states.iter().filter_map(|state| state.failsafe.as_ref());
+        of_states.chain(&self.failsafe).try_for_each(|target| self.verify_target(target))
     }
 
     fn verify_transition(&self, transition: &Transition, timers: std::ops::Range<usize>) -> Result<(), Unsound> {
@@ -207,7 +209,11 @@ impl Program {
         for register in registers {
             within("register", usize::from(register), self.image.len())?;
         }
-        match &transition.target {
+        self.verify_target(&transition.target)
+    }
+
+    fn verify_target(&self, target: &Target) -> Result<(), Unsound> {
+        match target {
             Target::State { state, resume, .. } => {
                 within("state", *state, self.states.len())?;
                 if *resume && self.states[*state].initial.is_none() { Err(Unsound::Beginning(*state)) } else { Ok(()) }
@@ -218,19 +224,19 @@ impl Program {
     }
 
     fn verify_blocks(&self) -> Result<(), Unsound> {
-        let of_transition = |transition: &Transition| {
-            let arguments = match &transition.target {
-                Target::State { arguments, .. } => arguments.clone(),
-                Target::Failure(_) => 0..0,
-            };
-            [transition.guard.code().clone(), arguments]
+        let of_target = |target: &Target| match target {
+            Target::State { arguments, .. } => arguments.clone(),
+            Target::Failure(_) => 0..0,
         };
+        let of_transition = |transition: &Transition| [transition.guard.code().clone(), of_target(&transition.target)];
         let of_state = |state: &State| {
             let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
             let own = own.into_iter().chain(state.initial.iter().map(|(_, arguments)| arguments.clone()));
-            state.transitions.iter().flat_map(of_transition).chain(own).collect::<Vec<Block>>()
+            let failsafe = state.failsafe.iter().map(of_target);
+            state.transitions.iter().flat_map(of_transition).chain(own).chain(failsafe).collect::<Vec<Block>>()
         };
-        let always: Vec<Block> = self.always.iter().flat_map(of_transition).collect();
+        let failsafe = self.failsafe.iter().map(of_target);
+        let always: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));

@@ -7,6 +7,8 @@ use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
 pub struct LowPass {
     first: DirectForm2Transposed<f64>,
     second: DirectForm2Transposed<f64>,
+    /// The value at which the sections are at rest.
+    rest: f64,
 }
 
 /// A cutoff that is not above zero, or not below half of the sampling rate.
@@ -31,11 +33,20 @@ impl LowPass {
         Ok(Self {
             first: section(Type::SinglePoleLowPass, std::f64::consts::FRAC_1_SQRT_2)?,
             second: section(Type::LowPass, 1.0)?,
+            rest: 0.0,
         })
+    }
+
+    /// Forgets the past: from now on all samples have been `value`.
+    pub fn settle(&mut self, value: f64) {
+        self.first.reset_state();
+        self.second.reset_state();
+        // The gain at rest is 1, so that shifting the input and the output by the same changes nothing else.
+        self.rest = value;
     }
 
     /// Takes one sample and gives the filtered value.
     pub fn next(&mut self, value: f64) -> f64 {
-        self.second.run(self.first.run(value))
+        self.rest + self.second.run(self.first.run(value - self.rest))
     }
 }

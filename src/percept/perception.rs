@@ -1,7 +1,7 @@
 //! Perception as a whole: samples in, senses out.
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
 use crate::rig::Rig;
 use crate::signal::Sample;
 
@@ -51,14 +51,23 @@ impl Perception {
     }
 
     /// Begins a tick with the samples since the last one, oldest first.
+    ///
+    /// What is not a finite number in a sample, and a base angle beyond half a turn, is left out: the newest of the rest
+    /// counts. Of what no sample of the tick brings there is none in this tick: the deflection and the tip of a whisker, or
+    /// the pose and all that depends on it, are not a number. The time then stands still.
     pub fn update(&mut self, samples: &[Sample]) {
+        self.whiskers.iter_mut().for_each(PerceivedWhisker::begin);
+        self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
                 whisker.filter(sample.whiskers[index].base_angle);
             }
-        }
-        if let Some(newest) = samples.last() {
-            (self.time, self.body) = (newest.time, newest.body);
+            if sample.time.is_finite() {
+                self.time = sample.time;
+            }
+            if sample.body.is_finite() {
+                self.body = sample.body;
+            }
         }
         for whisker in &mut self.whiskers {
             whisker.place(self.body);
@@ -71,13 +80,13 @@ impl Perception {
         self.time
     }
 
-    /// Pose of the platform's centre of mass.
+    /// Pose of the platform's centre of mass; [`Pose::UNKNOWN`] in a tick that brought none.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.body
     }
 
-    /// Filtered base angle (rad) of a whisker.
+    /// Filtered base angle (rad) of a whisker; not a number in a tick that brought no reading of it.
     #[must_use]
     pub fn deflection(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].deflection
@@ -88,6 +97,12 @@ impl Perception {
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
         (whisker.recorded && whisker.touches()).then(|| whisker.tip_world())
+    }
+
+    /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
+    pub fn marks(&self, whisker: usize) -> impl Iterator<Item = (Mark, Point2)> {
+        let whisker = &self.whiskers[whisker];
+        whisker.marks.iter().flatten().map(|&mark| (mark, whisker.tip_world()))
     }
 }
 
@@ -140,5 +155,9 @@ impl Senses for Perception {
 
     fn record(&mut self, whisker: usize) {
         self.whiskers[whisker].record();
+    }
+
+    fn mark(&mut self, whisker: usize, mark: Mark) {
+        self.whiskers[whisker].mark(mark);
     }
 }

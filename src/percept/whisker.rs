@@ -1,11 +1,17 @@
 //! One whisker as perceived.
 
+use std::f64::consts::PI;
+
 use crate::geometry::{Point2, Pose, Vector2, rotate};
+use crate::machine::Mark;
 use crate::rig::Whisker;
 
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::tip_model::TipModel;
+
+/// The greatest base angle (rad) that is taken for one: no hinge turns farther.
+const GREATEST_ANGLE: f64 = PI;
 
 /// One whisker as perceived: where it is, how it bends, what it has touched.
 #[derive(Debug, Clone)]
@@ -17,6 +23,12 @@ pub(super) struct PerceivedWhisker {
     filter: LowPass,
     pub(super) model: TipModel,
     contact_threshold: f64,
+    /// The newest valid reading (rad).
+    reading: f64,
+    /// Whether this tick has brought a valid reading, and the last one did.
+    has_reading: bool,
+    had_reading: bool,
+    /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
     pub(super) deflection: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
@@ -24,6 +36,8 @@ pub(super) struct PerceivedWhisker {
     /// Whether this tick's tip was recorded, and the last one's was.
     pub(super) recorded: bool,
     recorded_before: bool,
+    /// The marks that this tick made, in their order.
+    pub(super) marks: [Option<Mark>; Mark::ALL.len()],
 }
 
 impl PerceivedWhisker {
@@ -36,26 +50,58 @@ impl PerceivedWhisker {
             filter,
             model,
             contact_threshold,
+            reading: 0.0,
+            has_reading: true,
+            had_reading: true,
             deflection: 0.0,
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: LocalContour::default(),
             recorded: false,
             recorded_before: false,
+            marks: Default::default(),
         }
     }
 
-    /// Takes one base angle (rad).
-    pub(super) fn filter(&mut self, base_angle: f64) {
-        self.deflection = self.filter.next(base_angle);
+    /// Begins a tick; its readings come next.
+    pub(super) fn begin(&mut self) {
+        self.had_reading = self.has_reading;
+        self.has_reading = false;
+        self.deflection = f64::NAN;
     }
 
-    /// Begins a tick with the platform at `body`.
+    /// Takes one base angle (rad). One that is none is left out: until the next, the last valid one counts. After a tick
+    /// without any, what was before says nothing of what is now, and the filter begins anew.
+    pub(super) fn filter(&mut self, base_angle: f64) {
+        if base_angle.abs() <= GREATEST_ANGLE {
+            if !self.has_reading && !self.had_reading {
+                self.filter.settle(base_angle);
+            }
+            self.reading = base_angle;
+            self.has_reading = true;
+        }
+        let filtered = self.filter.next(self.reading);
+        if self.has_reading {
+            self.deflection = filtered;
+        }
+    }
+
+    /// Goes where it is with the platform at `body`.
     pub(super) fn place(&mut self, body: Pose) {
         self.base_world = body.point_to_world(self.base_body.into());
         self.yaw = body.heading + self.direction_body;
         self.recorded_before = self.recorded;
         self.recorded = false;
+        self.marks = Default::default();
+    }
+
+    /// Notes a mark, once a tick.
+    pub(super) fn mark(&mut self, mark: Mark) {
+        if !self.marks.contains(&Some(mark))
+            && let Some(free) = self.marks.iter_mut().find(|free| free.is_none())
+        {
+            *free = Some(mark);
+        }
     }
 
     pub(super) fn touches(&self) -> bool {
@@ -81,8 +127,9 @@ impl PerceivedWhisker {
             self.contour.clear();
         }
         self.recorded = true;
-        if self.touches() {
-            self.contour.add(self.tip_world());
+        let tip_world = self.tip_world();
+        if self.touches() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
+            self.contour.add(tip_world);
         }
     }
 }

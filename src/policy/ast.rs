@@ -24,6 +24,8 @@ pub(super) struct File {
     /// In the order of the text: an outer state comes before the states in it.
     pub(super) states: Vec<State>,
     pub(super) always: Vec<Transition>,
+    /// `failsafe -> target`
+    pub(super) failsafes: Vec<Target>,
     pub(super) tests: Vec<Test>,
 }
 
@@ -115,6 +117,7 @@ pub(super) struct State {
     pub(super) exit: Vec<Statement>,
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
+    pub(super) failsafes: Vec<Target>,
 }
 
 /// `when …` and `after …`
@@ -182,6 +185,11 @@ pub(super) enum Statement {
         span: Span,
     },
     Record(Expression),
+    /// `mark name whisker`
+    Mark {
+        name: Name,
+        whisker: Expression,
+    },
     Steer(Box<Steer>),
     Hold(Span),
     Stop(Span),

@@ -32,6 +32,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         states: Vec::new(),
         always: Vec::new(),
         tests: Vec::new(),
+        failsafes: Vec::new(),
     };
     for item in Pairs::new(pairs, start).flat_map(Pair::into_inner) {
         let rule = item.as_rule();
@@ -59,6 +60,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::state => state(&mut reader, None, &mut file.states)?,
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             Rule::test => file.tests.push(test(&mut reader)?),
+            Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             _ => {}
         }
     }
@@ -128,10 +130,10 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
 /// Adds a state and those in it to `states`.
 fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
-    let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let initial = Vec::new();
+    let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (initial, transitions, failsafes) = (Vec::new(), Vec::new(), Vec::new());
     let own = states.len();
-    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions });
+    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions, failsafes });
     while let Ok(pair) = reader.next() {
         if pair.as_rule() == Rule::state {
             self::state(&mut Reader::new(pair), Some(own), states)?;
@@ -141,6 +143,7 @@ fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>
         match pair.as_rule() {
             Rule::start => state.initial.push(step(pair)?),
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
+            Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
             Rule::memory => {
                 let mut memory = Reader::new(pair);
                 state.memory.push((memory.name()?, memory.expression()?));
@@ -242,6 +245,7 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
         }
         Rule::apply => Statement::Do { law: reader.name()?, values: reader.values()?.unwrap_or_default(), span },
         Rule::record => Statement::Record(reader.expression()?),
+        Rule::mark => Statement::Mark { name: reader.name()?, whisker: reader.expression()? },
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);
             let whisker = if mover.has(Rule::expression) { Some(mover.expression()?) } else { None };
@@ -449,6 +453,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_law
             | Rule::kw_state
             | Rule::kw_always
+            | Rule::kw_failsafe
             | Rule::kw_when
             | Rule::kw_after
             | Rule::kw_for
@@ -458,6 +463,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_else
             | Rule::kw_do
             | Rule::kw_record
+            | Rule::kw_mark
             | Rule::kw_steer
             | Rule::kw_along
             | Rule::kw_at

@@ -8,7 +8,8 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
 /// What begins an item, in the order in which they usually come.
-const ITEM: &str = "an item (`use`, `whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `test`)";
+const ITEM: &str =
+    "an item (`use`, `whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
 
 /// Words that can only stand outside of every brace.
 const ITEM_WORDS: [&str; 10] =
@@ -208,12 +209,14 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_expect => "expect",
+        Rule::kw_failsafe => "failsafe",
         Rule::kw_when => "when",
         Rule::kw_after => "after",
         Rule::kw_if => "if",
         Rule::kw_else => "else",
         Rule::kw_do => "do",
         Rule::kw_record => "record",
+        Rule::kw_mark => "mark",
         Rule::kw_steer => "steer",
         Rule::kw_hold => "hold",
         Rule::kw_stop => "stop",

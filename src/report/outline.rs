@@ -62,6 +62,12 @@ impl Outline {
         }
     }
 
+    /// A square on its corner.
+    pub(super) fn diamond(&mut self, (x, y): (f64, f64), half: f64) {
+        self.polyline([(x, y - half), (x + half, y), (x, y + half), (x - half, y)]);
+        self.close();
+    }
+
     /// The path as a line.
     pub(super) fn stroked(self, colour: &str, width: f64) -> Path {
         self.filled("none").set("stroke", colour).set("stroke-width", px(width)).set("stroke-linejoin", "round")

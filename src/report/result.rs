@@ -2,9 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::run::Run;
+use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::Score;
+use crate::score::{RetrievalFigures, Score, Spread};
 
 /// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
 ///
@@ -38,8 +38,10 @@ pub struct RunResult {
     pub coverage: f64,
     /// Symmetric Hausdorff distance between the estimated and the reference contour.
     pub hausdorff_mm: Option<f64>,
-    /// The retrievals of a whisker that had lost the object.
-    pub retrieval: Retrieval,
+    /// The states that were left by their failsafe.
+    pub failsafes: Failsafes,
+    /// The retrievals of whiskers that had lost the object; `None` if the policy made no marks.
+    pub retrieval: Option<Retrieval>,
     /// Distance from the axis of a tunnel; `None` outside of one.
     pub axis_mm: Option<MeanStd>,
     /// Wall time of a control tick.
@@ -89,15 +91,30 @@ pub struct ErrorMm {
     pub n: usize,
 }
 
-/// Retrievals of a whisker that had lost the object.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+/// States that were left by their failsafe.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Failsafes {
+    /// How many times one was.
+    pub count: usize,
+    /// When the first was.
+    pub first_s: Option<f64>,
+    /// Name of the state that was left then.
+    pub first_state: Option<String>,
+    /// Why it was left.
+    pub first_cause: Option<String>,
+}
+
+/// Retrievals of whiskers that had lost the object, by the thesis's definitions (section 5.2).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Retrieval {
     /// How many there were.
     pub count: usize,
-    /// Distance from the point where contact was lost to the one where it was found again.
+    /// Distance from the edge point, the last tip recorded before contact was lost, to where it was found again.
     pub radius_mm: MeanStd,
-    /// Length of the platform's path between the two.
+    /// Length of the path of the platform's centre of mass between the two.
     pub distance_mm: MeanStd,
+    /// Time between the two.
+    pub time_s: MeanStd,
 }
 
 /// Mean and sample standard deviation, in the unit of the key that holds them.
@@ -150,8 +167,9 @@ impl RunResult {
             },
             coverage: score.coverage,
             hausdorff_mm: score.hausdorff.map(millimetres),
-            // Policies cannot retrieve yet, and there are no tunnels.
-            retrieval: Retrieval::default(),
+            failsafes: failsafes(&run.trace),
+            retrieval: score.retrieval.as_ref().map(Retrieval::new),
+            // There are no tunnels.
             axis_mm: None,
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
@@ -160,6 +178,37 @@ impl RunResult {
             },
             hash,
         }
+    }
+}
+
+impl Retrieval {
+    fn new(figures: &RetrievalFigures) -> Self {
+        Self {
+            count: figures.count,
+            radius_mm: MeanStd::new(figures.radius, 1e3),
+            distance_mm: MeanStd::new(figures.distance, 1e3),
+            time_s: MeanStd::new(figures.time, 1.0),
+        }
+    }
+}
+
+impl MeanStd {
+    /// A spread (SI) in a unit of which there are `units` in the SI's.
+    fn new(spread: Option<Spread>, units: f64) -> Self {
+        Self {
+            mean: spread.map(|spread| spread.mean * units),
+            std: spread.and_then(|spread| spread.std).map(|std| std * units),
+        }
+    }
+}
+
+fn failsafes(trace: &Trace) -> Failsafes {
+    let first = trace.failsafes().next();
+    Failsafes {
+        count: trace.failsafes().count(),
+        first_s: first.map(|(tick, _)| tick.time),
+        first_state: first.and_then(|(_, failsafe)| trace.states.get(failsafe.left).cloned()),
+        first_cause: first.map(|(_, failsafe)| failsafe.cause.to_string()),
     }
 }
 

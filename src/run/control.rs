@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::machine::{Machine, Outcome, Program};
+use crate::machine::{Machine, Program, Tick};
 use crate::motion::Steering;
 use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
@@ -41,12 +41,12 @@ impl Control {
         })
     }
 
-    /// One tick: takes the samples since the last one, oldest first, and gives the command until the next. Allocates
-    /// nothing.
-    pub fn tick(&mut self, samples: &[Sample]) -> (Command, Outcome) {
+    /// One tick: takes the samples since the last one, oldest first, and gives the command until the next, with what the
+    /// machine gave. Allocates nothing.
+    pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = self.machine.tick(&mut self.perception);
-        (self.steering.command(&tick.action, self.perception.pose()), tick.outcome)
+        (self.steering.command(&tick.action, self.perception.pose()), tick)
     }
 
     /// What it perceives.

@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::machine;
+use crate::machine::{self, Failsafe};
 use crate::scene::{Outcome, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
 
 use super::control::Control;
 use super::loop_watch::LoopWatch;
-use super::trace::{TickRecord, Trace};
+use super::trace::{MarkRecord, TickRecord, Trace};
 
 /// What a run gave.
 #[derive(Debug, Clone)]
@@ -49,6 +49,7 @@ pub fn drive(
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
         period,
         ticks: Vec::with_capacity(most_ticks.min(ROOM)),
+        marks: Vec::new(),
     };
     let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
     let mut watches = [LoopWatch::default(); MAX_WHISKERS];
@@ -67,12 +68,13 @@ pub fn drive(
         tick_times.push(before_tick.elapsed());
         command = next;
 
-        let tick = record(&control, command, world.body_touches());
+        let tick = record(&control, command, ticked.failsafe, world.body_touches());
+        trace.marks.extend(marks(&control, trace.ticks.len()));
         trace.ticks.push(tick);
         if progress(&trace).is_break() {
             return None;
         }
-        if ticked == machine::Outcome::Failed {
+        if ticked.outcome == machine::Outcome::Failed {
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
         if let Some(aim) = &stop.loop_closed
@@ -91,7 +93,15 @@ pub fn drive(
     Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times })
 }
 
-fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord {
+/// What the tick with this index marked.
+fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
+    (0..control.machine().program().whiskers.len()).flat_map(move |whisker| {
+        let marks = control.perception().marks(whisker);
+        marks.map(move |(mark, tip_world)| MarkRecord { mark, whisker, tick, tip_world })
+    })
+}
+
+fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_touches: bool) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
     let mut tick = TickRecord {
         time: perception.time(),
@@ -100,6 +110,7 @@ fn record(control: &Control, command: Command, body_touches: bool) -> TickRecord
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
         command,
+        failsafe,
         body_touches,
     };
     for whisker in 0..machine.program().whiskers.len() {

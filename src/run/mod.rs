@@ -7,4 +7,4 @@ mod trace;
 
 pub use control::{BindError, Control};
 pub use drive::{Run, drive};
-pub use trace::{TickRecord, Trace};
+pub use trace::{MarkRecord, TickRecord, Trace};

@@ -1,6 +1,7 @@
 //! What happened in a run, tick by tick.
 
 use crate::geometry::{Point2, Pose};
+use crate::machine::{Failsafe, Mark};
 use crate::signal::{Command, MAX_WHISKERS};
 
 /// What happened in a run, tick by tick.
@@ -14,6 +15,21 @@ pub struct Trace {
     pub period: f64,
     /// The ticks.
     pub ticks: Vec<TickRecord>,
+    /// What the policy marked, in the order of time; of one tick, whisker by whisker.
+    pub marks: Vec<MarkRecord>,
+}
+
+/// One mark.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkRecord {
+    /// What was marked.
+    pub mark: Mark,
+    /// Index of the whisker.
+    pub whisker: usize,
+    /// Index of the tick, which has the time and the pose of the platform.
+    pub tick: usize,
+    /// The estimate of the whisker's tip (m, world frame).
+    pub tip_world: Point2,
 }
 
 /// One tick.
@@ -31,11 +47,18 @@ pub struct TickRecord {
     pub tips: [Option<Point2>; MAX_WHISKERS],
     /// The command that the tick gave.
     pub command: Command,
+    /// The state that the machine left by its failsafe, if it left one.
+    pub failsafe: Option<Failsafe>,
     /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
     pub body_touches: bool,
 }
 
 impl Trace {
+    /// The ticks in which the machine left a state by its failsafe, with what it did so for.
+    pub fn failsafes(&self) -> impl Iterator<Item = (&TickRecord, Failsafe)> {
+        self.ticks.iter().filter_map(|tick| Some((tick, tick.failsafe?)))
+    }
+
     /// The recorded tips of one whisker with the ticks' indices.
     pub fn tips(&self, whisker: usize) -> impl Iterator<Item = (usize, Point2)> {
         self.ticks.iter().enumerate().filter_map(move |(index, tick)| Some((index, tick.tips[whisker]?)))

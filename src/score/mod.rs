@@ -9,6 +9,7 @@ mod estimate;
 mod hausdorff;
 mod latency;
 mod lipschitz;
+mod retrieval;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the room's name")]
 mod score;
 mod statistics;
@@ -19,6 +20,7 @@ pub use error::ErrorFigures;
 pub use estimate::{Estimate, LONGEST_BREAK, LONGEST_STEP};
 pub use hausdorff::{HAUSDORFF_TOLERANCE, hausdorff};
 pub use latency::Latency;
+pub use retrieval::{MarkPlace, Retrieval, RetrievalFigures, Spread, mark_places, retrievals};
 pub use score::Score;
 pub use statistics::Statistics;
 pub use tip::{Tip, tips};

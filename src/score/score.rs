@@ -1,6 +1,6 @@
 //! All figures of a run.
 
-use super::{ErrorFigures, Estimate, Latency, coverage, hausdorff, tips};
+use super::{ErrorFigures, Estimate, Latency, RetrievalFigures, coverage, hausdorff, tips};
 use crate::geometry::Contour;
 use crate::run::Run;
 use crate::scene::Metric;
@@ -15,6 +15,8 @@ pub struct Score {
     /// The symmetric [Hausdorff distance](hausdorff) between the estimated and the reference contour; `None` if no tip
     /// was recorded.
     pub hausdorff: Option<f64>,
+    /// Retrievals; `None` if the policy made no marks.
+    pub retrieval: Option<RetrievalFigures>,
     /// Wall time of the control ticks; `None` if there was none.
     pub latency: Option<Latency>,
 }
@@ -28,6 +30,7 @@ impl Score {
             error: ErrorFigures::of(&tips(&run.trace, reference)),
             coverage: coverage(&estimate, reference),
             hausdorff: hausdorff(&estimate, reference),
+            retrieval: RetrievalFigures::new(&run.trace),
             latency: Latency::of(&run.tick_times),
         }
     }

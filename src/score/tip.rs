@@ -38,5 +38,10 @@ pub(super) fn whiskers(trace: &Trace) -> std::ops::Range<usize> {
 
 /// The recorded tips of one whisker whose coordinates are finite, with the ticks' indices.
 pub(super) fn valid_tips(trace: &Trace, whisker: usize) -> impl Iterator<Item = (usize, Point2)> {
-    trace.tips(whisker).filter(|(_, tip)| tip.x.is_finite() && tip.y.is_finite())
+    trace.tips(whisker).filter(|(_, tip)| is_finite(tip))
+}
+
+/// Whether a tip counts.
+pub(super) fn is_finite(tip: &Point2) -> bool {
+    tip.x.is_finite() && tip.y.is_finite()
 }

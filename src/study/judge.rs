@@ -47,6 +47,6 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
 
 /// Whether a state is active when the innermost active one is `innermost`: the same, or one around it.
 fn is_active(program: &Program, state: usize, innermost: usize) -> bool {
-    let around = |index: &usize| program.states.get(*index)?.parent;
-    std::iter::successors(Some(innermost), around).any(|active| active == state)
+    // Behind the last state is the failure.
+    innermost < program.states.len() && program.contains(state, innermost)
 }

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use vibrissa::geometry::{Point2, Pose, Vector2};
-use vibrissa::machine::{BodyScalar, Machine, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{BodyScalar, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::motion::Steering;
 use vibrissa::rig::Rig;
 
@@ -65,6 +65,10 @@ impl Senses for Erratic {
     }
 
     fn record(&mut self, whisker: usize) {
+        self.check(whisker);
+    }
+
+    fn mark(&mut self, whisker: usize, _: Mark) {
         self.check(whisker);
     }
 }

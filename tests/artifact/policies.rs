@@ -27,7 +27,8 @@ state Start {
   if b.touching { set last = b }
   set closest = lowpass(closest, 5 Hz) + pid(closest - 10 mm, 2, 1 Hz, 0.1 s, 50 mm)
   stop
-  exit { record last }
+  exit { record last  mark lost last }
+  failsafe -> Touch(b, fast, vector(1, 0))
   when a.touching -> Touch(a, fast, vector(1, 2))  when b.touching for 100 ms -> Touch(b, -fast, vector(0, 1)) }
 state Touch(w: whisker, s: speed, v: vector) {
   do touch(w, s)
@@ -36,6 +37,7 @@ state Touch(w: whisker, s: speed, v: vector) {
   when not w.touching for 50 ms -> Touch(a, 2 * s, rotate(v, 90 deg))
   after 1 s -> Start
 }
+failsafe -> Start
 always when time > 2 s for 1 s -> Failure("too long")
 always when cross(body.position, vector(1, 0)) > 1e6 m -> Failure("too far")
 "#;

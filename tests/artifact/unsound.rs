@@ -1,6 +1,6 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
-use vibrissa::machine::{Artifact, ArtifactError, Guard, Op, Program, Target, WhiskerScalar};
+use vibrissa::machine::{Artifact, ArtifactError, Guard, Mark, Op, Program, Target, WhiskerScalar};
 
 use super::{erratic, policies};
 
@@ -28,7 +28,7 @@ fn whisker_argument(program: &Program) -> u16 {
 #[test]
 fn registers_are_bounded() {
     let last = |program: &Program| u16::try_from(program.image.len() - 1).unwrap();
-    let changes: [fn(&mut Op, u16); 13] = [
+    let changes: [fn(&mut Op, u16); 14] = [
         |op, end| *op = Op::Copy { to: end + 1, a: 3 },
         |op, end| *op = Op::Copy { to: 5, a: end + 1 },
         |op, end| *op = Op::Norm { to: 5, a: end },
@@ -36,6 +36,7 @@ fn registers_are_bounded() {
         |op, _| *op = Op::BodyPosition { to: u16::MAX },
         |op, end| *op = Op::SteerBodyFacing { along: end, speed: 0, heading: 0 },
         |op, end| *op = Op::Record { whisker: end + 1 },
+        |op, end| *op = Op::Mark { whisker: end + 1, mark: Mark::Lost },
         |op, end| *op = Op::LowPass { to: 5, a: 3, b: 3, memory: end - 1 },
         |op, end| *op = Op::LowPass { to: 5, a: 3, b: end + 1, memory: end - 2 },
         |op, end| *op = Op::Pid { to: 5, a: 3, gains: end - 2, memory: end - 3 },
@@ -84,6 +85,8 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
     });
+    told(|program| program.failsafe = Some(Target::State { state: 0, arguments: 1..u32::MAX, resume: false }));
+    told(|program| program.states[1].failsafe = Some(Target::State { state: 0, arguments: 9..8, resume: false }));
 }
 
 #[test]
@@ -119,6 +122,9 @@ fn states_and_timers_are_bounded_and_timers_keep_to_their_kind() {
         *state = 9;
     });
     assert!(told.contains("names state 9 of 2"), "{told}");
+    let stray = || Some(Target::State { state: 7, arguments: 0..0, resume: false });
+    assert!(refusal(|program| program.failsafe = stray()).contains("names state 7 of 2"));
+    assert!(refusal(|program| program.states[1].failsafe = stray()).contains("names state 7 of 2"));
     assert!(refusal(|program| program.timers = usize::MAX).contains("timers"));
     assert!(refusal(|program| program.timers = 0).contains("timers"));
     let told = refusal(|program| {
@@ -209,6 +215,8 @@ fn names_and_reasons_are_plain() {
     assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` is given twice"));
     let told = refusal(|program| program.always[0].target = Target::Failure("\u{1b}[2J".into()));
     assert!(told.contains(r"\u{1b}"), "{told}");
+    let told = refusal(|program| program.states[0].failsafe = Some(Target::Failure("\n".into())));
+    assert!(told.contains(r"\n"), "{told}");
     for text in ["a\nb".to_owned(), "long".repeat(100)] {
         let mut artifact = policies::everything();
         artifact.origin.file = text;

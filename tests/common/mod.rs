@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{Action, BodyScalar, Machine, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{Action, BodyScalar, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::policy::compile;
 
 /// What one whisker is like; numbers and truths as the machine sees them.
@@ -34,11 +34,12 @@ pub struct Script {
     /// By tick, then by whisker; the last tick lasts.
     pub ticks: Vec<Vec<Feel>>,
     pub recorded: Vec<usize>,
+    pub marked: Vec<(usize, Mark)>,
 }
 
 impl Script {
     pub fn new(ticks: Vec<Vec<Feel>>) -> Self {
-        Self { period: 1.0 / 30.0, now: 0, ticks, recorded: Vec::new() }
+        Self { period: 1.0 / 30.0, now: 0, ticks, recorded: Vec::new(), marked: Vec::new() }
     }
 
     /// One whisker that touches at the ticks marked `x`.
@@ -97,6 +98,10 @@ impl Senses for Script {
 
     fn record(&mut self, whisker: usize) {
         self.recorded.push(whisker);
+    }
+
+    fn mark(&mut self, whisker: usize, mark: Mark) {
+        self.marked.push((whisker, mark));
     }
 }
 

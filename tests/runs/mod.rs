@@ -1,4 +1,5 @@
 //! Runs made by hand, for tests of what is made of runs.
+#![allow(dead_code, reason = "every test file uses a part of it")]
 
 use std::time::Duration;
 
@@ -23,6 +24,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             deflections: [0.0; MAX_WHISKERS],
             tips: [None; MAX_WHISKERS],
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
+            failsafe: None,
             body_touches: false,
         };
         for (whisker, tips) in tips.iter().enumerate() {
@@ -40,6 +42,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             states: vec!["Exploring".to_owned(), "Swiping".to_owned()],
             period: PERIOD,
             ticks: ticks.collect(),
+            marks: vec![],
         },
         wall: Duration::from_millis(8),
         tick_times: (0..count).map(|index| Duration::from_nanos(1000 + index as u64)).collect(),

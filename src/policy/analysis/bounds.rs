@@ -149,6 +149,7 @@ impl<'m> Bounds<'m> {
             | Op::JumpUnless { .. }
             | Op::Jump { .. }
             | Op::Record { .. }
+            | Op::Mark { .. }
             | Op::SteerBodyFacing { .. }
             | Op::SteerBodyTurning { .. }
             | Op::SteerWhiskerFacing { .. }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::{CHAIN_LIMIT, Failure, Machine, WhiskerScalar};
+use crate::machine::{CHAIN_LIMIT, Cause, Failure, Machine, WhiskerScalar};
 
 use super::model::{Edge, Model};
 use super::point::Point;
@@ -36,8 +36,10 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         let fails = |point: &Point, registers: Vec<f64>| {
             is_felt_freely(model, point) && {
                 let mut machine = Machine::entering(Arc::clone(&program), start, registers);
-                machine.tick(&mut point.clone());
+                let left = machine.tick(&mut point.clone()).failsafe;
+                // A failsafe is for what nobody foresaw, and so excuses no cycle.
                 matches!(machine.failure(), Some(Failure::Chain { .. }))
+                    || left.is_some_and(|failsafe| failsafe.cause == Cause::Chain)
             }
         };
         if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {

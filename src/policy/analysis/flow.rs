@@ -116,6 +116,7 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         Op::JumpUnless { .. }
         | Op::Jump { .. }
         | Op::Record { .. }
+        | Op::Mark { .. }
         | Op::SteerBodyFacing { .. }
         | Op::SteerBodyTurning { .. }
         | Op::SteerWhiskerFacing { .. }

@@ -24,6 +24,8 @@ pub(super) struct Model<'a> {
 pub(super) struct Node<'a> {
     pub(super) name: &'a ast::Name,
     pub(super) edges: Vec<Edge<'a>>,
+    /// Where it is left to when the machine cannot go on in it.
+    pub(super) failsafe: Option<&'a machine::Target>,
     /// What it is entered with.
     pub(super) arguments: &'a [(String, Value)],
 }
@@ -68,10 +70,7 @@ impl<'a> Edge<'a> {
 
     /// The state that it leads to; `None` for a failure.
     pub(super) fn leads_to(&self) -> Option<usize> {
-        match self.target {
-            machine::Target::State { state, .. } => Some(*state),
-            machine::Target::Failure(_) => None,
-        }
+        leads_to(self.target)
     }
 
     /// The condition, unless the guard is a time alone.
@@ -85,6 +84,21 @@ impl<'a> Edge<'a> {
     /// Whether it is due as soon as its condition holds.
     pub(super) fn is_immediate(&self) -> bool {
         matches!(self.guard, machine::Guard::When { lasting: None, .. })
+    }
+}
+
+impl Node<'_> {
+    /// Where its own transitions and its failsafe lead: states, and `None` for a failure.
+    pub(super) fn ways_out(&self) -> impl Iterator<Item = Option<usize>> {
+        self.edges.iter().map(Edge::leads_to).chain(self.failsafe.map(leads_to))
+    }
+}
+
+/// The state that a target is; `None` for a failure.
+fn leads_to(target: &machine::Target) -> Option<usize> {
+    match target {
+        machine::Target::State { state, .. } => Some(*state),
+        machine::Target::Failure(_) => None,
     }
 }
 
@@ -102,6 +116,7 @@ impl<'a> Model<'a> {
         let states = states.enumerate().map(|(index, ((written, state), arguments))| Node {
             name: &written.name,
             edges: edges(Some(index), &state.transitions, &written.transitions),
+            failsafe: program.failsafe_of(index).map(|(_, target)| target),
             arguments,
         });
         Self {
@@ -139,12 +154,17 @@ impl<'a> Model<'a> {
     /// The innermost state that a transition leads to while `innermost` is the innermost active state, or the state that it
     /// resumes; `None` for a failure, and where it has led already.
     pub(super) fn leads_to_one(&self, edge: &Edge<'_>, innermost: usize) -> Option<usize> {
-        let machine::Target::State { state, resume, .. } = *edge.target else { return None };
-        if self.program.is_settled(edge.from, state, innermost) {
+        if edge.leads_to().is_some_and(|state| self.program.is_settled(edge.from, state, innermost)) {
             return None;
         }
-        let begins_in = |&state: &usize| self.program.states[state].initial.as_ref().map(|&(inner, _)| inner);
-        if resume { Some(state) } else { std::iter::successors(Some(state), begins_in).last() }
+        self.begins_in(edge.target)
+    }
+
+    /// The innermost state that a target begins in, or the state that it resumes; `None` for a failure.
+    pub(super) fn begins_in(&self, target: &machine::Target) -> Option<usize> {
+        let machine::Target::State { state, resume, .. } = *target else { return None };
+        let inner = |&state: &usize| self.program.states[state].initial.as_ref().map(|&(inner, _)| inner);
+        if resume { Some(state) } else { std::iter::successors(Some(state), inner).last() }
     }
 
     /// The innermost states that a transition can lead to while `innermost` is the innermost active state.

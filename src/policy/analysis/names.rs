@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Expression, Guard, Kind, Statement, Transition, Turn};
+use crate::policy::ast::{Expression, Guard, Kind, Statement, Target, Transition, Turn};
 
 /// Names that are used.
 #[derive(Debug, Default)]
@@ -38,6 +38,10 @@ impl<'a> Names<'a> {
         }
     }
 
+    pub(super) fn targets(&mut self, targets: &'a [Target]) {
+        targets.iter().for_each(|target| self.expressions(&target.values));
+    }
+
     pub(super) fn statements(&mut self, statements: &'a [Statement]) {
         for statement in statements {
             match statement {
@@ -53,7 +57,7 @@ impl<'a> Names<'a> {
                     self.0.insert(&law.text);
                     self.expressions(values);
                 }
-                Statement::Record(whisker) => self.expression(whisker),
+                Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
                 Statement::Steer(steer) => {
                     self.expressions(&steer.whisker);
                     self.expression(&steer.along);

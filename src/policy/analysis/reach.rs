@@ -22,7 +22,7 @@ pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
         open.extend(program.states[target].initial.iter().map(|&(inner, _)| inner));
         for state in program.outward(target) {
             if !std::mem::replace(&mut reached[state], true) {
-                open.extend(model.states[state].edges.iter().filter_map(Edge::leads_to));
+                open.extend(model.states[state].ways_out().flatten());
             }
         }
     }
@@ -36,10 +36,9 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     let is_told = |index: usize| program.states[index].parent.is_some_and(|parent| !reached[parent]);
     for (index, state) in model.states.iter().enumerate().filter(|&(index, _)| !reached[index] && !is_told(index)) {
         let mut others = model.states.iter().enumerate().filter(|&(other, _)| !program.contains(index, other));
-        let leads_here = |edge: &Edge<'_>| edge.leads_to().is_some_and(|target| program.contains(index, target));
         let is_target = others.any(|(other, node)| {
             let begins_here = program.states[other].initial.as_ref().is_some_and(|&(inner, _)| inner == index);
-            begins_here || node.edges.iter().any(leads_here)
+            begins_here || node.ways_out().flatten().any(|target| program.contains(index, target))
         });
         let label = if is_target { "only states that cannot be reached lead here" } else { "no transition leads here" };
         let message = format!("the state `{}` cannot be reached", state.name.text);
@@ -66,12 +65,14 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     // From the failures backwards: who leads there, who leads to those. Who resumes a state may come to any in it.
     let mut sources: Vec<Vec<usize>> = vec![Vec::new(); model.states.len()];
     let (mut is_left, mut open) = (vec![false; model.states.len()], Vec::new());
-    for (index, _) in model.innermost() {
+    for (index, node) in model.innermost() {
         let edges = model.active_edges(index);
-        let can_fail = edges.iter().any(fails);
+        let can_fail = edges.iter().any(fails) || node.ways_out().any(|target| target.is_none());
         open.extend(can_fail.then_some(index));
         program.outward(index).for_each(|state| is_left[state] |= can_fail);
-        for target in edges.into_iter().chain(&model.always).filter_map(|edge| model.leads_to_one(edge, index)) {
+        let failsafe = node.failsafe.and_then(|target| model.begins_in(target));
+        let led = edges.into_iter().chain(&model.always).filter_map(|edge| model.leads_to_one(edge, index));
+        for target in led.chain(failsafe) {
             sources[target].push(index);
             // From within, a state is resumed where it is.
             let leads_out = |state| !program.contains(state, target) && !program.contains(target, state);

@@ -35,6 +35,7 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
                 names.statements(statements);
             }
             names.transitions(&state.transitions);
+            names.targets(&state.failsafes);
         })
     });
     let mut of_states: Vec<Names<'_>> = own.collect();
@@ -49,6 +50,7 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
         }
     }
     used.transitions(&file.always);
+    used.targets(&file.failsafes);
     for name in unread {
         warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));
     }

@@ -11,15 +11,13 @@ use super::{Argument, Chart, Guard, Origin, State, Target, Transition};
 pub(in crate::policy) fn build(source: &Source, file: &File) -> Chart {
     let names = file.states.iter().map(|state| state.name.text.as_str());
     let builder = Builder { source, states: names.zip(0..).collect() };
-    let always = file.always.iter().map(|rule| (Origin::AnyState, rule));
-    let of_states = file.states.iter().enumerate();
-    let of_states =
-        of_states.flat_map(|(index, state)| state.transitions.iter().map(move |t| (Origin::State(index), t)));
-    let transitions = always.chain(of_states);
+    let of_states = file.states.iter().zip(0..).map(|(state, index)| (Origin::State(index), state));
+    let of_states = of_states.flat_map(|(origin, state)| builder.ways(origin, &state.transitions, &state.failsafes));
+    let always = builder.ways(Origin::AnyState, &file.always, &file.failsafes);
     Chart {
         machine: file.name.text.clone(),
         states: file.states.iter().map(|state| builder.state(state, file)).collect(),
-        transitions: transitions.filter_map(|(origin, transition)| builder.transition(origin, transition)).collect(),
+        transitions: always.into_iter().chain(of_states).collect(),
     }
 }
 
@@ -47,16 +45,26 @@ impl Builder<'_> {
         }
     }
 
-    /// A transition; `None` if it leads to a state that does not exist, which a file that compiles does not have.
-    fn transition(&self, origin: Origin, transition: &ast::Transition) -> Option<Transition> {
-        let guard = match &transition.guard {
+    /// The transitions from one origin, and its failsafe. One that leads to a state that does not exist is left out; a file
+    /// that compiles has none.
+    fn ways(&self, origin: Origin, transitions: &[ast::Transition], failsafes: &[ast::Target]) -> Vec<Transition> {
+        let transitions = transitions.iter().map(|transition| (self.guard(&transition.guard), &transition.target));
+        let ways = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
+        ways.filter_map(|(guard, target)| Some(Transition { origin, guard, target: self.target(target)? })).collect()
+    }
+
+    fn guard(&self, guard: &ast::Guard) -> Guard {
+        match guard {
             ast::Guard::When { condition, lasting } => Guard::When {
                 condition: self.text(condition.span),
                 lasting: lasting.as_ref().map(|time| self.text(time.span)),
             },
             ast::Guard::After(time) => Guard::After(self.text(time.span)),
-        };
-        let target = match &transition.target {
+        }
+    }
+
+    fn target(&self, target: &ast::Target) -> Option<Target> {
+        Some(match target {
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
             ast::Target { resume, outer, name, values, .. } => {
                 let outer = outer
@@ -69,8 +77,7 @@ impl Builder<'_> {
                     resume: resume.is_some(),
                 }
             }
-        };
-        Some(Transition { origin, guard, target })
+        })
     }
 
     fn texts(&self, expressions: &[ast::Expression]) -> Vec<String> {

@@ -78,7 +78,7 @@ pub struct Transition {
 /// Where a transition comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Origin {
-    /// Every state: an `always` rule.
+    /// Every state: an `always` rule or the machine's failsafe.
     AnyState,
     /// The state with this index.
     State(usize),
@@ -96,6 +96,8 @@ pub enum Guard {
     },
     /// When the state has been active for this time.
     After(String),
+    /// When the machine cannot go on in the state: the failsafe.
+    Failsafe,
 }
 
 /// Where a transition leads.

@@ -1,7 +1,7 @@
 //! Statements.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::Op;
+use crate::machine::{Mark, Op};
 use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
@@ -37,10 +37,24 @@ impl<'f> Compiler<'f> {
                 let whisker = self.expect(scope, whisker, Type::Whisker)?.register;
                 self.code.push(Op::Record { whisker });
             }
+            Statement::Mark { name, whisker } => self.mark(scope, name, whisker)?,
             Statement::Steer(steer) => self.steer(scope, steer)?,
             Statement::Hold(span) => self.command(*span, Op::Hold)?,
             Statement::Stop(span) => self.command(*span, Op::Stop)?,
         }
+        Some(())
+    }
+
+    fn mark(&mut self, scope: &Scope<'f>, name: &Name, whisker: &'f Expression) -> Option<()> {
+        let whisker = self.expect(scope, whisker, Type::Whisker);
+        let Some(mark) = Mark::ALL.into_iter().find(|mark| mark.name() == name.text) else {
+            let message = format!("there is no mark `{}`", name.text);
+            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown mark");
+            let diagnostic = did_you_mean(diagnostic, &name.text, Mark::ALL.map(Mark::name));
+            self.report(diagnostic.hint("marks are `lost` and `found`: `mark lost w`"));
+            return None;
+        };
+        self.code.push(Op::Mark { whisker: whisker?.register, mark });
         Some(())
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::{self, Block, NESTING_LIMIT, Op, Program};
-use crate::policy::ast::{Argument, File, Guard, Name, State, Transition};
+use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
 use crate::policy::load::Files;
 use crate::policy::types::{Type, Value};
 use crate::signal::MAX_WHISKERS;
@@ -51,6 +51,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let mut timers = 0;
     let always = file.always.iter();
     let always = always.filter_map(|rule| compiler.transition(&Scope::default(), None, rule, &mut timers)).collect();
+    let failsafe = compiler.failsafe(&Scope::default(), None, &file.failsafes);
     let states = compiler.states(file, declared, &mut timers);
     let initial = compiler.initial(file);
     compiler.tests(file, &parameters);
@@ -63,6 +64,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         states,
         initial: initial?,
         always,
+        failsafe,
         code: std::mem::take(&mut compiler.code.ops),
         image: std::mem::take(&mut compiler.code.image),
         timers,
@@ -205,6 +207,7 @@ impl<'f> Compiler<'f> {
         let transitions = state.transitions.iter();
         let transitions =
             transitions.filter_map(|transition| self.transition(scope, Some(index), transition, timers)).collect();
+        let failsafe = self.failsafe(scope, Some(index), &state.failsafes);
         self.doing = &[];
         let start = self.code.here();
         self.statements(scope, &state.body);
@@ -219,7 +222,7 @@ impl<'f> Compiler<'f> {
         self.commandless = None;
         self.watch_growth(state.name.span);
         let name = Arc::from(state.name.text.as_str());
-        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions }
+        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, failsafe }
     }
 
     /// Writes what a state does when it is entered.
@@ -271,5 +274,18 @@ impl<'f> Compiler<'f> {
         };
         let target = self.target(scope, from, &transition.target);
         Some(machine::Transition { guard: guard?, target: target? })
+    }
+
+    /// Where to go when the machine cannot go on. There is one at most.
+    fn failsafe(&mut self, scope: &Scope<'f>, from: Option<usize>, failsafes: &'f [Target]) -> Option<machine::Target> {
+        let mut written = failsafes.iter().map(|target| (target.span, self.target(scope, from, target)));
+        let (first, failsafe) = written.next()?;
+        let others: Vec<Span> = written.map(|(span, _)| span).collect();
+        for second in others {
+            let message = "a state, or a machine, has one failsafe";
+            let diagnostic = Diagnostic::error("P0411", message, second, "a second failsafe");
+            self.report(diagnostic.note(first, "the first").hint("keep one of them"));
+        }
+        failsafe
     }
 }

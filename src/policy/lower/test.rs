@@ -26,7 +26,7 @@ impl<'f> Compiler<'f> {
 
     fn test(&mut self, test: &'f Test, parameters: &[Parameter]) -> PolicyTest {
         if test.expectations.is_empty() {
-            let diagnostic = Diagnostic::error("P0408", "the test expects nothing", test.title.span, "cannot fail");
+            let diagnostic = Diagnostic::error("P0703", "the test expects nothing", test.title.span, "cannot fail");
             self.report(diagnostic.hint("write `expect run.completed`, or what else must be true of the run"));
         }
         PolicyTest {
@@ -80,7 +80,7 @@ impl<'f> Compiler<'f> {
             } else {
                 ("the expectation says nothing about the run", "the same for every run")
             };
-            let diagnostic = Diagnostic::error("P0408", message, truth.span, label);
+            let diagnostic = Diagnostic::error("P0703", message, truth.span, label);
             self.report(diagnostic.hint("expect something of `run`, such as `run.error_mean < 0.5 mm`"));
             return None;
         }

@@ -91,9 +91,11 @@ pub(super) fn arguments(state: &State) -> String {
 }
 
 fn number(chart: &Chart, index: usize) -> Option<usize> {
-    let origin = chart.transitions[index].origin;
-    let of_origin = |transitions: &[Transition]| transitions.iter().filter(|other| other.origin == origin).count();
-    (of_origin(&chart.transitions) > 1).then(|| of_origin(&chart.transitions[..=index]))
+    let Transition { origin, guard, .. } = &chart.transitions[index];
+    // A failsafe is not tried among the others.
+    let is_tried = |other: &&Transition| other.origin == *origin && other.guard != Guard::Failsafe;
+    let of_origin = |transitions: &[Transition]| transitions.iter().filter(is_tried).count();
+    (*guard != Guard::Failsafe && of_origin(&chart.transitions) > 1).then(|| of_origin(&chart.transitions[..=index]))
 }
 
 fn guard(transition: &Transition) -> String {
@@ -101,6 +103,7 @@ fn guard(transition: &Transition) -> String {
         Guard::When { condition, lasting: None } => format!("when {condition}"),
         Guard::When { condition, lasting: Some(time) } => format!("when {condition} for {time}"),
         Guard::After(time) => format!("after {time}"),
+        Guard::Failsafe => "failsafe".to_owned(),
     }
 }
 

@@ -5,13 +5,14 @@ use std::cmp::Ordering;
 use svg::Node;
 use svg::node::element::{Group, Path};
 
-use super::map::{DOT, OUTLINE, UNTRACED, pose_style};
+use super::map::{self, DOT, OUTLINE, UNTRACED, mark_style, pose_style};
 use super::scale::round_step;
+use crate::machine::Mark;
 use crate::report::number::{mean_std, millimetres};
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, error_colour, line, text};
 use crate::run::Trace;
-use crate::score::{ErrorFigures, Score};
+use crate::score::{ErrorFigures, RetrievalFigures, Score};
 
 /// Height of a line (px).
 const LINE: f64 = 22.0;
@@ -45,6 +46,7 @@ impl Legend {
         legend.contour(untraced);
         legend.estimates(score.error.as_ref());
         legend.platform(trace);
+        legend.marks(trace);
         legend.figures(trace, score);
         legend.scale_bar(scale);
         legend.group
@@ -108,6 +110,20 @@ impl Legend {
         }
     }
 
+    fn marks(&mut self, trace: &Trace) {
+        if trace.marks.is_empty() {
+            return;
+        }
+        self.y += GAP;
+        self.heading("Marks");
+        for (mark, meaning) in [(Mark::Lost, "edge lost"), (Mark::Found, "contact found again")] {
+            let mut diamond = Outline::default();
+            let [(from, y), (to, _)] = self.mark();
+            diamond.diamond((0.5 * (from + to), y), map::MARK);
+            self.entry(mark_style(diamond, mark), meaning);
+        }
+    }
+
     fn figures(&mut self, trace: &Trace, score: &Score) {
         self.y += GAP;
         self.heading("Figures");
@@ -120,6 +136,12 @@ impl Legend {
             self.figure("Hausdorff distance", &format!("{} mm", millimetres(hausdorff * 1e3)));
         }
         self.figure("coverage", &format!("{:.1} %", score.coverage * 100.0));
+        if let Some(RetrievalFigures { count, radius, .. }) = score.retrieval {
+            let radius = radius.map_or_else(String::new, |radius| {
+                format!("{} mm radius, ", mean_std(radius.mean * 1e3, radius.std.map(|std| std * 1e3)))
+            });
+            self.figure("retrievals", &format!("{radius}{count}"));
+        }
         self.figure("tip estimates", &score.error.map_or(0, |error| error.count).to_string());
         self.figure("simulated time", &format!("{:.1} s", trace.ticks.last().map_or(0.0, |tick| tick.time)));
     }

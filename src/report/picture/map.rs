@@ -9,12 +9,13 @@ use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
 use super::scale::Scale;
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
+use crate::machine::Mark;
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
 use crate::rig::Rig;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
-use crate::score::{ErrorFigures, Tip};
+use crate::score::{ErrorFigures, Tip, mark_places};
 
 /// Diameter of an estimate's dot (px).
 pub(super) const DOT: f64 = 5.0;
@@ -24,6 +25,9 @@ pub(super) const OUTLINE: f64 = 0.7;
 
 /// Width of a stretch that was not traced (px).
 pub(super) const UNTRACED: f64 = 12.0;
+
+/// Half the width of the diamond of a mark (px).
+pub(super) const MARK: f64 = 5.0;
 
 /// Poses of the platform that are drawn between the first and the last.
 const POSES_BETWEEN: usize = 5;
@@ -93,6 +97,13 @@ impl Map {
             inside = inside.add(dots.dots(style::error_colour(class), DOT));
         }
         inside = inside.add(self.object(&scene.object).stroked(style::INK, OUTLINE));
+        for mark in Mark::ALL {
+            let mut diamonds = Outline::default();
+            let places = mark_places(trace).into_iter().filter(|place| place.mark == mark);
+            let places = places.map(|place| self.place(place.point_world));
+            places.filter(|place| self.shows(*place)).for_each(|place| diamonds.diamond(place, MARK));
+            inside = inside.add(mark_style(diamonds, mark));
+        }
         let mut touches = Outline::default();
         for tick in trace.ticks.iter().filter(|tick| tick.body_touches && has_place(tick)) {
             touches.cross(self.place(tick.body.position), 4.0);
@@ -219,6 +230,14 @@ pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node
         body.stroked(style::INK, 2.0)
     } else {
         body.stroked(style::PLATFORM, 0.8).set("stroke-opacity", "0.7")
+    }
+}
+
+/// Diamonds that stand for marks: hollow where an edge was lost, full where contact was found again.
+pub(super) fn mark_style(diamonds: Outline, mark: Mark) -> svg::node::element::Path {
+    match mark {
+        Mark::Lost => diamonds.stroked(style::ALARM, 1.5).set("fill", "#ffffff"),
+        Mark::Found => diamonds.stroked(style::INK, 1.5).set("fill", style::INK),
     }
 }
 

@@ -24,6 +24,8 @@ const WIDTH: f64 = 1200.0;
 const MAP_WIDTH: f64 = 800.0;
 /// Least and greatest height of the map (px); the least is what the legend beside it needs.
 const MAP_HEIGHT: (f64, f64) = (560.0, 820.0);
+/// What the legend needs more where there are marks (px).
+const MARKS_HEIGHT: f64 = 110.0;
 /// Where the map and the strips start, and where the picture's content ends (px).
 const SIDES: (f64, f64) = (66.0, 1170.0);
 /// Where the legend starts (px).
@@ -44,7 +46,8 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     let tips = tips(trace, &scene.object);
     let untraced = untraced(scene, trace);
     let (head, map_top) = heading(scene, policy, run);
-    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, MAP_HEIGHT);
+    let least = MAP_HEIGHT.0 + if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
+    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, (least, MAP_HEIGHT.1));
     let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score, !untraced.is_empty());
     let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);

@@ -1,0 +1,36 @@
+//! When a machine leaves a state because it cannot go on in it.
+
+use std::sync::Arc;
+
+use super::tick::Failure;
+
+/// That a machine left a state by its failsafe.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Failsafe {
+    /// Index of the state that was left.
+    pub left: usize,
+    /// Why.
+    pub cause: Cause,
+}
+
+/// Why a machine cannot go on in a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Cause {
+    /// The state's command was not a finite number.
+    #[error("its command was not a finite number")]
+    NotFinite,
+    /// The state wanted to be left when the tick had taken [`CHAIN_LIMIT`](super::CHAIN_LIMIT) transitions.
+    #[error("it wanted more transitions than a tick takes")]
+    Chain,
+}
+
+impl Cause {
+    /// The failure of a machine that has no failsafe for it in this state.
+    pub(super) fn failure(self, state: &Arc<str>) -> Failure {
+        let state = Arc::clone(state);
+        match self {
+            Self::NotFinite => Failure::NotFinite { state },
+            Self::Chain => Failure::Chain { state },
+        }
+    }
+}
