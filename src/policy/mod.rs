@@ -1,6 +1,7 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
+//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`, `recover` as much of it as
+//! can be had of a text with faults; `lower` checks names,
 //! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
 //! out. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
@@ -15,12 +16,13 @@ mod grammar;
 mod hint;
 mod lower;
 mod parse;
+mod recover;
 mod syntax_error;
 mod types;
 
 pub use format::format;
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source};
 use crate::machine::{Artifact, Program};
 
 /// A policy that compiled.
@@ -35,8 +37,8 @@ pub struct Compiled {
 /// Compiles the text of a policy.
 ///
 /// # Errors
-/// Every fault that was found, in the order of their places: one of syntax, or those of names, types, units and structure
-/// (the first fifty), or cycles of transitions that a tick cannot end.
+/// Every fault that was found, in the order of their places: those of syntax, names, types, units and structure (the first
+/// fifty), or cycles of transitions that a tick cannot end.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};
@@ -66,10 +68,25 @@ pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic
 }
 
 fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {
-    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
-    let lowered = lower::lower(&file)?;
+    let (file, lowered) = checked(source)?;
     let errors = analysis::errors(&file, &lowered);
     if errors.is_empty() { Ok((file, lowered)) } else { Err(errors) }
+}
+
+/// The syntax tree of a text without fault, and what it compiles to.
+fn checked(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>> {
+    let mut parsed = recover::parse_all(source);
+    let lowered = parsed.file.as_ref().map(lower::lower);
+    let mut faults = match (parsed.file.take(), lowered) {
+        (Some(file), Some(Ok(lowered))) if parsed.faults.is_empty() => return Ok((file, lowered)),
+        (_, Some(Err(faults))) => faults,
+        _ => Vec::new(),
+    };
+    faults.retain(|fault| !parsed.explains(source, fault));
+    faults.append(&mut parsed.faults);
+    faults.sort_by_key(|fault| fault.primary.span.start);
+    faults.truncate(FAULT_LIMIT);
+    Err(faults)
 }
 
 /// The statechart of a policy.
@@ -84,7 +101,5 @@ fn front(source: &Source) -> Result<(ast::File, lower::Lowered), Vec<Diagnostic>
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn chart(source: &Source) -> Result<chart::Chart, Vec<Diagnostic>> {
-    let file = parse::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
-    lower::lower(&file)?;
-    Ok(chart::build(source, &file))
+    Ok(chart::build(source, &checked(source)?.0))
 }
