@@ -19,6 +19,8 @@ use super::{input, output};
 #[derive(Debug, Serialize)]
 struct Checked {
     file: String,
+    /// Why the file cannot be read; `null` if it can.
+    error: Option<String>,
     /// `null` if the policy is at fault.
     machine: Option<Summary>,
     /// What a compiled machine comes from; `null` for a policy's text.
@@ -68,7 +70,13 @@ struct StateSummary {
 }
 
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
-    let checked = arguments.policies.iter().map(|path| check_one(path, arguments.json));
+    let checked = arguments.policies.iter().map(|path| {
+        check_one(path, arguments.json).or_else(|failure| match failure {
+            // What is wrong with one file is no reason not to look at the others.
+            Failure::Read { .. } | Failure::Artifact { .. } => Ok(unreadable(path, &failure, arguments.json)),
+            other => Err(other),
+        })
+    });
     let checked = checked.collect::<Result<Vec<_>, _>>()?;
     if arguments.json {
         output::json(&checked)?;
@@ -76,6 +84,14 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let is_refused =
         |policy: &Checked| policy.machine.is_none() || (arguments.deny_warnings && !policy.diagnostics.is_empty());
     Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
+}
+
+fn unreadable(path: &Path, failure: &Failure, json: bool) -> Checked {
+    if !json {
+        failure.report();
+    }
+    let (file, error) = (path.display().to_string(), Some(failure.to_string()));
+    Checked { file, error, machine: None, compiled: None, diagnostics: Vec::new() }
 }
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
@@ -93,7 +109,8 @@ fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
             output::result(describe(&source.name, machine))?;
         }
     }
-    Ok(Checked { file: source.name.clone(), machine, compiled: None, diagnostics: records(&source, &diagnostics) })
+    let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));
+    Ok(Checked { file, error: None, machine, compiled: None, diagnostics })
 }
 
 fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
@@ -110,7 +127,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
         compiler: origin.compiler.clone(),
         format: FORMAT,
     };
-    Ok(Checked { file, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() })
+    Ok(Checked { file, error: None, machine: Some(machine), compiled: Some(compiled), diagnostics: Vec::new() })
 }
 
 fn summary(artifact: &Artifact) -> Summary {

@@ -27,5 +27,5 @@ pub use op::{Block, Op, Register, Wide};
 pub use program::{CODE_LIMIT, Guard, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition};
 pub use senses::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
-pub use tick::{CHAIN_LIMIT, Failure, Machine, Outcome, Tick};
+pub use tick::{CHAIN_LIMIT, Failure, Machine, Status, Tick};
 pub use verify::Unsound;

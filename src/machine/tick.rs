@@ -55,14 +55,14 @@ pub struct Tick {
     /// What the platform is asked to do.
     pub action: Action,
     /// Whether the machine goes on.
-    pub outcome: Outcome,
+    pub status: Status,
     /// The state that was left by its failsafe, if one was.
     pub failsafe: Option<Failsafe>,
 }
 
 /// Whether a machine goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum Status {
     /// It goes on.
     Running,
     /// It has failed, for the reason that [`Machine::failure`] gives, and stands still for good.
@@ -121,7 +121,7 @@ impl Machine {
     /// failsafe, or if that state's action is not finite either, the machine fails.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
-            return Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None };
+            return Tick { action: Action::Stop, status: Status::Failed, failsafe: None };
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
@@ -160,7 +160,7 @@ impl Machine {
 
     fn act<S: Senses>(&mut self, program: &Program, now: f64, senses: &mut S) -> Tick {
         match self.action(program, senses) {
-            Some(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+            Some(action) => Tick { action, status: Status::Running, failsafe: None },
             None => self.leave(program, Cause::NotFinite, now, senses),
         }
     }
@@ -182,7 +182,7 @@ impl Machine {
             Some(Target::State { state, arguments }) => {
                 self.take(program, *state, arguments, now, senses);
                 match self.action(program, senses) {
-                    Some(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+                    Some(action) => Tick { action, status: Status::Running, failsafe: None },
                     None => self.fail(Cause::NotFinite.failure(&program.states[*state].name)),
                 }
             }
@@ -192,7 +192,7 @@ impl Machine {
 
     fn fail(&mut self, failure: Failure) -> Tick {
         self.failure = Some(failure);
-        Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None }
+        Tick { action: Action::Stop, status: Status::Failed, failsafe: None }
     }
 
     /// The target of the first transition that is due. Every guard is looked at, so that the timers of the later ones run.

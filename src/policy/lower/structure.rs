@@ -35,6 +35,7 @@ pub(super) fn file<'f>(compiler: &mut Compiler<'f>, file: &'f File) -> Option<Pr
     let states = file.states.iter().zip(scopes);
     let states = states.map(|(state, scope)| compiler.state(state, scope, &mut timers)).collect();
     let initial = compiler.initial(file);
+    compiler.check_whisker_arguments(file);
 
     compiler.watch_growth(file.machine.span);
     if let Some(item) = compiler.outgrown {
@@ -72,6 +73,20 @@ impl<'f> Compiler<'f> {
             } else {
                 self.items.insert(&name.text, name.span);
             }
+        }
+    }
+
+    /// A state can be entered with a whisker only if there is one.
+    fn check_whisker_arguments(&mut self, file: &'f File) {
+        if !file.whiskers.is_empty() {
+            return;
+        }
+        let arguments =
+            file.states.iter().flat_map(|state| state.arguments.iter().map(move |argument| (state, argument)));
+        for (state, argument) in arguments.filter(|(_, argument)| argument.type_name.base.text == "whisker") {
+            let message = format!("the state `{}` is for a whisker, and the policy binds none", state.name.text);
+            let diagnostic = Diagnostic::error("P0409", message, argument.name.span, "which whisker could it be?");
+            self.report(diagnostic.hint("bind a whisker of the rig: `whisker r0`"));
         }
     }
 
@@ -259,6 +274,14 @@ impl<'f> Compiler<'f> {
                 );
                 return None;
             };
+            if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
+                let at = reason.span.start + at;
+                let place = Span::new(at, at + letter.len_utf8());
+                let message = "a reason is one line of plain text";
+                let diagnostic = Diagnostic::error("P0410", message, place, format!("{letter:?} cannot be shown"));
+                self.report(diagnostic.hint("write a space instead, or leave it out"));
+                return None;
+            }
             return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
         }
         let Some(entry) = self.states.get(target.name.text.as_str()) else {
