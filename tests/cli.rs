@@ -169,6 +169,37 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
     }
 }
 
+#[test]
+fn a_file_that_cannot_be_read_keeps_no_other_from_being_checked() {
+    let output = vibrissa(&["check", "--json", "policies/nothing.fsm", "policies/thesis.fsm"]);
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(2), ""));
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(checked[0]["error"].as_str().unwrap().contains("cannot read policies/nothing.fsm"));
+    assert_eq!((&checked[0]["machine"], &checked[1]["error"]), (&serde_json::Value::Null, &serde_json::Value::Null));
+    assert_eq!(checked[1]["machine"]["name"], "thesis");
+    let output = vibrissa(&["check", "policies/thesis.fsm", "policies/nothing.fsm"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stdout(&output).contains("Swiping") && stderr(&output).contains("cannot read policies/nothing.fsm"));
+}
+
+#[test]
+fn of_a_compiled_machine_the_text_is_asked_for_where_it_is_needed() {
+    let machine = directory("text").join("thesis.machine").display().to_string();
+    assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));
+    for command in ["graph", "fmt"] {
+        let output = vibrissa(&[command, &machine]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("give the policy that it was made from, thesis.fsm"), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn every_command_that_writes_takes_the_place_alike() {
+    for command in ["run", "compile", "graph"] {
+        assert!(stdout(&vibrissa(&[command, "--help"])).contains("-o, --out <"), "{command}");
+    }
+}
+
 const UGLY: &str = "machine m\ninitial S\nstate S{stop}\n";
 const LAID_OUT: &str = "machine m\ninitial S\nstate S { stop }\n";
 

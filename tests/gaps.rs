@@ -1,5 +1,5 @@
 //! Samples that are not numbers: what is left out, what a tick without a reading feels like, and that nothing of it stays.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test may panic, and what is exact is compared exactly")]
 
 mod common;
 
@@ -99,13 +99,12 @@ proptest! {
         for (tick, due) in samples(&readings).chunks(PER_TICK).zip(due(&readings)) {
             perception.update(tick);
             let deflection = perception.deflection(0);
-            match due {
-                Some(due) => prop_assert!((deflection - due).abs() < 1e-12, "{deflection} {due}"),
-                None => {
+            if let Some(due) = due {
+                prop_assert!((deflection - due).abs() < 1e-12, "{deflection} {due}");
+            } else {
                     prop_assert!(deflection.is_nan() && tip(&perception).iter().all(|part| part.is_nan()));
                     let truths = [WhiskerScalar::Touching, WhiskerScalar::Sense].map(|truth| feels(&perception, truth));
                     prop_assert_eq!(truths, [0.0; 2]);
-                }
             }
         }
     }
@@ -140,7 +139,9 @@ fn of_poses_and_times_that_are_none_the_newest_other_counts() {
     }
     perception.update(&tick);
     assert_eq!((perception.pose(), perception.time()), (tick[3].body, tick[3].time));
-    tick.iter_mut().for_each(|sample| sample.body.position.x = f64::NEG_INFINITY);
+    for sample in &mut tick {
+        sample.body.position.x = f64::NEG_INFINITY;
+    }
     perception.update(&tick[4..]);
     assert!(perception.body(BodyScalar::Yaw).is_nan() && tip(&perception)[0].is_nan());
     assert_eq!(perception.time(), tick[3].time, "the time stands still");
@@ -154,7 +155,9 @@ fn a_pose_that_is_none_leaves_no_point_in_a_contour() {
     for (index, tick) in all.chunks(PER_TICK).enumerate() {
         let mut tick = tick.to_vec();
         if (20..25).contains(&index) {
-            tick.iter_mut().for_each(|sample| sample.body = Pose::UNKNOWN);
+            for sample in &mut tick {
+                sample.body = Pose::UNKNOWN;
+            }
         }
         perception.update(&tick);
         perception.record(0);

@@ -16,7 +16,7 @@ fn every_example_of_the_page_compiles() {
         let text = if example.starts_with("machine") {
             example.to_owned()
         } else {
-            format!("machine example {example} initial Still state Still {{ stop }}")
+            format!("machine example whisker bound {example} initial Still state Still {{ stop }}")
         };
         let source = Source::new("language.md", text);
         compile(&source).unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain)));

@@ -5,7 +5,7 @@ mod common;
 
 use common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
-use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mark, Mover, Outcome, SetError, Turn};
+use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mark, Mover, SetError, Status, Turn};
 use vibrissa::units::Dimension;
 
 /// The speed (m/s) that an action asks for.
@@ -220,7 +220,7 @@ fn a_tick_says_which_state_was_left_by_its_failsafe_and_why() {
     let tick = machine.tick(&mut Script::touches("."));
     assert_eq!(tick.failsafe, Some(Failsafe { left: 1, cause: Cause::NotFinite }));
     // The state that a failsafe leads to is the last that is tried.
-    assert_eq!((tick.action, tick.outcome), (Action::Stop, Outcome::Failed));
+    assert_eq!((tick.action, tick.status), (Action::Stop, Status::Failed));
     assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into() }));
     assert_eq!(machine.tick(&mut Script::touches(".")).failsafe, None);
 }
@@ -236,7 +236,7 @@ fn a_ninth_transition_takes_the_failsafe_of_the_state_that_wants_it() {
     let tick = machine.tick(&mut Script::touches("."));
     assert_eq!(machine.state_name(), "Safe");
     assert_eq!(tick.failsafe, Some(Failsafe { left: CHAIN_LIMIT, cause: Cause::Chain }));
-    assert_eq!((tick.action, tick.outcome), (Action::Stop, Outcome::Running));
+    assert_eq!((tick.action, tick.status), (Action::Stop, Status::Running));
 }
 
 #[test]

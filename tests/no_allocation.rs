@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::Outcome;
+use vibrissa::machine::Status;
 use vibrissa::policy::compile;
 use vibrissa::rig::Rig;
 use vibrissa::run::Control;
@@ -63,7 +63,7 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
         assert_eq!(COUNT.get() - before, 0, "tick {tick}");
         assert!(command.is_finite());
         let state = control.machine().state_name();
-        assert_eq!(given.outcome == Outcome::Failed, state == "Failure");
+        assert_eq!(given.status == Status::Failed, state == "Failure");
         if seen.last().map(String::as_str) != Some(state) {
             seen.push(state.to_owned());
         }

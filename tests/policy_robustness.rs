@@ -15,7 +15,11 @@ const STACK: usize = 2 << 20;
 fn is_answered(text: &str) -> Result<(), TestCaseError> {
     let source = Source::new("policy.fsm", text);
     let (faults, severity) = match compile_with_warnings(&source) {
-        Ok(compiled) => (compiled.warnings, Severity::Warning),
+        Ok(compiled) => {
+            // What compiles can be written down.
+            prop_assert_eq!(compiled.artifact.to_bytes().err(), None);
+            (compiled.warnings, Severity::Warning)
+        }
         Err(faults) => {
             prop_assert!(!faults.is_empty());
             (faults, Severity::Error)

@@ -186,8 +186,8 @@ fn a_policy_that_loses_an_edge_and_finds_it_again_is_measured_from_its_last_touc
     assert_eq!(found.len(), 1);
     let ticks = &run.trace.ticks;
     let last = (0..90).rev().find(|&tick| ticks[tick].tips[0].is_some()).unwrap();
-    let again = (last + 1..).find(|&tick| ticks[tick].deflections[0].abs() > 2e-5).unwrap();
-    let turned = ticks.iter().position(|tick| tick.state == 1).unwrap();
+    let again = (last + 1..ticks.len()).find(|&tick| ticks[tick].deflections[0].abs() > 2e-5).unwrap();
+    let turned = ticks.iter().position(|tick| tick.state == Some(1)).unwrap();
     assert_eq!(Some(found[0].edge_world), ticks[last].tips[0]);
     assert!(near(found[0].time, (again - last) as f64 / 30.0));
     // A command counts for the tick after it.

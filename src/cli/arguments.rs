@@ -55,7 +55,7 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u64>,
     /// Write a picture and the result of every run into this directory
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print only JSON: an array of results
     #[arg(long)]
@@ -104,7 +104,7 @@ pub(super) struct GraphArguments {
     pub(super) format: ChartFormat,
     /// Write it into this file instead of printing it
     #[arg(short, long, value_name = "FILE")]
-    pub(super) output: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
 }
 
 /// The formats of a statechart.

@@ -19,6 +19,8 @@ use super::{input, output};
 #[derive(Debug, Serialize)]
 struct Checked {
     file: String,
+    /// Why the file cannot be read; `null` if it can.
+    error: Option<String>,
     /// `null` if the file is at fault or a library.
     machine: Option<Summary>,
     /// `null` if the file is at fault or a machine.
@@ -77,7 +79,13 @@ struct StateSummary {
 }
 
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
-    let checked = arguments.policies.iter().map(|path| check_one(path, arguments.json));
+    let checked = arguments.policies.iter().map(|path| {
+        check_one(path, arguments.json).or_else(|failure| match failure {
+            // What is wrong with one file is no reason not to look at the others.
+            Failure::Read { .. } | Failure::Artifact { .. } => Ok(unreadable(path, &failure, arguments.json)),
+            other => Err(other),
+        })
+    });
     let checked = checked.collect::<Result<Vec<_>, _>>()?;
     if arguments.json {
         output::json(&checked)?;
@@ -86,6 +94,14 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
         (file.machine.is_none() && file.library.is_none()) || (arguments.deny_warnings && !file.diagnostics.is_empty())
     };
     Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
+}
+
+fn unreadable(path: &Path, failure: &Failure, json: bool) -> Checked {
+    if !json {
+        failure.report();
+    }
+    let (file, error) = (path.display().to_string(), Some(failure.to_string()));
+    Checked { file, error, machine: None, library: None, compiled: None, diagnostics: Vec::new() }
 }
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
@@ -110,8 +126,8 @@ fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
             output::result(format_args!("{}: library {name}, {laws}, {values}", source.name))?;
         }
     }
-    let diagnostics = records(&source, &diagnostics);
-    Ok(Checked { file: source.name.clone(), machine, library, compiled: None, diagnostics })
+    let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));
+    Ok(Checked { file, error: None, machine, library, compiled: None, diagnostics })
 }
 
 fn count(number: usize, of: &str) -> String {
@@ -132,7 +148,8 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
         compiler: origin.compiler.clone(),
         format: FORMAT,
     };
-    Ok(Checked { file, machine: Some(machine), library: None, compiled: Some(compiled), diagnostics: Vec::new() })
+    let compiled = Some(compiled);
+    Ok(Checked { file, error: None, machine: Some(machine), library: None, compiled, diagnostics: Vec::new() })
 }
 
 fn summary(artifact: &Artifact) -> Summary {

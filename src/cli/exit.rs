@@ -50,6 +50,8 @@ pub(super) enum Failure {
     Artifact { path: PathBuf, cause: ArtifactError },
     #[error("{} would overwrite what it is made from; choose another place with --out", path.display())]
     OntoItself { path: PathBuf },
+    #[error("{} is a compiled machine, which does not hold its text; give the policy that it was made from, {origin}", path.display())]
+    Compiled { path: PathBuf, origin: String },
     #[error("{} names no policy; give one with --policy", scenario.display())]
     NoPolicy { scenario: PathBuf },
     #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]

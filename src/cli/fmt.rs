@@ -24,7 +24,7 @@ pub(super) fn fmt(arguments: &FmtArguments) -> Result<Exit, Failure> {
 
 fn fmt_one(path: &Path, check: bool) -> Result<Exit, Failure> {
     let standard = path == Path::new("-");
-    let source = if standard { input::read_standard()? } else { input::read(path)? };
+    let source = if standard { input::read_standard()? } else { input::policy_text(path)? };
     let formatted = match format(&source) {
         Ok(formatted) => formatted,
         Err(faults) => {

@@ -16,7 +16,7 @@ pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
         ChartFormat::Dot => chart_dot(&chart),
     };
     let text = text.trim_end();
-    match &arguments.output {
+    match &arguments.out {
         Some(path) => std::fs::write(path, format!("{text}\n")).map_err(Failure::write(path))?,
         None => output::result(text)?,
     }

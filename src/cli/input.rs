@@ -23,7 +23,7 @@ pub(super) struct Loaded<T> {
     pub(super) hash: Sha256,
 }
 
-pub(super) fn read(path: &Path) -> Result<Source, Failure> {
+fn read(path: &Path) -> Result<Source, Failure> {
     let text = File::open(path).and_then(read_text).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
 }
@@ -133,8 +133,18 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     Ok(Loaded { value, hash })
 }
 
+/// Reads a policy's text where a compiled machine will not do.
+pub(super) fn policy_text(path: &Path) -> Result<Source, Failure> {
+    match policy_file(path)?.value {
+        PolicyFile::Text(source) => Ok(source),
+        PolicyFile::Machine(artifact) => {
+            Err(Failure::Compiled { path: path.to_owned(), origin: artifact.origin.file.clone() })
+        }
+    }
+}
+
 pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
-    let source = with_libraries(path, read(path)?.text);
+    let source = with_libraries(path, policy_text(path)?.text);
     policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 

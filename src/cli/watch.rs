@@ -60,7 +60,7 @@ fn run_all(jobs: &[Job], arguments: &RunArguments, watch: &Watch) -> Result<Vec<
 
 /// One line of how a run goes: the state at this second, and how far the tips were from the object since the last line.
 fn tell(job: &Job, trace: &Trace) -> Result<(), Failure> {
-    let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state)).map_or("Failure", String::as_str);
+    let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state?)).map_or("Failure", String::as_str);
     let now = seconds(trace);
     let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
     let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| job.scene.object.nearest(tip).distance);

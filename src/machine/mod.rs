@@ -29,5 +29,5 @@ pub use program::{
 };
 pub use senses::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
-pub use tick::{CHAIN_LIMIT, Failure, Machine, Outcome, Tick};
+pub use tick::{CHAIN_LIMIT, Failure, Machine, Status, Tick};
 pub use verify::Unsound;

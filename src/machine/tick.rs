@@ -58,14 +58,14 @@ pub struct Tick {
     /// What the platform is asked to do.
     pub action: Action,
     /// Whether the machine goes on.
-    pub outcome: Outcome,
+    pub status: Status,
     /// The state that was left by its failsafe, if one was.
     pub failsafe: Option<Failsafe>,
 }
 
 /// Whether a machine goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum Status {
     /// It goes on.
     Running,
     /// It has failed, for the reason that [`Machine::failure`] gives, and stands still for good.
@@ -126,7 +126,7 @@ impl Machine {
     /// failsafe, or if that state's action is not finite either, the machine fails.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
-            return Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None };
+            return Tick { action: Action::Stop, status: Status::Failed, failsafe: None };
         }
         let program = Arc::clone(&self.program);
         let now = senses.time();
@@ -211,7 +211,7 @@ impl Machine {
 
     fn act<S: Senses>(&mut self, program: &Program, now: f64, senses: &mut S) -> Tick {
         match self.action(program, senses) {
-            Ok(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+            Ok(action) => Tick { action, status: Status::Running, failsafe: None },
             Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses),
         }
     }
@@ -239,7 +239,7 @@ impl Machine {
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
                 match self.action(program, senses) {
-                    Ok(action) => Tick { action, outcome: Outcome::Running, failsafe: None },
+                    Ok(action) => Tick { action, status: Status::Running, failsafe: None },
                     Err(state) => self.fail(Cause::NotFinite.failure(&program.states[state].name)),
                 }
             }
@@ -249,7 +249,7 @@ impl Machine {
 
     fn fail(&mut self, failure: Failure) -> Tick {
         self.failure = Some(failure);
-        Tick { action: Action::Stop, outcome: Outcome::Failed, failsafe: None }
+        Tick { action: Action::Stop, status: Status::Failed, failsafe: None }
     }
 
     /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds, unless it

@@ -1,6 +1,7 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
 mod chain;
+mod deflection;
 mod local_contour;
 mod low_pass;
 mod perception;

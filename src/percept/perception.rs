@@ -56,11 +56,13 @@ impl Perception {
     /// counts. Of what no sample of the tick brings there is none in this tick: the deflection and the tip of a whisker, or
     /// the pose and all that depends on it, are not a number. The time then stands still.
     pub fn update(&mut self, samples: &[Sample]) {
-        self.whiskers.iter_mut().for_each(PerceivedWhisker::begin);
+        for whisker in &mut self.whiskers {
+            whisker.deflection.begin();
+        }
         self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
-                whisker.filter(sample.whiskers[index].base_angle);
+                whisker.deflection.take(sample.whiskers[index].base_angle);
             }
             if sample.time.is_finite() {
                 self.time = sample.time;
@@ -89,7 +91,7 @@ impl Perception {
     /// Filtered base angle (rad) of a whisker; not a number in a tick that brought no reading of it.
     #[must_use]
     pub fn deflection(&self, whisker: usize) -> f64 {
-        self.whiskers[whisker].deflection
+        self.whiskers[whisker].deflection()
     }
 
     /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.
@@ -125,11 +127,11 @@ impl Senses for Perception {
         let whisker = &self.whiskers[whisker];
         let truth = |truth: bool| f64::from(u8::from(truth));
         match quantity {
-            WhiskerScalar::Deflection => whisker.deflection,
+            WhiskerScalar::Deflection => whisker.deflection(),
             WhiskerScalar::Touching => truth(whisker.touches()),
             WhiskerScalar::Yaw => whisker.yaw,
             WhiskerScalar::Side => whisker.side,
-            WhiskerScalar::Sense if whisker.touches() => whisker.deflection.signum() * whisker.side,
+            WhiskerScalar::Sense if whisker.touches() => whisker.deflection().signum() * whisker.side,
             WhiskerScalar::Sense => 0.0,
             WhiskerScalar::Length => whisker.length,
             WhiskerScalar::ContourReady => truth(whisker.contour.is_ready()),

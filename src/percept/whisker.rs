@@ -1,17 +1,13 @@
 //! One whisker as perceived.
 
-use std::f64::consts::PI;
-
 use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::machine::Mark;
 use crate::rig::Whisker;
 
+use super::deflection::Deflection;
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::tip_model::TipModel;
-
-/// The greatest base angle (rad) that is taken for one: no hinge turns farther.
-const GREATEST_ANGLE: f64 = PI;
 
 /// One whisker as perceived: where it is, how it bends, what it has touched.
 #[derive(Debug, Clone)]
@@ -20,16 +16,9 @@ pub(super) struct PerceivedWhisker {
     direction_body: f64,
     pub(super) side: f64,
     pub(super) length: f64,
-    filter: LowPass,
+    pub(super) deflection: Deflection,
     pub(super) model: TipModel,
     contact_threshold: f64,
-    /// The newest valid reading (rad).
-    reading: f64,
-    /// Whether this tick has brought a valid reading, and the last one did.
-    has_reading: bool,
-    had_reading: bool,
-    /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
-    pub(super) deflection: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
     pub(super) contour: LocalContour,
@@ -47,13 +36,9 @@ impl PerceivedWhisker {
             direction_body: whisker.direction_body,
             side: whisker.side(),
             length: whisker.shaft.length,
-            filter,
+            deflection: Deflection::new(filter),
             model,
             contact_threshold,
-            reading: 0.0,
-            has_reading: true,
-            had_reading: true,
-            deflection: 0.0,
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: LocalContour::default(),
@@ -63,27 +48,9 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Begins a tick; its readings come next.
-    pub(super) fn begin(&mut self) {
-        self.had_reading = self.has_reading;
-        self.has_reading = false;
-        self.deflection = f64::NAN;
-    }
-
-    /// Takes one base angle (rad). One that is none is left out: until the next, the last valid one counts. After a tick
-    /// without any, what was before says nothing of what is now, and the filter begins anew.
-    pub(super) fn filter(&mut self, base_angle: f64) {
-        if base_angle.abs() <= GREATEST_ANGLE {
-            if !self.has_reading && !self.had_reading {
-                self.filter.settle(base_angle);
-            }
-            self.reading = base_angle;
-            self.has_reading = true;
-        }
-        let filtered = self.filter.next(self.reading);
-        if self.has_reading {
-            self.deflection = filtered;
-        }
+    /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
+    pub(super) fn deflection(&self) -> f64 {
+        self.deflection.value()
     }
 
     /// Goes where it is with the platform at `body`.
@@ -105,12 +72,12 @@ impl PerceivedWhisker {
     }
 
     pub(super) fn touches(&self) -> bool {
-        self.deflection.abs() > self.contact_threshold
+        self.deflection().abs() > self.contact_threshold
     }
 
     /// Where the tip touches, in the frame of the base (m).
     pub(super) fn tip_base(&self) -> Vector2 {
-        self.model.contact_base(self.deflection)
+        self.model.contact_base(self.deflection())
     }
 
     /// Where the tip touches, in the world frame (m).

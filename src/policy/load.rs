@@ -1,10 +1,10 @@
 //! A policy with all files that it uses.
 
-use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
+use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{File, Use};
-use super::parse::parse;
 use super::path::{is_same, resolve, standard};
+use super::recover::{Recovery, parse_all};
 
 /// The most files that a policy may consist of.
 const FILE_LIMIT: usize = 64;
@@ -22,7 +22,7 @@ pub(super) struct Loaded {
     files: Vec<Option<File>>,
     /// For every `use` of every file, the index of the file that it means.
     links: Vec<Vec<Option<usize>>>,
-    pub(super) faults: Vec<Diagnostic>,
+    recovery: Recovery,
 }
 
 /// Files that fit together: what they use is there and is a library, and none uses itself.
@@ -37,18 +37,15 @@ pub(super) struct Files {
 
 /// Reads a policy's text and, in `library`, those of the files that it uses and that are no parts of the source yet.
 pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
-    let mut loaded = Loaded { source: source.clone(), files: Vec::new(), links: Vec::new(), faults: Vec::new() };
+    let mut loaded =
+        Loaded { source: source.clone(), files: Vec::new(), links: Vec::new(), recovery: Recovery::default() };
     while loaded.files.len() < loaded.source.count() {
         let index = loaded.files.len();
         let span = loaded.source.part_span(index);
         let part = Source::new(loaded.source.part_name(index), loaded.source.slice(span));
-        let file = match (loaded.source.absence(index), parse(&part, span.start)) {
-            (None, Ok(file)) => Some(file),
-            (None, Err(fault)) => {
-                loaded.report(*fault);
-                None
-            }
-            (Some(_), _) => None,
+        let file = match loaded.source.absence(index) {
+            None => parse_all(&part, span.start, &mut loaded.recovery),
+            Some(_) => None,
         };
         let uses = file.iter().flat_map(|file| &file.uses);
         let links = uses.map(|used| loaded.link(&part.name, used, library)).collect();
@@ -60,9 +57,7 @@ pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
 
 impl Loaded {
     fn report(&mut self, fault: Diagnostic) {
-        if self.faults.len() < FAULT_LIMIT {
-            self.faults.push(fault);
-        }
+        self.recovery.report(fault);
     }
 
     /// The index of the file that `used` means in the file called `using`.
@@ -96,8 +91,9 @@ impl Loaded {
         Some(index)
     }
 
-    /// The files, if they fit together.
-    pub(super) fn files(mut self) -> Result<(Source, Files), (Source, Vec<Diagnostic>)> {
+    /// All texts; the files, if they fit together; and what was left out of them.
+    pub(super) fn files(mut self) -> (Source, Option<Files>, Recovery) {
+        let mut misfits = Vec::new();
         let uses: Vec<Vec<Use>> =
             self.files.iter().map(|file| file.as_ref().map_or_else(Vec::new, |file| file.uses.clone())).collect();
         for (used, link) in uses.iter().flatten().zip(self.links.clone().into_iter().flatten()) {
@@ -108,30 +104,27 @@ impl Loaded {
                 let message = format!("`{}` is a machine, not a library", self.source.part_name(index));
                 let fault =
                     Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, "a machine");
-                self.report(fault.hint("put what both need into a file that begins with `library` and a name"));
+                misfits.push(fault.hint("put what both need into a file that begins with `library` and a name"));
             }
         }
-        if let Some(fault) = self.cycle(&uses) {
-            self.report(fault);
-        }
-        let misplaced: Vec<Diagnostic> = self.files.iter().flatten().filter_map(misplaced).collect();
-        misplaced.into_iter().for_each(|fault| self.report(fault));
+        misfits.extend(self.cycle(&uses));
+        misfits.extend(self.files.iter().flatten().filter_map(misplaced));
+        let fit = misfits.is_empty();
+        misfits.into_iter().for_each(|fault| self.recovery.report(fault));
         let links: Option<Vec<Vec<usize>>> = self
             .links
             .iter()
             .map(|links| links.iter().map(|link| link.and_then(|index| index.checked_sub(1))).collect())
             .collect();
         let files: Option<Vec<File>> = self.files.into_iter().collect();
-        match (files, links) {
-            (Some(mut files), Some(links)) if self.faults.is_empty() && !files.is_empty() => {
+        let files = match (files, links) {
+            (Some(mut files), Some(links)) if fit && !files.is_empty() => {
                 let main = files.remove(0);
-                Ok((self.source, Files { main, libraries: files, links }))
+                Some(Files { main, libraries: files, links })
             }
-            _ => {
-                self.faults.sort_by_key(|fault| (fault.primary.span.start, fault.code));
-                Err((self.source, self.faults))
-            }
-        }
+            _ => None,
+        };
+        (self.source, files, self.recovery)
     }
 
     /// The first way from a file through others back to itself.

@@ -1,6 +1,7 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
+//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`, `recover` as much of it as
+//! can be had of a text with faults; `lower` checks names,
 //! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
 //! out. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
@@ -18,6 +19,7 @@ mod lower;
 mod pair;
 mod parse;
 mod path;
+mod recover;
 mod standard;
 mod syntax_error;
 mod test;
@@ -30,6 +32,7 @@ pub use test::{Expectation, PolicyTest, RunFigure};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::machine::{Artifact, Program};
 use load::Files;
+use recover::Recovery;
 
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,8 +86,8 @@ pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
 /// Compiles the text of a policy. Of the files that it uses only the standard library and parts of the source are known.
 ///
 /// # Errors
-/// Every fault that was found, in the order of their places: one of syntax in each file, or those of the files' uses, or
-/// those of names, types, units and structure (the first fifty), or cycles of transitions that a tick cannot end.
+/// Every fault that was found, in the order of their places: those of syntax, of the files' uses, of names, types, units and
+/// structure (the first fifty), or cycles of transitions that a tick cannot end.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};
@@ -119,11 +122,14 @@ pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic
 /// # Errors
 /// As [`compile`].
 pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
-    let (whole, files) = load(source)?;
-    if !files.main.is_library {
+    let (whole, files, recovery) = load(source);
+    let Some(files) = files.filter(|files| files.main.is_library) else {
         return compile_with_warnings(source).map(|compiled| Checked::Machine(Box::new(compiled)));
+    };
+    let faults = recovery.join(&whole, lower::check(&files).err().unwrap_or_default());
+    if !faults.is_empty() {
+        return Err(within(source, &whole, faults));
     }
-    lower::check(&files).map_err(|faults| within(source, &whole, faults))?;
     let names = |names: &mut dyn Iterator<Item = &ast::Name>| names.map(|name| name.text.clone()).collect();
     Ok(Checked::Library {
         name: files.main.name.text.clone(),
@@ -156,25 +162,31 @@ fn front(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnos
 }
 
 fn lowered(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
-    let (whole, files) = load(source)?;
-    if files.main.is_library {
-        let name = &files.main.name;
-        let message = format!("`{}` is a library and does nothing by itself", name.text);
-        let fault = Diagnostic::error("P0603", message, name.span, "not a machine");
-        return Err(vec![
-            fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both"),
-        ]);
+    let (whole, files, recovery) = load(source);
+    let mut faults = Vec::new();
+    if let Some(files) = files {
+        let lowered = if files.main.is_library { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
+        match lowered {
+            Ok(lowered) if recovery.is_whole() => return Ok((whole, files, lowered)),
+            Ok(_) => {}
+            Err(found) => faults = found,
+        }
     }
-    match lower::lower(&files) {
-        Ok(lowered) => Ok((whole, files, lowered)),
-        Err(faults) => Err(within(source, &whole, faults)),
-    }
+    Err(within(source, &whole, recovery.join(&whole, faults)))
 }
 
-/// A source with all that it uses, as far as that is in it or in the standard library.
-fn load(source: &Source) -> Result<(Source, Files), Vec<Diagnostic>> {
+/// The report of a library where a machine is needed.
+fn library(file: &ast::File) -> Diagnostic {
+    let message = format!("`{}` is a library and does nothing by itself", file.name.text);
+    let fault = Diagnostic::error("P0603", message, file.name.span, "not a machine");
+    fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both")
+}
+
+/// A source with all that it uses, as far as that is in it or in the standard library; the files, if they fit together; and
+/// what was left out of them.
+fn load(source: &Source) -> (Source, Option<Files>, Recovery) {
     let refuse = &mut |_: &str| Err("there is no such file among those given".to_owned());
-    load::load(source, refuse).files().map_err(|(whole, faults)| within(source, &whole, faults))
+    load::load(source, refuse).files()
 }
 
 /// Faults as they can be shown in `source`, which may lack parts that `whole` has.

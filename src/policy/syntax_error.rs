@@ -52,7 +52,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     if opened.is_none() && ["}", ")"].contains(&found) {
         return diagnostic.hint(format!("nothing is open that `{found}` could close"));
     }
-    match advice(found, &source.text[at..], rules) {
+    match advice(found, source.text.split_at(at), rules) {
         Some(advice) => diagnostic.hint(advice),
         None => did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule))),
     }
@@ -97,7 +97,7 @@ fn belongs(opened: &str, found: &str) -> bool {
 }
 
 /// What to do about signs and words that other languages have.
-fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
+fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<String> {
     let starts = |with: &str| rest.starts_with(with);
     Some(match found {
         "=" if starts("=>") => "write `->`".to_owned(),
@@ -108,6 +108,9 @@ fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
         ";" => "leave it out; a new statement needs no sign before it".to_owned(),
         "[" | "]" => "write `vector(x, y)` for a vector; there are no lists".to_owned(),
         "/" if starts("//") || starts("/*") => "a comment begins with `#` and goes to the end of its line".to_owned(),
+        _ if is_behind_tab_and_number(before) => {
+            "only spaces stand between a number and its unit: use spaces instead of the tab".to_owned()
+        }
         "/" | "*" if rules.contains(&Rule::kw_in) => {
             "a parameter is one number with a unit, and a unit has no blanks in it: `50 mm/s`".to_owned()
         }
@@ -124,6 +127,12 @@ fn advice(found: &str, rest: &str, rules: &[Rule]) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// Whether a text ends in a number and a tab.
+fn is_behind_tab_and_number(text: &str) -> bool {
+    let number = text.trim_end_matches([' ', '\t']);
+    text[number.len()..].contains('\t') && number.ends_with(|letter: char| letter.is_ascii_digit())
 }
 
 /// Whether an expression could have begun where the error is.

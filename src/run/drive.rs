@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::machine::{self, Failsafe};
+use crate::machine::{Failsafe, Status};
 use crate::scene::{Outcome, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
@@ -74,7 +74,7 @@ pub fn drive(
         if progress(&trace).is_break() {
             return None;
         }
-        if ticked.outcome == machine::Outcome::Failed {
+        if ticked.status == Status::Failed {
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
         if let Some(aim) = &stop.loop_closed
@@ -106,7 +106,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
     let mut tick = TickRecord {
         time: perception.time(),
         body: perception.pose(),
-        state: if machine.failure().is_some() { machine.program().states.len() } else { machine.state() },
+        state: machine.failure().is_none().then(|| machine.state()),
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
         command,

@@ -9,7 +9,7 @@ use crate::signal::{Command, MAX_WHISKERS};
 pub struct Trace {
     /// The whiskers that the policy binds, in its order.
     pub whiskers: Vec<String>,
-    /// The machine's states; ticks name them by index, and `Failure` by the index behind the last.
+    /// The machine's states; ticks name them by index.
     pub states: Vec<String>,
     /// Time between ticks (s).
     pub period: f64,
@@ -39,8 +39,8 @@ pub struct TickRecord {
     pub time: f64,
     /// Pose of the platform's centre of mass, as sampled.
     pub body: Pose,
-    /// The active state after the tick.
-    pub state: usize,
+    /// Index of the active state after the tick; `None` after a failure.
+    pub state: Option<usize>,
     /// Filtered base angles (rad).
     pub deflections: [f64; MAX_WHISKERS],
     /// Tip estimates that the policy recorded (m, world frame).

@@ -46,7 +46,6 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
 }
 
 /// Whether a state is active when the innermost active one is `innermost`: the same, or one around it.
-fn is_active(program: &Program, state: usize, innermost: usize) -> bool {
-    // Behind the last state is the failure.
-    innermost < program.states.len() && program.contains(state, innermost)
+fn is_active(program: &Program, state: usize, innermost: Option<usize>) -> bool {
+    innermost.is_some_and(|innermost| program.contains(state, innermost))
 }

@@ -20,7 +20,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
         let mut tick = TickRecord {
             time,
             body: Pose { position: Point2::new(0.0, 0.05 * time), heading: std::f64::consts::FRAC_PI_2 },
-            state: usize::from(index >= count / 3),
+            state: Some(usize::from(index >= count / 3)),
             deflections: [0.0; MAX_WHISKERS],
             tips: [None; MAX_WHISKERS],
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },

@@ -39,7 +39,9 @@ impl<'a> Names<'a> {
     }
 
     pub(super) fn targets(&mut self, targets: &'a [Target]) {
-        targets.iter().for_each(|target| self.expressions(&target.values));
+        for target in targets {
+            self.expressions(&target.values);
+        }
     }
 
     pub(super) fn statements(&mut self, statements: &'a [Statement]) {

@@ -16,6 +16,7 @@ mod token;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::grammar;
+use super::recover::faults;
 
 /// The text of a policy, laid out by the rules of `docs/language.md`.
 ///
@@ -30,7 +31,7 @@ use super::grammar;
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
-    let pairs = grammar::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    let pairs = grammar::parse(source).map_err(|_| faults(source))?;
     let places = structure::structure(token::tokens(&source.text), &statement::starts(pairs));
     let mut lines = cut::cut(&places);
     line::separate(&mut lines);

@@ -54,6 +54,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let failsafe = compiler.failsafe(&Scope::default(), None, &file.failsafes);
     let states = compiler.states(file, declared, &mut timers);
     let initial = compiler.initial(file);
+    compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
 
     growth(compiler, file.name.span);
@@ -72,6 +73,20 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
 }
 
 impl<'f> Compiler<'f> {
+    /// A state can be entered with a whisker only if there is one.
+    fn check_whisker_arguments(&mut self, file: &'f File) {
+        if !file.whiskers.is_empty() {
+            return;
+        }
+        let arguments =
+            file.states.iter().flat_map(|state| state.arguments.iter().map(move |argument| (state, argument)));
+        for (state, argument) in arguments.filter(|(_, argument)| argument.type_name.base.text == "whisker") {
+            let message = format!("the state `{}` is for a whisker, and the policy binds none", state.name.text);
+            let diagnostic = Diagnostic::error("P0412", message, argument.name.span, "which whisker could it be?");
+            self.report(diagnostic.hint("bind a whisker of the rig: `whisker r0`"));
+        }
+    }
+
     fn parameters(&mut self, file: &'f File) -> Vec<machine::Parameter> {
         let mut parameters = Vec::new();
         for parameter in &file.parameters {

@@ -32,6 +32,14 @@ impl<'f> Compiler<'f> {
                 );
                 return None;
             };
+            if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
+                let at = reason.span.start + at;
+                let place = Span::new(at, at + letter.len_utf8());
+                let message = "a reason is one line of plain text";
+                let diagnostic = Diagnostic::error("P0413", message, place, format!("{letter:?} cannot be shown"));
+                self.report(diagnostic.hint("write a space instead, or leave it out"));
+                return None;
+            }
             return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
         }
         if target.name.text == FAILURE {

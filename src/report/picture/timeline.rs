@@ -55,10 +55,11 @@ impl<'a> Timeline<'a> {
 
     fn states(&mut self) {
         let intervals = intervals(self.trace);
-        let mut present: Vec<usize> = intervals.iter().map(|(state, _)| *state).collect();
-        present.sort_unstable();
+        let mut present: Vec<Option<usize>> = intervals.iter().map(|(state, _)| *state).collect();
+        // A failure comes last.
+        present.sort_unstable_by_key(|state| (state.is_none(), *state));
         present.dedup();
-        let names: Vec<_> = present.iter().map(|&state| (name(self.trace, state), colour(self.trace, state))).collect();
+        let names: Vec<_> = present.iter().map(|&state| (name(self.trace, state), colour(state))).collect();
         self.heading("State", &names, 10.0);
         let top = self.y;
         for (state, ticks) in intervals {
@@ -71,7 +72,7 @@ impl<'a> Timeline<'a> {
             // The last state may have had no time, as a failure does.
             let from = from.min(to - SHORTEST);
             let band = Rectangle::new().set("x", px(from)).set("y", px(top)).set("width", px(to - from));
-            self.add(band.set("height", px(BAND)).set("fill", colour(self.trace, state)));
+            self.add(band.set("height", px(BAND)).set("fill", colour(state)));
             let name = name(self.trace, state);
             if width_of(name, 12.0) + 8.0 < to - from {
                 self.add(text(0.5 * (from + to), top + 16.5, Anchor::Middle, 12.0, style::INK, name));
@@ -189,8 +190,8 @@ fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
 }
 
 /// Runs of ticks in the same state.
-fn intervals(trace: &Trace) -> Vec<(usize, Range<usize>)> {
-    let mut intervals: Vec<(usize, Range<usize>)> = Vec::new();
+fn intervals(trace: &Trace) -> Vec<(Option<usize>, Range<usize>)> {
+    let mut intervals: Vec<(Option<usize>, Range<usize>)> = Vec::new();
     for (index, tick) in trace.ticks.iter().enumerate() {
         match intervals.last_mut() {
             Some((state, ticks)) if *state == tick.state => ticks.end = index + 1,
@@ -200,10 +201,10 @@ fn intervals(trace: &Trace) -> Vec<(usize, Range<usize>)> {
     intervals
 }
 
-fn name(trace: &Trace, state: usize) -> &str {
-    trace.states.get(state).map_or("Failure", String::as_str)
+fn name(trace: &Trace, state: Option<usize>) -> &str {
+    state.and_then(|state| trace.states.get(state)).map_or("Failure", String::as_str)
 }
 
-fn colour(trace: &Trace, state: usize) -> &'static str {
-    if state < trace.states.len() { style::STATES[state % style::STATES.len()] } else { style::FAILURE }
+fn colour(state: Option<usize>) -> &'static str {
+    state.map_or(style::FAILURE, |state| style::STATES[state % style::STATES.len()])
 }
