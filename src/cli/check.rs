@@ -1,6 +1,5 @@
 //! `vibrissa check`
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -58,6 +57,8 @@ struct ParameterSummary {
     name: String,
     value: String,
     range: Option<[String; 2]>,
+    /// What the policy says about it; may be empty.
+    description: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -137,6 +138,7 @@ fn summary(artifact: &Artifact) -> Summary {
         name: parameter.name.clone(),
         value: format_si(value, parameter.dimension),
         range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
+        description: parameter.description.clone(),
     };
     let state = |(index, state): (usize, &State)| StateSummary {
         name: state.name.to_string(),
@@ -155,16 +157,19 @@ fn summary(artifact: &Artifact) -> Summary {
 }
 
 fn describe(file: &str, machine: &Summary) -> String {
-    let mut table = comfy_table::Table::new();
-    table.load_style(comfy_table::presets::NOTHING);
-    table.set_header(["state", "transitions", "operations a tick, at most"]);
+    let mut states = table(["state", "transitions", "operations a tick, at most"]);
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
-        table.add_row([
+        states.add_row([
             format!("{}{initial}", state.name),
             state.transitions.to_string(),
             state.operations.to_string(),
         ]);
+    }
+    let mut parameters = table(["parameter", "value", "range", "description"]);
+    for ParameterSummary { name, value, range, description } in &machine.parameters {
+        let range = range.as_ref().map(|[low, high]| format!("{low} .. {high}")).unwrap_or_default();
+        parameters.add_row([name, value, &range, description]);
     }
     let mut text = format!(
         "{file}: machine {}, whiskers {}, {} bytes of memory\n",
@@ -172,13 +177,15 @@ fn describe(file: &str, machine: &Summary) -> String {
         machine.whiskers.join(", "),
         machine.memory_bytes
     );
-    for parameter in &machine.parameters {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "  {} = {}", parameter.name, parameter.value);
-        if let Some([low, high]) = &parameter.range {
-            let _ = write!(text, " in {low} .. {high}");
-        }
-        text += "\n";
+    if !machine.parameters.is_empty() {
+        text += &(parameters.trim_fmt() + "\n");
     }
-    text + &table.trim_fmt()
+    text + &states.trim_fmt()
+}
+
+/// An empty table under a header, without lines.
+fn table<const N: usize>(header: [&str; N]) -> comfy_table::Table {
+    let mut table = comfy_table::Table::new();
+    table.load_style(comfy_table::presets::NOTHING).set_header(header);
+    table
 }

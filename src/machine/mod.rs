@@ -22,8 +22,10 @@ pub(crate) use tick::TIME_SLACK;
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use op::{Block, Op, Register, Wide};
-pub use program::{CODE_LIMIT, Guard, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition};
-pub use senses::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+pub use program::{
+    CODE_LIMIT, DESCRIPTION_LIMIT, Guard, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition,
+};
+pub use senses::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
 pub use tick::{CHAIN_LIMIT, Failure, Machine, Outcome, Tick};
 pub use verify::Unsound;

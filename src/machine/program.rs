@@ -13,6 +13,9 @@ pub const CODE_LIMIT: usize = 50_000;
 /// The most registers that a program may have.
 pub const REGISTER_LIMIT: usize = 60_000;
 
+/// The most bytes that the description of a parameter may have.
+pub const DESCRIPTION_LIMIT: usize = 500;
+
 /// A compiled policy.
 ///
 /// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
@@ -45,6 +48,8 @@ pub struct Program {
 pub struct Parameter {
     /// Its name.
     pub name: String,
+    /// What the policy says about it: one line of at most [`DESCRIPTION_LIMIT`] bytes, which may be empty.
+    pub description: String,
     /// Its dimension.
     pub dimension: Dimension,
     /// Its value if a run sets none (SI).

@@ -2,7 +2,7 @@
 //!
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`; `lower` checks names,
 //! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
-//! out. `builtins` is the one table of what the language offers, `docs/language.md`
+//! out. `description` reads what comments say of items. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
 mod analysis;
@@ -10,6 +10,7 @@ mod artifact;
 mod ast;
 mod builtins;
 pub mod chart;
+mod description;
 mod format;
 mod grammar;
 mod hint;
@@ -161,7 +162,10 @@ fn lowered(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagn
         ]);
     }
     match lower::lower(&files) {
-        Ok(lowered) => Ok((whole, files, lowered)),
+        Ok(mut lowered) => {
+            description::describe(&mut lowered.program, &whole, &files.main);
+            Ok((whole, files, lowered))
+        }
         Err(faults) => Err(within(source, &whole, faults)),
     }
 }

@@ -52,14 +52,17 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     }
     match advice(found, &source.text[at..], rules) {
         Some(advice) => diagnostic.hint(advice),
-        None => did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule))),
+        None => {
+            let others = rules.contains(&Rule::file).then_some("library");
+            did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
+        }
     }
 }
 
 /// The text ends where it should go on.
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
     let place = Span::new(at, at);
-    if rules.contains(&Rule::machine) || rules.contains(&Rule::kw_machine) {
+    if rules.contains(&Rule::file) || rules.contains(&Rule::kw_machine) {
         return Diagnostic::error("P0101", "the file holds no policy", place, "expected `machine` and its name")
             .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
     }
@@ -175,7 +178,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::text => (0, "a text"),
         Rule::bound => (0, "a number"),
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
-        Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
+        Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
         // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
         Rule::kw_initial => (2, ITEM),
         Rule::kw_do => (2, "a statement"),
@@ -193,7 +196,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
 /// The word that a rule stands for.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
-        Rule::machine | Rule::kw_machine => "machine",
+        Rule::file | Rule::machine | Rule::kw_machine => "machine",
         Rule::library | Rule::kw_library => "library",
         Rule::kw_use => "use",
         Rule::kw_whisker => "whisker",
