@@ -67,7 +67,7 @@ impl Loaded {
 
     /// The index of the file that `used` means in the file called `using`.
     fn link(&mut self, using: &str, used: &Use, library: &mut Library<'_>) -> Option<usize> {
-        let name = resolve(using, used).map_err(|fault| self.report(fault)).ok()?;
+        let name = resolve(using, used).map_err(|fault| self.report(*fault)).ok()?;
         let known = (0..self.source.count()).find(|&index| match index {
             0 => is_same(self.source.part_name(0), &name),
             _ => self.source.part_name(index) == name,
@@ -115,7 +115,9 @@ impl Loaded {
             self.report(fault);
         }
         let misplaced: Vec<Diagnostic> = self.files.iter().flatten().filter_map(misplaced).collect();
-        misplaced.into_iter().for_each(|fault| self.report(fault));
+        for fault in misplaced {
+            self.report(fault);
+        }
         let links: Option<Vec<Vec<usize>>> = self
             .links
             .iter()

@@ -50,13 +50,11 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     if opened.is_none() && ["}", ")"].contains(&found) {
         return diagnostic.hint(format!("nothing is open that `{found}` could close"));
     }
-    match advice(found, &source.text[at..], rules) {
-        Some(advice) => diagnostic.hint(advice),
-        None => {
-            let others = rules.contains(&Rule::file).then_some("library");
-            did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
-        }
+    if let Some(advice) = advice(found, &source.text[at..], rules) {
+        return diagnostic.hint(advice);
     }
+    let others = rules.contains(&Rule::file).then_some("library");
+    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
 }
 
 /// The text ends where it should go on.

@@ -39,14 +39,6 @@ pub(in crate::policy) enum At {
 }
 
 impl At {
-    /// The name of the value.
-    pub(in crate::policy) fn value(self) -> &'static str {
-        match self {
-            Self::Tip => "deflection",
-            Self::Contour(_) => "back",
-        }
-    }
-
     /// What the value is, its type, and an example.
     pub(in crate::policy) fn takes(self) -> (&'static str, Type, &'static str) {
         match self {

@@ -10,7 +10,7 @@ use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
 use crate::units::{Dimension, units_of};
 
-use super::{FUNCTIONS, members};
+use super::{At, FUNCTIONS, MemberSource, members};
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
 
@@ -76,9 +76,9 @@ Places and directions are in the world (x right, y up) unless said otherwise.
         };
         for member in members(owner) {
             let plain = format!("`{prefix}.{}`", member.name);
-            let with_value = member.at.map(|at| format!("`{prefix}.{}({})`", member.name, at.value()));
+            let with_value = member.at.map(|at| format!("`{prefix}.{}({})`", member.name, value(at)));
             let usage = match (member.source, with_value) {
-                (super::MemberSource::At, Some(usage)) => usage,
+                (MemberSource::At, Some(usage)) => usage,
                 (_, Some(usage)) => format!("{plain}, {usage}"),
                 (_, None) => plain,
             };
@@ -115,6 +115,14 @@ fn standard(page: &mut String) {
             let said = description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
             row(page, [&format!("`{kind} {}{arguments}`", name.text), &said]);
         }
+    }
+}
+
+/// What the value of a member is called.
+fn value(at: At) -> &'static str {
+    match at {
+        At::Tip => "deflection",
+        At::Contour(_) => "back",
     }
 }
 

@@ -47,25 +47,12 @@ impl<'f> Compiler<'f> {
                 let raised = self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) });
                 scalar(a, self.code.scalar(|to| Op::Minimum { to, a: raised, b: register(2) }))
             }
-            (Function::Sin, &[Type::ANGLE]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Sine { to, a: register(0) }))
-            }
-            (Function::Cos, &[Type::ANGLE]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Cosine { to, a: register(0) }))
-            }
-            (Function::Tan, &[Type::ANGLE]) => {
-                let sine = self.code.scalar(|to| Op::Sine { to, a: register(0) });
-                let cosine = self.code.scalar(|to| Op::Cosine { to, a: register(0) });
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Divide { to, a: sine, b: cosine }))
+            (Function::Sin | Function::Cos | Function::Tan, &[Type::ANGLE])
+            | (Function::Exp | Function::Floor, &[Type::NUMBER]) => {
+                scalar(Dimension::NUMBER, self.elementary(function, register(0)))
             }
             (Function::Asin | Function::Acos, &[Type::NUMBER]) => {
                 scalar(Dimension::ANGLE, self.arc(function, register(0)))
-            }
-            (Function::Exp, &[Type::NUMBER]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Exponential { to, a: register(0) }))
-            }
-            (Function::Floor, &[Type::NUMBER]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Floor { to, a: register(0) }))
             }
             (Function::Direction, &[Type::ANGLE]) => {
                 let to = self.code.place(2);
@@ -134,6 +121,20 @@ impl<'f> Compiler<'f> {
         let memory = self.code.place(count);
         self.memories.push((memory, count));
         memory
+    }
+
+    /// A function of one number.
+    fn elementary(&mut self, function: Function, a: u16) -> u16 {
+        match function {
+            Function::Cos => self.code.scalar(|to| Op::Cosine { to, a }),
+            Function::Tan => {
+                let (a, b) = (self.elementary(Function::Sin, a), self.elementary(Function::Cos, a));
+                self.code.scalar(|to| Op::Divide { to, a, b })
+            }
+            Function::Exp => self.code.scalar(|to| Op::Exponential { to, a }),
+            Function::Floor => self.code.scalar(|to| Op::Floor { to, a }),
+            _ => self.code.scalar(|to| Op::Sine { to, a }),
+        }
     }
 
     /// The angle with the sine or the cosine `x`: that of a vector of length 1. Not a number unless there is one.
