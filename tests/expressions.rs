@@ -53,7 +53,7 @@ impl Grower<'_> {
     }
 
     fn number(&mut self, depth: u8) -> Shown<f64> {
-        let choice = self.pick(depth, 4, 20);
+        let choice = self.pick(depth, 4, 26);
         if choice >= 4 {
             return self.larger_number(choice, depth - 1);
         }
@@ -99,6 +99,12 @@ impl Grower<'_> {
                 let value = lesser(greater(a.value, b.value), c.value);
                 shown(ATOM, format!("clamp({}, {}, {})", a.text, b.text, c.text), value)
             }
+            20 => shown(ATOM, format!("tan(({}) * 1 rad)", a.text), a.value.tan()),
+            21 => shown(PRODUCT, format!("asin({}) / 1 rad", a.text), a.value.asin()),
+            22 => shown(PRODUCT, format!("acos({}) / 1 rad", a.text), a.value.acos()),
+            23 => shown(ATOM, format!("exp({})", a.text), a.value.exp()),
+            24 => shown(ATOM, format!("floor({})", a.text), a.value.floor()),
+            25 => shown(PRODUCT, format!("wrap(({}) * 1 rad) / 1 rad", a.text), wrap(a.value)),
             _ => self.pair(choice, &a, depth),
         }
     }

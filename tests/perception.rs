@@ -5,8 +5,14 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
 use nalgebra::Matrix2;
 use proptest::prelude::*;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::percept::{LocalContour, LowPass};
+use vibrissa::machine::{ContourVector, Senses, WhiskerVector};
+use vibrissa::percept::{LocalContour, LowPass, Perception};
+use vibrissa::rig::Rig;
+use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// The amplitude that a filter gives a sine of unit amplitude at `frequency`, once it has settled: that of the sine which
 /// fits its output best.
@@ -139,6 +145,90 @@ proptest! {
         let curvature = plain.curvature().unwrap();
         prop_assert!((curvature - moved.curvature().unwrap()).abs() < 1e-5 * (1.0 + curvature.abs()));
     }
+}
+
+proptest! {
+    #[test]
+    fn a_distance_behind_the_end_is_measured_along_the_curve(
+        radius in 0.05..0.5_f64, left in any::<bool>(), start in -PI..PI, step in 1.01e-3..2e-3_f64, share in 0.0..1.0_f64,
+    ) {
+        let radius = if left { radius } else { -radius };
+        let centre = Point2::new(0.4, -0.3);
+        let spline = spline(arc(radius, step, start, centre));
+        let back = share * 6.0 * step;
+        let angle = start + (6.0 * step - back) / radius;
+        let due = centre + radius * unit(angle);
+        // A parabola is a millionth of a metre off an arc of a few degrees, and more for one that bends more.
+        let bend = 6.0 * step / radius.abs();
+        prop_assert!((spline.point_at(back).unwrap() - due).norm() < 6.0 * step * 0.05 * bend * bend, "{bend}");
+        let tangent = rotate(unit(angle), 0.5 * PI);
+        prop_assert!((spline.tangent_at(back).unwrap() - tangent).norm() < 0.2 * bend * bend);
+        prop_assert_eq!(spline.tangent_at(0.0), spline.tangent());
+    }
+
+    #[test]
+    fn no_distance_leads_beyond_the_curve(back in 0.0..1.0_f64) {
+        let spline = spline(arc(0.3, 2e-3, 0.0, Point2::origin()));
+        prop_assert_eq!(spline.point_at(-back), spline.point_at(0.0));
+        let length = 6.0 * 0.6 * (2e-3_f64 / 0.6).sin();
+        prop_assert!((spline.point_at(length + back).unwrap() - spline.point_at(length).unwrap()).norm() < 1e-12);
+    }
+}
+
+/// Perception of the reference rig's whiskers, 0 on the right and 1 on the left, that have swiped along a wall parallel to the
+/// heading, forwards or backwards, and have then been lifted off it and moved by `gone`.
+fn after_swiping(whisker: usize, body: Pose, forwards: f64, gone: Vector2) -> Perception {
+    let rig = Rig::default();
+    let mut perception = Perception::new(&rig, &[0, 1]).unwrap();
+    let bent = 3e-4 * rig.whiskers[whisker].side() * forwards;
+    let feel = |perception: &mut Perception, position, angle: f64| {
+        let mut whiskers = [Reading::default(); MAX_WHISKERS];
+        whiskers[whisker].base_angle = angle;
+        let sample = Sample { time: 0.0, body: Pose { position, heading: body.heading }, whiskers };
+        perception.update(&vec![sample; 300]);
+    };
+    for index in 0..12 {
+        let position = body.position + forwards * 2e-3 * f64::from(index) * unit(body.heading);
+        feel(&mut perception, position, bent);
+        perception.record(whisker);
+    }
+    feel(&mut perception, body.position + gone, 0.0);
+    perception
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn the_normal_leads_from_the_object_to_the_body_and_stays_when_that_has_left(
+        whisker in 0_usize..2, heading in -PI..PI, forwards in any::<bool>(), x in -0.5..0.5_f64, y in -0.5..0.5_f64,
+    ) {
+        let body = Pose { position: Point2::new(0.2, 0.1), heading };
+        let forwards = if forwards { 1.0 } else { -1.0 };
+        let perception = after_swiping(whisker, body, forwards, Vector2::new(x, y));
+        let (tangent, normal) = (forwards * unit(heading), unit(heading + if whisker == 0 { 0.5 * PI } else { -0.5 * PI }));
+        let found = |quantity| perception.whisker_vector(whisker, quantity);
+        prop_assert!((found(WhiskerVector::ContourTangent) - tangent).norm() < 1e-6);
+        prop_assert!((found(WhiskerVector::ContourNormal) - normal).norm() < 1e-6);
+        prop_assert!((perception.contour_at(whisker, 5e-3, ContourVector::Normal) - normal).norm() < 1e-6);
+        let point = perception.contour_at(whisker, 5e-3, ContourVector::Point) + 5e-3 * tangent;
+        prop_assert!((point - perception.contour_at(whisker, 0.0, ContourVector::Point)).norm() < 1e-6);
+    }
+}
+
+#[test]
+fn noise_comes_through_the_filter_as_much_as_is_said() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let noise = Normal::new(0.0, 1.0).unwrap();
+    for (cutoff, rate) in [(20.0, 300.0), (5.0, 300.0), (8.0, 100.0)] {
+        let mut filter = LowPass::new(cutoff, rate).unwrap();
+        let values = (0..200_000).map(|_| filter.next(noise.sample(&mut random)));
+        let squares: Vec<f64> = values.skip(1000).map(|value| value * value).collect();
+        let found = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        let due = LowPass::noise_gain(cutoff, rate);
+        assert!((found / due - 1.0).abs() < 0.03, "{cutoff} Hz at {rate} Hz: {found}, not {due}");
+    }
+    assert!((LowPass::noise_gain(149.0, 300.0) - 1.0).abs() < f64::EPSILON);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{BodyScalar, Machine, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::policy::{compile, compile_with_warnings};
 use vibrissa::units::parse_quantity;
 
@@ -96,6 +96,10 @@ fn what_may_hold_or_fail_is_let_be() {
         "when r.contour.curvature == r.contour.curvature -> B",
         "when |r.contour.tangent| > 0.5 -> B",
         "when turn(body.yaw, r.yaw) > 170 deg -> B",
+        "when |r.contour.point(5 mm) - r.contour.end| > 1 mm -> B",
+        "when dot(r.contour.normal, r.contour.tangent) > 0.5 -> B",
+        "when r.tip_spread > 1 mm -> B",
+        "when exp(p) > 3 and floor(2.5 * p) == 3 -> B",
         "when |r.tip_at(300 urad) - r.tip_base| > 1 mm -> B",
         "when |r.deflection| > p * 1000 urad and r.deflection < 0 rad -> B",
         "when p >= 2 -> B",
@@ -109,6 +113,10 @@ fn what_may_hold_or_fail_is_let_be() {
 #[test]
 fn what_never_or_always_holds_is_told() {
     for (guard, code) in [
+        ("r.tip_spread < 0 m", "P0508"),
+        ("exp(p) < 2.7", "P0508"),
+        ("floor(p) < 1", "P0508"),
+        ("wrap(body.yaw) > 190 deg", "P0508"),
         ("r.touching and r.sense == 0", "P0508"),
         ("r.sense > 0 and r.deflection * r.side < 0 rad", "P0508"),
         ("|r.deflection| > 91 deg", "P0508"),
@@ -176,6 +184,7 @@ impl Senses for Told {
             WhiskerScalar::ContourReady => "contour.ready",
             WhiskerScalar::ContourCurvature => "contour.curvature",
             WhiskerScalar::Yaw => "yaw",
+            WhiskerScalar::TipSpread => "tip_spread",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))
     }
@@ -185,6 +194,10 @@ impl Senses for Told {
     }
 
     fn tip_at(&self, _: usize, _: f64) -> Vector2 {
+        Vector2::new(f64::NAN, f64::NAN)
+    }
+
+    fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
         Vector2::new(f64::NAN, f64::NAN)
     }
 

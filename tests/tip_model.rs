@@ -300,3 +300,45 @@ fn whiskers_swept_forward_and_back_by_the_same_angle_have_the_same_model() {
         assert!((back.contact_base(base_angle) - forward.contact_base(base_angle)).norm() < 1e-12);
     }
 }
+
+#[test]
+fn the_spread_of_a_tip_is_that_of_surfaces_which_are_not_parallel_to_the_heading() {
+    let model = TipModel::new(&left()).unwrap();
+    for base_angle in [5e-5, 1e-4, TARGET, 5e-4] {
+        let contact = |turn: f64| {
+            let (direction, radius) = (FORCE + turn, left().shaft.radius);
+            let normal = Vector2::new(direction.cos(), direction.sin());
+            chain(&left(), base_angle, direction).tip_base - radius * normal
+        };
+        let moved = |turn: f64| (contact(turn) - contact(0.0)).norm() / turn.abs() * 10_f64.to_radians();
+        let (spread, small) = (model.spread(base_angle, 0.0), 0.5_f64.to_radians());
+        let near = f64::midpoint(moved(small), moved(-small));
+        assert!((spread / near - 1.0).abs() < 0.03, "{base_angle}: {spread} {near}");
+        // The nearer the surface is to head-on, the more a turn does.
+        let far = 5_f64.to_radians();
+        assert!(moved(-far) < spread && spread < moved(far), "{base_angle}: {} {spread} {}", moved(-far), moved(far));
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_spread_of_a_tip_grows_with_what_the_base_angle_may_be_off(base_angle in -1e-3..1e-3_f64, off in 1e-7..2e-6_f64) {
+        let model = TipModel::new(&left()).unwrap();
+        let (still, spread) = (model.spread(base_angle, 0.0), model.spread(base_angle, off));
+        prop_assert!((model.spread(-base_angle, off) - spread).abs() <= f64::EPSILON * spread);
+        let moved = (model.contact_base(base_angle + off) - model.contact_base(base_angle - off)).norm() / 2.0;
+        // Where the base angle changes its sign the model has a bend.
+        if base_angle.abs() > 2e-5 {
+            prop_assert!((spread - still.hypot(moved)).abs() < 0.02 * spread, "{spread} {still} {moved}");
+        }
+    }
+}
+
+#[test]
+fn a_whisker_that_is_not_bent_is_where_it_is_and_beyond_the_model_nothing_is_known() {
+    let model = TipModel::new(&left()).unwrap();
+    // The sphere at its tip may be touched on any side.
+    assert!(model.spread(0.0, 0.0) <= left().shaft.radius);
+    assert!(model.spread(2e-3, 0.0).is_infinite());
+    assert!(model.spread(f64::NAN, 0.0).is_nan());
+}

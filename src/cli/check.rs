@@ -1,6 +1,5 @@
 //! `vibrissa check`
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
@@ -62,6 +61,8 @@ struct ParameterSummary {
     name: String,
     value: String,
     range: Option<[String; 2]>,
+    /// What the policy says about it; may be empty.
+    description: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -158,6 +159,7 @@ fn summary(artifact: &Artifact) -> Summary {
         name: parameter.name.clone(),
         value: format_si(value, parameter.dimension),
         range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
+        description: parameter.description.clone(),
     };
     let state = |(index, state): (usize, &State)| StateSummary {
         name: state.name.to_string(),
@@ -186,16 +188,19 @@ fn name(program: &Program, target: &Target) -> String {
 }
 
 fn describe(file: &str, machine: &Summary) -> String {
-    let mut table = comfy_table::Table::new();
-    table.load_style(comfy_table::presets::NOTHING);
     let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
     let headings = ["state", "transitions", "operations a tick, at most"];
-    table.set_header(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
+    let mut states = table(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
         let cells = [format!("{}{initial}", state.name), state.transitions.to_string(), state.operations.to_string()];
         let failsafe = state.failsafe.clone().unwrap_or_default();
-        table.add_row(cells.into_iter().chain(has_failsafe.then_some(failsafe)));
+        states.add_row(cells.into_iter().chain(has_failsafe.then_some(failsafe)));
+    }
+    let mut parameters = table(["parameter", "value", "range", "description"]);
+    for ParameterSummary { name, value, range, description } in &machine.parameters {
+        let range = range.as_ref().map(|[low, high]| format!("{low} .. {high}")).unwrap_or_default();
+        parameters.add_row([name, value, &range, description]);
     }
     let mut text = format!(
         "{file}: machine {}, whiskers {}, {} bytes of memory\n",
@@ -203,16 +208,18 @@ fn describe(file: &str, machine: &Summary) -> String {
         machine.whiskers.join(", "),
         machine.memory_bytes
     );
-    for parameter in &machine.parameters {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "  {} = {}", parameter.name, parameter.value);
-        if let Some([low, high]) = &parameter.range {
-            let _ = write!(text, " in {low} .. {high}");
-        }
-        text += "\n";
+    if !machine.parameters.is_empty() {
+        text += &(parameters.trim_fmt() + "\n");
     }
     if let Some(failsafe) = &machine.failsafe {
-        let _ = writeln!(text, "  failsafe -> {failsafe}");
+        text += &format!("failsafe -> {failsafe}\n");
     }
-    text + &table.trim_fmt()
+    text + &states.trim_fmt()
+}
+
+/// An empty table under a header, without lines.
+fn table<'h>(header: impl IntoIterator<Item = &'h str>) -> comfy_table::Table {
+    let mut table = comfy_table::Table::new();
+    table.load_style(comfy_table::presets::NOTHING).set_header(header.into_iter().collect::<Vec<_>>());
+    table
 }

@@ -45,7 +45,7 @@ fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> Stri
         let of_part = labels.iter().filter(|(_, label)| part(label) == index);
         let annotations = of_part.map(|(kind, label)| {
             let place = source.clamp(label.span);
-            kind.clone().span(place.start - within.start..place.end - within.start).label(label.text.clone())
+            kind.span(place.start - within.start..place.end - within.start).label(label.text.clone())
         });
         Snippet::source(source.slice(within)).path(source.part_name(index)).annotations(annotations)
     });

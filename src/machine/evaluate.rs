@@ -29,6 +29,8 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::Maximum { to, a, b } => file.put(to, -minimum(-file.at(a), -file.at(b))),
             Op::Sine { to, a } => file.put(to, file.at(a).sin()),
             Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
+            Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
+            Op::Floor { to, a } => file.put(to, file.at(a).floor()),
             Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
             Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
             Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
@@ -52,6 +54,9 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
                 file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
             }
             Op::TipAt { to, whisker, a } => file.put_vector(to, senses.tip_at(file.index(whisker), file.at(a))),
+            Op::ContourAt { to, whisker, a, quantity } => {
+                file.put_vector(to, senses.contour_at(file.index(whisker), file.at(a), quantity));
+            }
             Op::LowPass { to, a, b, memory } => {
                 let filtered = stateful::low_pass(file.memory(memory), senses.time(), file.at(a), file.at(b));
                 let value = file.keep(memory, filtered);

@@ -25,9 +25,10 @@ pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origi
 pub use failsafe::{Cause, Failsafe};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
-    CODE_LIMIT, Guard, NESTING_LIMIT, Parameter, Program, REGISTER_LIMIT, SetError, State, Target, Transition,
+    CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Parameter, Program, REGISTER_LIMIT, SetError, State, Target,
+    Transition,
 };
-pub use senses::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
+pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
 pub use tick::{CHAIN_LIMIT, Failure, Machine, Status, Tick};
 pub use verify::Unsound;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::senses::{BodyScalar, Mark, WhiskerScalar, WhiskerVector};
+use super::senses::{BodyScalar, ContourVector, Mark, WhiskerScalar, WhiskerVector};
 
 /// A place in the register file.
 pub type Register = u16;
@@ -45,6 +45,10 @@ pub enum Op {
     Sine { to: Register, a: Register },
     /// `to = cos(a)`
     Cosine { to: Register, a: Register },
+    /// `to = e to the power of a`
+    Exponential { to: Register, a: Register },
+    /// `to = the greatest whole number that is not above a`
+    Floor { to: Register, a: Register },
     /// `to = a wrapped to (-π, π]`
     Wrap { to: Register, a: Register },
     /// `to = a < b`
@@ -79,6 +83,8 @@ pub enum Op {
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
     /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
     TipAt { to: Wide, whisker: Register, a: Register },
+    /// `to = a vector of a whisker's contour, a behind its end`
+    ContourAt { to: Wide, whisker: Register, a: Register, quantity: ContourVector },
     /// `to = a through a first-order low-pass filter with the cutoff b` (Hz); its memory is three registers
     LowPass { to: Register, a: Register, b: Register, memory: Register },
     /// `to = output of a PID controller` for the error `a`; `gains` are four registers: p, i, d and the output's limit; its

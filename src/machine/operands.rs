@@ -78,6 +78,8 @@ impl Op {
             | Self::SquareRoot { to, a }
             | Self::Sine { to, a }
             | Self::Cosine { to, a }
+            | Self::Exponential { to, a }
+            | Self::Floor { to, a }
             | Self::Wrap { to, a }
             | Self::Not { to, a } => operands.write(number(to)).read([number(a)]),
             Self::Add { to, a, b }
@@ -98,7 +100,9 @@ impl Op {
             Self::BodyPosition { to } => operands.write(vector(to)),
             Self::Whisker { to, whisker, .. } => operands.write(number(to)).whisker(whisker),
             Self::WhiskerVector { to, whisker, .. } => operands.write(vector(to)).whisker(whisker),
-            Self::TipAt { to, whisker, a } => operands.write(vector(to)).whisker(whisker).read([number(a)]),
+            Self::TipAt { to, whisker, a } | Self::ContourAt { to, whisker, a, .. } => {
+                operands.write(vector(to)).whisker(whisker).read([number(a)])
+            }
             Self::LowPass { to, a, b, memory } => {
                 operands.write(number(to)).read([number(a), number(b)]).remember(Place { first: memory, width: 3 })
             }

@@ -15,6 +15,9 @@ pub const REGISTER_LIMIT: usize = 60_000;
 /// How many states may lie in one another, so that a tick has a bounded number of them to see to.
 pub const NESTING_LIMIT: usize = 8;
 
+/// The most bytes that the description of a parameter may have.
+pub const DESCRIPTION_LIMIT: usize = 500;
+
 /// A compiled policy.
 ///
 /// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
@@ -49,6 +52,8 @@ pub struct Program {
 pub struct Parameter {
     /// Its name.
     pub name: String,
+    /// What the policy says about it: one line of at most [`DESCRIPTION_LIMIT`] bytes, which may be empty.
+    pub description: String,
     /// Its dimension.
     pub dimension: Dimension,
     /// Its value if a run sets none (SI).

@@ -26,6 +26,9 @@ pub trait Senses {
     /// Where the whisker's tip would touch, in the frame of its base (m), if its base angle were `deflection` (rad).
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2;
 
+    /// A vector of the whisker's contour at the distance `back` (m) behind its end.
+    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2;
+
     /// Takes the whisker's tip, if it touches, as a point of the estimated contour.
     fn record(&mut self, whisker: usize);
 
@@ -82,6 +85,8 @@ pub enum WhiskerScalar {
     ContourReady,
     /// Curvature at the end of the contour (rad/m, counter-clockwise positive in the direction of travel).
     ContourCurvature,
+    /// How far off the place of the tip's contact may be (m): a standard deviation.
+    TipSpread,
 }
 
 /// Vectors that belong to a whisker.
@@ -97,4 +102,18 @@ pub enum WhiskerVector {
     ContourTangent,
     /// Newest point of the contour in the world frame (m).
     ContourEnd,
+    /// Direction away from the object at the end of the contour in the world frame (unit vector): square to the direction of
+    /// travel, on the side on which the whisker's base was when the newest point was taken.
+    ContourNormal,
+}
+
+/// Vectors of a contour somewhere behind its end, in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ContourVector {
+    /// The place (m).
+    Point,
+    /// Direction of travel (unit vector).
+    Tangent,
+    /// Direction away from the object (unit vector).
+    Normal,
 }

@@ -6,7 +6,9 @@ use crate::signal::MAX_WHISKERS;
 
 use super::op::{Block, Op, Register};
 use super::operands::{Place, number};
-use super::program::{CODE_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition};
+use super::program::{
+    CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
+};
 
 /// The most states that a program may have, and the most transitions.
 const STRUCTURE_LIMIT: usize = 50_000;
@@ -84,6 +86,9 @@ pub enum Unsound {
     /// A parameter's range is none, or its value is outside of it.
     #[error("its parameter `{0}` is outside of its range")]
     OutOfRange(String),
+    /// A parameter's description is long or not one line of plain text.
+    #[error("the description of its parameter `{0}` is longer than {DESCRIPTION_LIMIT} bytes or no single line")]
+    Description(String),
     /// A name is not one that the language could give.
     #[error("{0:?} is no name")]
     Name(String),
@@ -123,6 +128,10 @@ impl Program {
         is_name(name)?;
         let values = parameters.iter().map(|parameter| parameter.name.as_str());
         distinct(values.chain(whiskers.iter().map(String::as_str)).chain(states.iter().map(|state| &*state.name)))?;
+        let is_unfit = |text: &str| text.len() > DESCRIPTION_LIMIT || text.chars().any(char::is_control);
+        if let Some(parameter) = parameters.iter().find(|parameter| is_unfit(&parameter.description)) {
+            return Err(Unsound::Description(parameter.name.clone()));
+        }
         self.verify_numbers()?;
         within("state", *initial, states.len())?;
         self.verify_hierarchy()?;

@@ -18,14 +18,34 @@ pub struct LocalContour {
     /// The newest keypoints, oldest first.
     keypoints: [Point2; WINDOW],
     count: usize,
-    end: Option<End>,
+    curve: Option<Curve>,
 }
 
-/// The curve at its end.
+/// The curve, as parabolas in the length along it (mm, counted back from the newest keypoint, so never positive).
 #[derive(Debug, Clone, Copy)]
-struct End {
-    tangent: Vector2,
-    curvature: f64,
+struct Curve {
+    newest: Point2,
+    /// The place from the newest keypoint on (m), and its changes with the length and with its square.
+    parts: [Vector2; 3],
+    /// Length (mm) of the curve.
+    reach: f64,
+}
+
+impl Curve {
+    /// The length (mm) at the distance `back` (m) behind the end, which the curve's beginning limits.
+    fn length_at(&self, back: f64) -> f64 {
+        -(back * 1e3).clamp(0.0, self.reach)
+    }
+
+    fn point(&self, back: f64) -> Point2 {
+        let length = self.length_at(back);
+        self.newest + self.parts[0] + self.parts[1] * length + self.parts[2] * length * length
+    }
+
+    /// Change of the place with the length (m/m).
+    fn slope(&self, back: f64) -> Vector2 {
+        1e3 * (self.parts[1] + 2.0 * self.length_at(back) * self.parts[2])
+    }
 }
 
 impl LocalContour {
@@ -46,14 +66,14 @@ impl LocalContour {
         self.keypoints[self.count] = point;
         self.count += 1;
         if self.count == WINDOW {
-            self.end = self.fit();
+            self.curve = self.fit();
         }
     }
 
     /// Whether there are enough keypoints for a curve.
     #[must_use]
     pub fn is_ready(&self) -> bool {
-        self.end.is_some()
+        self.curve.is_some()
     }
 
     /// The newest keypoint.
@@ -65,17 +85,33 @@ impl LocalContour {
     /// Direction of travel at the end (unit vector), once ready.
     #[must_use]
     pub fn tangent(&self) -> Option<Vector2> {
-        self.end.map(|end| end.tangent)
+        self.tangent_at(0.0)
+    }
+
+    /// The point of the curve at the distance `back` (m) behind its end, once ready; no farther back than the curve begins,
+    /// and its end for a negative distance.
+    #[must_use]
+    pub fn point_at(&self, back: f64) -> Option<Point2> {
+        self.curve.map(|curve| curve.point(back))
+    }
+
+    /// Direction of travel (unit vector) at the distance `back` (m) behind the end, as for [`point_at`](Self::point_at).
+    #[must_use]
+    pub fn tangent_at(&self, back: f64) -> Option<Vector2> {
+        self.curve.map(|curve| curve.slope(back).normalize())
     }
 
     /// Curvature at the end (1/m, counter-clockwise positive), once ready.
     #[must_use]
     pub fn curvature(&self) -> Option<f64> {
-        self.end.map(|end| end.curvature)
+        self.curve.map(|curve| {
+            let (first, second) = (curve.slope(0.0), 2e6 * curve.parts[2]);
+            first.perp(&second) / first.norm().powi(3)
+        })
     }
 
     /// Least squares for `x` and `y` as parabolas in the length along the keypoints, counted back from the newest.
-    fn fit(&self) -> Option<End> {
+    fn fit(&self) -> Option<Curve> {
         let mut normal = Matrix3::zeros();
         let (mut right_x, mut right_y) = (Vector3::zeros(), Vector3::zeros());
         let newest = self.keypoints[WINDOW - 1];
@@ -94,12 +130,9 @@ impl LocalContour {
         }
         let factors = normal.cholesky()?;
         let (x, y) = (factors.solve(&right_x), factors.solve(&right_y));
-        let first = 1e3 * Vector2::new(x[1], y[1]);
-        let second = 2e6 * Vector2::new(x[2], y[2]);
-        let speed = first.norm();
-        if !(speed.is_finite() && speed > 0.0) {
-            return None;
-        }
-        Some(End { tangent: first / speed, curvature: first.perp(&second) / speed.powi(3) })
+        let curve =
+            Curve { newest, parts: [0, 1, 2].map(|power| Vector2::new(x[power], y[power])), reach: -back * 1e3 };
+        let speed = curve.slope(0.0).norm();
+        (speed.is_finite() && speed > 0.0).then_some(curve)
     }
 }

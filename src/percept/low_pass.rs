@@ -45,6 +45,13 @@ impl LowPass {
         self.rest = value;
     }
 
+    /// How much of the standard deviation of white noise the filter lets through, at most all of it: the root of its noise
+    /// bandwidth, which is π/3 of the cutoff in this kind of filter, over half of the rate.
+    #[must_use]
+    pub fn noise_gain(cutoff: f64, rate: f64) -> f64 {
+        (std::f64::consts::FRAC_PI_3 * cutoff / (0.5 * rate)).min(1.0).sqrt()
+    }
+
     /// Takes one sample and gives the filtered value.
     pub fn next(&mut self, value: f64) -> f64 {
         self.rest + self.second.run(self.first.run(value - self.rest))

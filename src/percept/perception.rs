@@ -1,7 +1,7 @@
 //! Perception as a whole: samples in, senses out.
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, Mark, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 use crate::rig::Rig;
 use crate::signal::Sample;
 
@@ -44,7 +44,7 @@ impl Perception {
         let perceived = whiskers.iter().map(|&index| {
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let model = TipModel::new(&rig.whiskers[index])?;
-            Ok(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing.contact_threshold))
+            Ok(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
         Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
@@ -136,6 +136,7 @@ impl Senses for Perception {
             WhiskerScalar::Length => whisker.length,
             WhiskerScalar::ContourReady => truth(whisker.contour.is_ready()),
             WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
+            WhiskerScalar::TipSpread => whisker.tip_spread(),
         }
     }
 
@@ -147,12 +148,17 @@ impl Senses for Perception {
             WhiskerVector::TipBase => whisker.tip_base(),
             WhiskerVector::Base => whisker.base_world.coords,
             WhiskerVector::ContourTangent => whisker.contour.tangent().unwrap_or(undefined),
+            WhiskerVector::ContourNormal => whisker.contour_at(0.0, ContourVector::Normal).unwrap_or(undefined),
             WhiskerVector::ContourEnd => whisker.contour.newest().map_or(undefined, |point| point.coords),
         }
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
         self.whiskers[whisker].model.contact_base(deflection)
+    }
+
+    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {
+        self.whiskers[whisker].contour_at(back, quantity).unwrap_or(Vector2::new(f64::NAN, f64::NAN))
     }
 
     fn record(&mut self, whisker: usize) {

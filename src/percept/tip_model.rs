@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
+use crate::geometry::rotate;
 use crate::rig::Whisker;
 
 use super::chain::ShaftChain;
@@ -28,6 +29,8 @@ struct Knot {
     contact_base: Vector2<f64>,
     /// Change of the place for one step of the base angle.
     slope: Vector2<f64>,
+    /// How far the place moves when the surface turns (m/rad).
+    turning: f64,
 }
 
 /// Why a whisker has no tip model.
@@ -66,6 +69,12 @@ const STEPS: usize = 120;
 /// may buckle to either side, so that no model can know.
 const LEAST_SWEEP: f64 = 0.087;
 
+/// The small turn of the surface (rad), away from head-on, by which the model finds what a turn does.
+const TURN: f64 = 0.01;
+/// How far off a surface is from the direction that the model takes it to have (rad): a standard deviation. Swiping keeps the
+/// heading within about this of a surface that bends, and knows nothing of it at the first touch.
+const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
+
 impl TipModel {
     /// The model of `whisker`.
     ///
@@ -78,7 +87,7 @@ impl TipModel {
         let step = MOMENT_RANGE * shaft.bending_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
         let normal = Vector2::new(force_direction.cos(), force_direction.sin());
 
-        let mut contacts = Vec::with_capacity(STEPS + 1);
+        let (mut contacts, mut turnings) = (Vec::with_capacity(STEPS + 1), Vec::with_capacity(STEPS + 1));
         let mut solution = chain.straight();
         let mut before = solution;
         for index in 0..=STEPS {
@@ -100,9 +109,15 @@ impl TipModel {
                     .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             }
             // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
-            contacts.push(solution.tip_base - shaft.radius * normal);
+            let contact = solution.tip_base - shaft.radius * normal;
+            let turned = chain
+                .solve(base_angle, force_direction - TURN, &solution)
+                .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
+            let turned_contact = turned.tip_base - shaft.radius * rotate(normal, -TURN);
+            contacts.push(contact);
+            turnings.push((turned_contact - contact).norm() / TURN);
         }
-        Ok(Self { step, knots: knots(&contacts) })
+        Ok(Self { step, knots: knots(&contacts, &turnings) })
     }
 
     /// Direction (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
@@ -123,22 +138,45 @@ impl TipModel {
         if base_angle.is_nan() {
             return Vector2::repeat(f64::NAN);
         }
-        let last = self.knots.len() - 1;
-        let along = (base_angle.abs() / self.step).min(last as f64);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]
-        let index = (along as usize).min(last - 1);
-        let (a, b) = (&self.knots[index], &self.knots[index + 1]);
-        let u = along - index as f64;
+        let (a, b, u) = self.between(base_angle);
         let v = 1.0 - u;
         let place =
             (1.0 + 2.0 * u) * v * v * a.contact_base + u * v * v * a.slope + (1.0 + 2.0 * v) * u * u * b.contact_base
                 - v * u * u * b.slope;
         Vector2::new(place.x, place.y * base_angle.signum())
     }
+
+    /// How far off [`contact_base`](Self::contact_base) may be (m), as a standard deviation, when the base angle may be
+    /// off by `angle_spread` (rad): what that moves the place by, and what a surface does that is not parallel to the heading
+    /// but 10 deg off. Infinite beyond the model's range; not a number for a base angle that is none.
+    ///
+    /// It takes the tip to be what touches: when the shaft touches instead, at a corner, the place is farther off.
+    #[must_use]
+    pub fn spread(&self, base_angle: f64, angle_spread: f64) -> f64 {
+        if base_angle.is_nan() {
+            return f64::NAN;
+        }
+        if base_angle.abs() > self.step * (self.knots.len() - 1) as f64 {
+            return f64::INFINITY;
+        }
+        let (a, b, u) = self.between(base_angle);
+        let slope = (a.slope.lerp(&b.slope, u) / self.step).norm();
+        let turning = a.turning + u * (b.turning - a.turning);
+        (slope * angle_spread).hypot(turning * SURFACE_SPREAD)
+    }
+
+    /// The knots on both sides of a base angle, and how far it is on its way from the first to the second (0 to 1).
+    fn between(&self, base_angle: f64) -> (&Knot, &Knot, f64) {
+        let last = self.knots.len() - 1;
+        let along = (base_angle.abs() / self.step).min(last as f64);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]
+        let index = (along as usize).min(last - 1);
+        (&self.knots[index], &self.knots[index + 1], along - index as f64)
+    }
 }
 
 /// Knots with slopes from their neighbours: central differences of fourth order inside, of lower order at the ends.
-fn knots(contacts: &[Vector2<f64>]) -> Vec<Knot> {
+fn knots(contacts: &[Vector2<f64>], turnings: &[f64]) -> Vec<Knot> {
     let at = |index: usize| contacts[index];
     let last = contacts.len() - 1;
     (0..=last)
@@ -149,7 +187,7 @@ fn knots(contacts: &[Vector2<f64>]) -> Vec<Knot> {
                 (1, _) | (_, 1) => (at(index + 1) - at(index - 1)) / 2.0,
                 _ => (8.0 * (at(index + 1) - at(index - 1)) - (at(index + 2) - at(index - 2))) / 12.0,
             };
-            Knot { contact_base: at(index), slope }
+            Knot { contact_base: at(index), slope, turning: turnings[index] }
         })
         .collect()
 }

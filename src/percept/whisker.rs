@@ -1,8 +1,8 @@
 //! One whisker as perceived.
 
 use crate::geometry::{Point2, Pose, Vector2, rotate};
-use crate::machine::Mark;
-use crate::rig::Whisker;
+use crate::machine::{ContourVector, Mark};
+use crate::rig::{Sensing, Whisker};
 
 use super::deflection::Deflection;
 use super::local_contour::LocalContour;
@@ -19,9 +19,13 @@ pub(super) struct PerceivedWhisker {
     pub(super) deflection: Deflection,
     pub(super) model: TipModel,
     contact_threshold: f64,
+    /// Standard deviation of the deflection (rad).
+    deflection_spread: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
     pub(super) contour: LocalContour,
+    /// Where the base was when the contour was last added to.
+    recorded_from: Point2,
     /// Whether this tick's tip was recorded, and the last one's was.
     pub(super) recorded: bool,
     recorded_before: bool,
@@ -30,7 +34,10 @@ pub(super) struct PerceivedWhisker {
 }
 
 impl PerceivedWhisker {
-    pub(super) fn new(whisker: &Whisker, filter: LowPass, model: TipModel, contact_threshold: f64) -> Self {
+    pub(super) fn new(whisker: &Whisker, filter: LowPass, model: TipModel, sensing: &Sensing) -> Self {
+        // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
+        let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
+        let rounding = sensing.angle_resolution / 12.0_f64.sqrt();
         Self {
             base_body: whisker.base_body.coords,
             direction_body: whisker.direction_body,
@@ -38,10 +45,12 @@ impl PerceivedWhisker {
             length: whisker.shaft.length,
             deflection: Deflection::new(filter),
             model,
-            contact_threshold,
+            contact_threshold: sensing.contact_threshold,
+            deflection_spread: noise.hypot(rounding),
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: LocalContour::default(),
+            recorded_from: Point2::origin(),
             recorded: false,
             recorded_before: false,
             marks: Default::default(),
@@ -85,6 +94,25 @@ impl PerceivedWhisker {
         self.base_world + rotate(self.tip_base(), self.yaw)
     }
 
+    /// How far off the tip may be (m): a standard deviation.
+    pub(super) fn tip_spread(&self) -> f64 {
+        self.model.spread(self.deflection(), self.deflection_spread)
+    }
+
+    /// A vector of the contour (world frame) at the distance `back` (m) behind its end, once it is ready.
+    pub(super) fn contour_at(&self, back: f64, quantity: ContourVector) -> Option<Vector2> {
+        let tangent = self.contour.tangent_at(back)?;
+        match quantity {
+            ContourVector::Point => self.contour.point_at(back).map(|point| point.coords),
+            ContourVector::Tangent => Some(tangent),
+            ContourVector::Normal => {
+                let left = Vector2::new(-tangent.y, tangent.x);
+                let side = left.dot(&(self.recorded_from - self.contour.newest()?));
+                Some(if side < 0.0 { -left } else { left })
+            }
+        }
+    }
+
     /// Takes the tip as a point of the contour if it touches. A contour that was left off begins anew.
     pub(super) fn record(&mut self) {
         if self.recorded {
@@ -97,6 +125,7 @@ impl PerceivedWhisker {
         let tip_world = self.tip_world();
         if self.touches() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
             self.contour.add(tip_world);
+            self.recorded_from = self.base_world;
         }
     }
 }

@@ -79,11 +79,21 @@ pub(super) struct Argument {
     pub(super) type_name: TypeName,
 }
 
-/// `length`, `vector of length`
+/// `length`, `vector of length`, `angular_speed / length`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TypeName {
     pub(super) base: Name,
     pub(super) of: Option<Name>,
+    /// What the dimension before is multiplied with or divided by.
+    pub(super) factors: Vec<(Binary, Name)>,
+}
+
+impl TypeName {
+    /// Where it stands.
+    pub(super) fn span(&self) -> Span {
+        let others = self.of.iter().chain(self.factors.iter().map(|(_, factor)| factor));
+        others.fold(self.base.span, |span, name| span.to(name.span))
+    }
 }
 
 /// `let name(arguments) = value`

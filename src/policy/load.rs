@@ -62,7 +62,7 @@ impl Loaded {
 
     /// The index of the file that `used` means in the file called `using`.
     fn link(&mut self, using: &str, used: &Use, library: &mut Library<'_>) -> Option<usize> {
-        let name = resolve(using, used).map_err(|fault| self.report(fault)).ok()?;
+        let name = resolve(using, used).map_err(|fault| self.report(*fault)).ok()?;
         let known = (0..self.source.count()).find(|&index| match index {
             0 => is_same(self.source.part_name(0), &name),
             _ => self.source.part_name(index) == name,

@@ -3,7 +3,7 @@
 //! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`, `recover` as much of it as
 //! can be had of a text with faults; `lower` checks names,
 //! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
-//! out. `builtins` is the one table of what the language offers, `docs/language.md`
+//! out. `description` reads what comments say of items. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
 mod analysis;
@@ -11,6 +11,7 @@ mod artifact;
 mod ast;
 mod builtins;
 pub mod chart;
+mod description;
 mod format;
 mod grammar;
 mod hint;
@@ -167,7 +168,10 @@ fn lowered(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagn
     if let Some(files) = files {
         let lowered = if files.main.is_library { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
         match lowered {
-            Ok(lowered) if recovery.is_whole() => return Ok((whole, files, lowered)),
+            Ok(mut lowered) if recovery.is_whole() => {
+                description::describe(&mut lowered.program, &whole, &files.main);
+                return Ok((whole, files, lowered));
+            }
             Ok(_) => {}
             Err(found) => faults = found,
         }

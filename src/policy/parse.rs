@@ -122,7 +122,12 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
         let mut type_name = Reader::new(argument.take(Rule::type_name)?);
         let base = named(&type_name.next()?);
         let of = if type_name.has(Rule::name) { Some(type_name.name()?) } else { None };
-        arguments.push(Argument { name, type_name: TypeName { base, of } });
+        let mut factors = Vec::new();
+        while let Some((operator, _)) = type_name.peek().and_then(binary) {
+            type_name.next()?;
+            factors.push((operator, type_name.name()?));
+        }
+        arguments.push(Argument { name, type_name: TypeName { base, of, factors } });
     }
     Ok(arguments)
 }

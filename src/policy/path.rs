@@ -1,5 +1,7 @@
 //! What a `use` leads to.
 
+use std::path::Path;
+
 use crate::diagnostic::Diagnostic;
 
 use super::ast::{From, Use};
@@ -8,16 +10,20 @@ use super::standard::{MODULES, ROOT, text};
 
 /// The name of the file that `used` means in the file `using`: `std.` and a module, or a path. Paths are told apart by how
 /// they are written: links of the file system make no difference.
-pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Diagnostic> {
+pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>> {
     match &used.from {
-        From::Path(path) => match fault(path) {
-            None => Ok(join(using, path)),
-            Some(fault) => {
-                let message = format!("`{path}` is no path of a library");
-                Err(Diagnostic::error("P0601", message, used.span, fault)
-                    .hint("a path leads from this file to another, such as \"laws/corner.fsm\" or \"../corner.fsm\""))
+        From::Path(path) => {
+            match fault(path) {
+                None => Ok(join(using, path)),
+                Some(fault) => {
+                    let message = format!("`{path}` is no path of a library");
+                    let fault = Diagnostic::error("P0601", message, used.span, fault);
+                    Err(Box::new(fault.hint(
+                        "a path leads from this file to another, such as \"laws/corner.fsm\" or \"../corner.fsm\"",
+                    )))
+                }
             }
-        },
+        }
         From::Module(names) => {
             let known = MODULES.map(|(module, _)| format!("{ROOT}.{module}"));
             let written = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".");
@@ -27,9 +33,12 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Diagnostic> {
             let message = format!("there is no module `{written}`");
             let diagnostic = Diagnostic::error("P0601", message, used.span, "unknown module");
             let diagnostic = did_you_mean(diagnostic, &written, known.iter().map(String::as_str));
-            Err(diagnostic
-                .hint(format!("the standard library has {}", known.map(|module| format!("`{module}`")).join(", ")))
-                .hint("a file of your own stands in quotes: `use \"laws/corner.fsm\"`"))
+            let list = known.map(|module| format!("`{module}`")).join(", ");
+            Err(Box::new(
+                diagnostic
+                    .hint(format!("the standard library has {list}"))
+                    .hint("a file of your own stands in quotes: `use \"laws/corner.fsm\"`"),
+            ))
         }
     }
 }
@@ -47,7 +56,7 @@ fn fault(path: &str) -> Option<&'static str> {
         Some("a path begins at the file that it stands in, not at the root")
     } else if path.split('/').any(|part| part.trim() != part || part.is_empty()) {
         Some("a folder or the file has no name, or blanks around it")
-    } else if !path.ends_with(".fsm") {
+    } else if Path::new(path).extension().is_none_or(|extension| extension != "fsm") {
         Some("a library's file ends in `.fsm`")
     } else {
         None

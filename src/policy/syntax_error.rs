@@ -52,16 +52,17 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     if opened.is_none() && ["}", ")"].contains(&found) {
         return diagnostic.hint(format!("nothing is open that `{found}` could close"));
     }
-    match advice(found, source.text.split_at(at), rules) {
-        Some(advice) => diagnostic.hint(advice),
-        None => did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule))),
+    if let Some(advice) = advice(found, source.text.split_at(at), rules) {
+        return diagnostic.hint(advice);
     }
+    let others = rules.contains(&Rule::file).then_some("library");
+    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
 }
 
 /// The text ends where it should go on.
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
     let place = Span::new(at, at);
-    if rules.iter().any(|rule| matches!(rule, Rule::file | Rule::machine | Rule::kw_machine)) {
+    if rules.contains(&Rule::file) || rules.contains(&Rule::kw_machine) {
         return Diagnostic::error("P0101", "the file holds no policy", place, "expected `machine` and its name")
             .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
     }

@@ -2,7 +2,9 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
-use crate::machine::{BodyScalar, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, evaluate};
+use crate::machine::{
+    BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, evaluate,
+};
 use crate::units::{Dimension, format_si};
 
 /// A run of a policy in a scenario, and what must be true of it.
@@ -139,6 +141,10 @@ impl Senses for Numb {
     }
 
     fn tip_at(&self, _: usize, _: f64) -> Vector2 {
+        Vector2::repeat(f64::NAN)
+    }
+
+    fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
         Vector2::repeat(f64::NAN)
     }
 

@@ -5,6 +5,8 @@ use std::fmt;
 use crate::machine::Register;
 use crate::units::Dimension;
 
+use super::ast::{Binary, TypeName};
+
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Type {
@@ -26,6 +28,8 @@ impl Type {
     pub(super) const ANGLE: Self = Self::Scalar(Dimension::ANGLE);
     pub(super) const TIME: Self = Self::Scalar(Dimension::TIME);
     pub(super) const SPEED: Self = Self::Scalar(Dimension::SPEED);
+    /// A place or a way.
+    pub(super) const PLACE: Self = Self::Vector(Dimension::LENGTH);
     pub(super) const ANGULAR_SPEED: Self = Self::Scalar(Dimension::ANGULAR_SPEED);
 
     /// How many registers a value takes.
@@ -33,17 +37,27 @@ impl Type {
         if matches!(self, Self::Vector(_)) { 2 } else { 1 }
     }
 
-    /// The type that `base`, or `base of of`, names.
-    pub(super) fn named(base: &str, of: Option<&str>) -> Option<Self> {
-        match (base, of) {
-            ("whisker", None) => Some(Self::Whisker),
-            ("truth", None) => Some(Self::Truth),
-            ("vector", None) => Some(Self::Vector(Dimension::NUMBER)),
-            ("vector", Some(of)) => dimension(of).map(Self::Vector),
-            (base, None) => dimension(base).map(Self::Scalar),
+    /// The type that a name names, if it names one.
+    pub(super) fn named(name: &TypeName) -> Option<Self> {
+        let of = name.of.as_ref().map(|of| of.text.as_str());
+        match (name.base.text.as_str(), of) {
+            ("whisker", None) if name.factors.is_empty() => Some(Self::Whisker),
+            ("contour", None) if name.factors.is_empty() => Some(Self::Contour),
+            ("truth", None) if name.factors.is_empty() => Some(Self::Truth),
+            ("vector", None) if name.factors.is_empty() => Some(Self::Vector(Dimension::NUMBER)),
+            ("vector", Some(of)) => product(of, name).map(Self::Vector),
+            (base, None) => product(base, name).map(Self::Scalar),
             _ => None,
         }
     }
+}
+
+/// The dimension that `first` and the factors of a type's name make.
+fn product(first: &str, name: &TypeName) -> Option<Dimension> {
+    name.factors.iter().try_fold(dimension(first)?, |product, (operator, factor)| {
+        let factor = dimension(&factor.text)?;
+        if *operator == Binary::Divide { product.checked_div(factor) } else { product.checked_mul(factor) }
+    })
 }
 
 /// The dimensions that type names can name.
@@ -62,7 +76,7 @@ pub(super) const DIMENSIONS: [(&str, Dimension); 12] = [
     ("moment", Dimension::MOMENT),
 ];
 
-fn dimension(name: &str) -> Option<Dimension> {
+pub(super) fn dimension(name: &str) -> Option<Dimension> {
     DIMENSIONS.iter().find(|(known, _)| *known == name).map(|&(_, dimension)| dimension)
 }
 

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use vibrissa::geometry::{Point2, Pose, Vector2};
-use vibrissa::machine::{BodyScalar, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::motion::Steering;
 use vibrissa::rig::Rig;
 
@@ -60,6 +60,11 @@ impl Senses for Erratic {
     }
 
     fn tip_at(&self, whisker: usize, _: f64) -> Vector2 {
+        self.check(whisker);
+        self.vector()
+    }
+
+    fn contour_at(&self, whisker: usize, _: f64, _: ContourVector) -> Vector2 {
         self.check(whisker);
         self.vector()
     }

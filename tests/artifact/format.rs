@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use serde::de::DeserializeOwned;
-use vibrissa::machine::{BodyScalar, FORMAT, Op, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, WhiskerVector};
 
 /// The variants of an enum with the numbers that stand for them in an artifact.
 fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
@@ -17,7 +17,13 @@ fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
 /// Where this fails and artifacts have been handed out, raise [`FORMAT`]: what they say would be taken for something else.
 #[test]
 fn the_numbers_of_operations_and_quantities_belong_to_the_format() {
-    let lists = [numbered::<Op>(), numbered::<BodyScalar>(), numbered::<WhiskerScalar>(), numbered::<WhiskerVector>()];
+    let lists = [
+        numbered::<Op>(),
+        numbered::<BodyScalar>(),
+        numbered::<WhiskerScalar>(),
+        numbered::<WhiskerVector>(),
+        numbered::<ContourVector>(),
+    ];
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path("../../snapshots/artifact");
     settings.set_prepend_module_to_snapshot(false);

@@ -14,7 +14,7 @@ param fast = 50 mm/s in 1 .. 200 mm/s
 param free = 2
 let bend(w: whisker) = abs(w.deflection) + turn(w.yaw, body.yaw) * sign(w.side) * w.sense
 law touch(w: whisker, s: speed) {
-  let v = w.tip_at(bend(w)) + w.tip_base + w.base - w.tip - rotate(body.position, 1 rad)
+  let v = w.contour.point(1 mm) + w.tip_spread * (w.contour.normal + w.contour.tangent(exp(0) * 1 mm)) + w.tip_at(bend(w)) + w.tip_base + w.base - w.tip - rotate(body.position, 1 rad)
   if w.touching and not w.contour.ready or |v| < w.length { record w }
   else if w.contour.curvature == 0 rad/m { hold }
   else { steer w along v at s facing angle(w.contour.end - body.position) }

@@ -65,3 +65,12 @@ fn the_origin_names_file_text_and_compiler() {
     assert_eq!((origin.file.as_str(), origin.compiler.as_str()), ("empty.fsm", env!("CARGO_PKG_VERSION")));
     assert_ne!(origin.text_sha256, policies::everything().origin.text_sha256);
 }
+
+#[test]
+fn what_is_said_of_a_parameter_comes_along() {
+    let text = "machine m initial S param p = 1  # how  much\n# how far\nparam q = 2 m\nstate S { stop }";
+    let artifact = policies::artifact("m.fsm", text);
+    let back = Artifact::from_bytes(&artifact.to_bytes().unwrap()).unwrap();
+    let said: Vec<&str> = back.program.parameters.iter().map(|parameter| parameter.description.as_str()).collect();
+    assert_eq!(said, ["how much", "how far"]);
+}

@@ -261,3 +261,11 @@ fn the_largest_machine_fits_into_an_artifact_and_runs() {
     let bytes = artifact.to_bytes().unwrap();
     erratic::run(Artifact::from_bytes(&bytes).unwrap().program);
 }
+
+#[test]
+fn a_description_is_one_short_line() {
+    for description in ["two\nlines".to_owned(), "x".repeat(501), "\u{1b}[31mred".to_owned()] {
+        let told = refusal(|program| program.parameters[0].description = description);
+        assert!(told.contains("description"), "{told}");
+    }
+}

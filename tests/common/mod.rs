@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{Action, BodyScalar, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{
+    Action, BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
+};
 use vibrissa::policy::compile;
 
 /// What one whisker is like; numbers and truths as the machine sees them.
@@ -79,6 +81,7 @@ impl Senses for Script {
             WhiskerScalar::Yaw => 0.25,
             WhiskerScalar::Length => 0.1,
             WhiskerScalar::ContourCurvature => 3.0,
+            WhiskerScalar::TipSpread => 0.002,
         }
     }
 
@@ -89,11 +92,20 @@ impl Senses for Script {
             WhiskerVector::TipBase => Vector2::new(0.09, 0.01),
             WhiskerVector::Base => Vector2::new(0.2, 0.3),
             WhiskerVector::ContourEnd => Vector2::new(0.31, 0.39),
+            WhiskerVector::ContourNormal => Vector2::new(0.6, -0.8),
         }
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
         Vector2::new(whisker as f64, deflection)
+    }
+
+    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {
+        match quantity {
+            ContourVector::Point => Vector2::new(whisker as f64, -back),
+            ContourVector::Tangent => Vector2::new(back, 1.0),
+            ContourVector::Normal => Vector2::new(-1.0, back),
+        }
     }
 
     fn record(&mut self, whisker: usize) {

@@ -89,6 +89,8 @@ impl<'m> Bounds<'m> {
             Op::SquareRoot { to, a } => one(self, to, a, Interval::square_root),
             Op::Sine { to, a } => one(self, to, a, Interval::sine),
             Op::Cosine { to, a } => one(self, to, a, Interval::cosine),
+            Op::Exponential { to, a } => one(self, to, a, Interval::exponential),
+            Op::Floor { to, a } => one(self, to, a, Interval::floor),
             Op::Wrap { to, a } => one(self, to, a, Interval::wrapped),
             Op::Not { to, a } => one(self, to, a, Interval::not),
             Op::Add { .. }
@@ -135,8 +137,8 @@ impl<'m> Bounds<'m> {
                 let value = values.reduce(|[x, y], [u, v]| [x.join(u), y.join(v)]).unwrap_or([Interval::ANYTHING; 2]);
                 self.put_vector(to, value);
             }
-            Op::TipAt { to, .. } => {
-                // Where tips would be is up to the rig's whiskers.
+            Op::TipAt { to, .. } | Op::ContourAt { to, .. } => {
+                // Where tips would be is up to the rig's whiskers, and a contour's course to the object.
                 region.is_partial = true;
                 self.put_vector(to, [Interval::ANYTHING; 2]);
             }

@@ -113,7 +113,7 @@ fn is_felt_freely(model: &Model<'_>, point: &Point) -> bool {
                 || matches!(model.domain(register), None | Some(Domain::Values(_)))
         }
         Unknown::Whisker(_, quantity) => quantity == WhiskerScalar::ContourCurvature,
-        Unknown::WhiskerVector(..) => false,
+        Unknown::WhiskerVector(..) | Unknown::Away(_) => false,
         Unknown::Time
         | Unknown::Body(_)
         | Unknown::BodyPosition(_)

@@ -93,6 +93,8 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         | Op::Maximum { to, .. }
         | Op::Sine { to, .. }
         | Op::Cosine { to, .. }
+        | Op::Exponential { to, .. }
+        | Op::Floor { to, .. }
         | Op::Wrap { to, .. }
         | Op::Less { to, .. }
         | Op::LessOrEqual { to, .. }
@@ -111,7 +113,8 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         | Op::Rotate { to, .. }
         | Op::BodyPosition { to }
         | Op::WhiskerVector { to, .. }
-        | Op::TipAt { to, .. } => to..to + 2,
+        | Op::TipAt { to, .. }
+        | Op::ContourAt { to, .. } => to..to + 2,
         Op::Clear { memory, count } => memory..memory + count,
         Op::JumpUnless { .. }
         | Op::Jump { .. }

@@ -240,6 +240,20 @@ impl Interval {
         }
     }
 
+    pub(super) fn exponential(self) -> Self {
+        let Self { low, high, .. } = self.rising(f64::exp).widened();
+        Self { low: low.max(0.0), high, nan: self.nan }
+    }
+
+    pub(super) fn floor(self) -> Self {
+        self.rising(f64::floor)
+    }
+
+    /// What a function gives that never falls.
+    fn rising(self, function: fn(f64) -> f64) -> Self {
+        if self.is_empty() { self } else { Self { low: function(self.low), high: function(self.high), nan: self.nan } }
+    }
+
     pub(super) fn wrapped(self) -> Self {
         let nan = self.nan || self.has_infinity();
         if self.is_empty() || (self.low > WRAP_SLACK - PI && self.high <= PI) {

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::geometry::Vector2;
-use crate::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 
 use super::interval::Interval;
 use super::model::Model;
@@ -170,6 +170,11 @@ impl Senses for Point {
 
     fn tip_at(&self, _: usize, _: f64) -> Vector2 {
         // Regions in which this is asked for have no points.
+        Vector2::new(f64::NAN, f64::NAN)
+    }
+
+    fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
+        // As for `tip_at`.
         Vector2::new(f64::NAN, f64::NAN)
     }
 

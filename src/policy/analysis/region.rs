@@ -103,7 +103,9 @@ impl<'m> Region<'m> {
                 self.narrow(Unknown::Deflection(whisker), side)
             }
             WhiskerScalar::ContourReady => self.narrow(Unknown::Ready(whisker), to),
-            WhiskerScalar::Yaw | WhiskerScalar::Length => self.narrow(Unknown::Whisker(whisker, quantity), to),
+            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread => {
+                self.narrow(Unknown::Whisker(whisker, quantity), to)
+            }
             WhiskerScalar::ContourCurvature => {
                 // A number can only come of a contour that is ready.
                 to.nan
@@ -116,7 +118,7 @@ impl<'m> Region<'m> {
     /// Keeps of a whisker only what makes a vector of it lie in intervals; false if nothing does.
     pub(super) fn narrow_vector(&mut self, whisker: usize, quantity: WhiskerVector, to: [Interval; 2]) -> bool {
         match quantity {
-            WhiskerVector::ContourTangent => {
+            WhiskerVector::ContourTangent | WhiskerVector::ContourNormal => {
                 to.iter().all(|to| to.nan) || self.narrow(Unknown::Ready(whisker), Interval::point(1.0))
             }
             WhiskerVector::ContourEnd | WhiskerVector::Tip | WhiskerVector::TipBase | WhiskerVector::Base => {

@@ -30,6 +30,8 @@ pub(super) enum Unknown {
     Ready(usize),
     /// The direction of a whisker's contour (rad).
     Travel(usize),
+    /// The direction away from a whisker's object (rad).
+    Away(usize),
     /// Any other number of a whisker.
     Whisker(usize, WhiskerScalar),
     /// One coordinate of any other vector of a whisker.
@@ -59,8 +61,9 @@ impl Domain {
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             Unknown::Deflection(_) => range(-FRAC_PI_2, FRAC_PI_2),
             Unknown::Ready(_) => Self::Values(vec![1.0, 0.0]),
-            Unknown::Travel(_) => range(-PI, PI),
+            Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
             Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
+            Unknown::Whisker(_, WhiskerScalar::TipSpread) => range(0.0, f64::INFINITY),
             Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => range(-FAR, FAR),
         }
     }
@@ -163,7 +166,9 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
             let curvature = source.range(Unknown::Whisker(whisker, quantity));
             once_ready(source, whisker, curvature)
         }
-        WhiskerScalar::Yaw | WhiskerScalar::Length => source.range(Unknown::Whisker(whisker, quantity)),
+        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread => {
+            source.range(Unknown::Whisker(whisker, quantity))
+        }
     }
 }
 
@@ -173,6 +178,10 @@ pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: Whisker
         WhiskerVector::ContourTangent => {
             let travel = source.range(Unknown::Travel(whisker));
             [travel.cosine(), travel.sine()].map(|part| once_ready(source, whisker, part))
+        }
+        WhiskerVector::ContourNormal => {
+            let away = source.range(Unknown::Away(whisker));
+            [away.cosine(), away.sine()].map(|part| once_ready(source, whisker, part))
         }
         WhiskerVector::ContourEnd => {
             // There is an end before there is a tangent, and before the first point there is none.

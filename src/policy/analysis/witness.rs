@@ -99,7 +99,7 @@ fn dimension(model: &Model<'_>, unknown: Unknown) -> Dimension {
     let r#type = match unknown {
         Unknown::Register(register) => model.named(register).map(|named| named.r#type),
         Unknown::Time => Some(Type::TIME),
-        Unknown::Deflection(_) | Unknown::Travel(_) => Some(Type::ANGLE),
+        Unknown::Deflection(_) | Unknown::Travel(_) | Unknown::Away(_) => Some(Type::ANGLE),
         Unknown::Body(quantity) => member(MemberSource::Body(quantity)).map(|(_, member)| member.r#type),
         Unknown::Whisker(_, quantity) => member(MemberSource::Scalar(quantity)).map(|(_, member)| member.r#type),
         Unknown::BodyPosition(_) => Some(Type::LENGTH),

@@ -30,9 +30,8 @@ struct Builder<'f> {
 impl Builder<'_> {
     fn state(&self, state: &ast::State, file: &File) -> State {
         let arguments = state.arguments.iter().map(|argument| {
-            let ast::TypeName { base, of } = &argument.type_name;
-            let span = of.as_ref().map_or(base.span, |of| base.span.to(of.span));
-            Argument { name: argument.name.text.clone(), type_name: self.text(span) }
+            let type_name = self.text(argument.type_name.span());
+            Argument { name: argument.name.text.clone(), type_name }
         });
         let outer = state.parent.map(|parent| &file.states[parent]);
         let begin = outer.into_iter().flat_map(|outer| &outer.initial).find(|step| step.name.text == state.name.text);

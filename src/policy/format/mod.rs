@@ -51,6 +51,27 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     }
     Ok(text)
 }
+
+/// Words that can stand in an item and outside of every bracket, but for the one that it begins with.
+const WITHIN_ITEMS: [&str; 7] = ["in", "and", "or", "not", "true", "false", "body"];
+
+/// The comment at the end of a line that begins with the name of an item, if it belongs to that item: if it stands behind the
+/// item's end, or directly behind the brace that opens its block.
+pub(super) fn comment_behind(line: &str) -> Option<&str> {
+    let (mut open, mut is_opened) = (0_usize, false);
+    for token in token::tokens(line) {
+        match token.kind {
+            token::Kind::Comment => return (open == 0 || is_opened).then_some(token.text),
+            token::Kind::Keyword if open == 0 && !WITHIN_ITEMS.contains(&token.text) => return None,
+            _ if token.is("(") || token.is("{") => open += 1,
+            _ if token.is(")") || token.is("}") => open = open.saturating_sub(1),
+            _ => {}
+        }
+        is_opened = open == 1 && token.is("{");
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

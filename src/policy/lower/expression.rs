@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::Op;
 use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
-use crate::policy::builtins::{self, Member, MemberSource};
+use crate::policy::builtins::{self, At, Member, MemberSource};
 use crate::policy::hint::did_you_mean;
 use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
@@ -70,6 +70,7 @@ impl<'f> Compiler<'f> {
             (Type::Truth, Type::Scalar(_)) => {
                 diagnostic = diagnostic.hint("compare it with something, such as `x > 0`");
             }
+            (Type::Contour, Type::Whisker) => diagnostic = diagnostic.hint("`w.contour` is the contour of a whisker"),
             (Type::Truth, Type::Whisker) => {
                 diagnostic = diagnostic.hint("`w.touching` tells whether a whisker touches");
             }
@@ -184,33 +185,35 @@ impl<'f> Compiler<'f> {
         values: Option<&'f [Expression]>,
     ) -> Option<Value> {
         let whisker = owner.register;
-        let register = match (member.source, values) {
-            (MemberSource::TipAt, Some([deflection])) => {
-                let a = self.expect(scope, deflection, Type::ANGLE)?.register;
-                self.code.vector(|to| Op::TipAt { to, whisker, a })
+        let register = match (member.source, member.at, values) {
+            (_, Some(at), Some([value])) => {
+                let a = self.expect(scope, value, at.takes().1)?.register;
+                self.code.vector(|to| match at {
+                    At::Tip => Op::TipAt { to, whisker, a },
+                    At::Contour(quantity) => Op::ContourAt { to, whisker, a, quantity },
+                })
             }
-            (MemberSource::TipAt, _) => {
-                let message = format!("`{}` needs one value, the deflection", name.text);
-                let diagnostic = Diagnostic::error("P0304", message, name.span, "which deflection?");
-                self.report(diagnostic.hint(format!("write `{}(300 urad)`", name.text)));
+            (source, Some(at), given) if given.is_some() || source == MemberSource::At => {
+                let (value, _, example) = at.takes();
+                let message = format!("`{}` needs one value, the {value}", name.text);
+                let diagnostic = Diagnostic::error("P0304", message, name.span, format!("which {value}?"));
+                self.report(diagnostic.hint(format!("write `{}({example})`", name.text)));
                 return None;
             }
-            (MemberSource::Visits, values) => self.run_of_state(RunFigure::Visits, name, values)?,
-            (MemberSource::TimeIn, values) => self.run_of_state(RunFigure::TimeIn, name, values)?,
-            (_, Some(_)) => {
+            (MemberSource::Visits, ..) => self.run_of_state(RunFigure::Visits, name, values)?,
+            (MemberSource::TimeIn, ..) => self.run_of_state(RunFigure::TimeIn, name, values)?,
+            (_, _, Some(_)) => {
                 let message = format!("`{}` takes no values", name.text);
                 let diagnostic = Diagnostic::error("P0304", message, name.span, "called like a function");
                 self.report(diagnostic.hint("leave out the parentheses"));
                 return None;
             }
-            (MemberSource::Contour, None) => whisker,
-            (MemberSource::Scalar(quantity), None) => self.code.scalar(|to| Op::Whisker { to, whisker, quantity }),
-            (MemberSource::Vector(quantity), None) => {
-                self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity })
-            }
-            (MemberSource::Body(quantity), None) => self.code.scalar(|to| Op::Body { to, quantity }),
-            (MemberSource::Run(figure), None) => self.figure(figure, name.span),
-            (MemberSource::BodyPosition, None) => self.code.vector(|to| Op::BodyPosition { to }),
+            (MemberSource::Contour | MemberSource::At, ..) => whisker,
+            (MemberSource::Scalar(quantity), ..) => self.code.scalar(|to| Op::Whisker { to, whisker, quantity }),
+            (MemberSource::Vector(quantity), ..) => self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity }),
+            (MemberSource::Body(quantity), ..) => self.code.scalar(|to| Op::Body { to, quantity }),
+            (MemberSource::BodyPosition, ..) => self.code.vector(|to| Op::BodyPosition { to }),
+            (MemberSource::Run(figure), ..) => self.figure(figure, name.span),
         };
         Some(Value { r#type: member.r#type, register })
     }

@@ -47,11 +47,12 @@ impl<'f> Compiler<'f> {
                 let raised = self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) });
                 scalar(a, self.code.scalar(|to| Op::Minimum { to, a: raised, b: register(2) }))
             }
-            (Function::Sin, &[Type::ANGLE]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Sine { to, a: register(0) }))
+            (Function::Sin | Function::Cos | Function::Tan, &[Type::ANGLE])
+            | (Function::Exp | Function::Floor, &[Type::NUMBER]) => {
+                scalar(Dimension::NUMBER, self.elementary(function, register(0)))
             }
-            (Function::Cos, &[Type::ANGLE]) => {
-                scalar(Dimension::NUMBER, self.code.scalar(|to| Op::Cosine { to, a: register(0) }))
+            (Function::Asin | Function::Acos, &[Type::NUMBER]) => {
+                scalar(Dimension::ANGLE, self.arc(function, register(0)))
             }
             (Function::Direction, &[Type::ANGLE]) => {
                 let to = self.code.place(2);
@@ -78,6 +79,9 @@ impl<'f> Compiler<'f> {
                 let difference = self.code.scalar(|to| Op::Subtract { to, a: register(1), b: register(0) });
                 scalar(Dimension::ANGLE, self.code.scalar(|to| Op::Wrap { to, a: difference }))
             }
+            (Function::Wrap, &[Type::ANGLE]) => {
+                scalar(Dimension::ANGLE, self.code.scalar(|to| Op::Wrap { to, a: register(0) }))
+            }
             (Function::Dot | Function::Cross, &[Type::Vector(a), Type::Vector(b)]) => {
                 let dimension = self.dimension(a.checked_mul(b), span)?;
                 scalar(dimension, self.product(function, register(0), register(1)))
@@ -103,7 +107,10 @@ impl<'f> Compiler<'f> {
                     [] => format!("`{usage}` needs its values"),
                     _ => format!("`{usage}` does not take {}", found.join(", ")),
                 };
-                self.report(Diagnostic::error("P0304", message, span, "these values").hint(expectation(function)));
+                self.report(
+                    Diagnostic::error("P0304", message, span, "these values")
+                        .hint(format!("it takes {}", function.takes())),
+                );
                 None
             }
         }
@@ -114,6 +121,35 @@ impl<'f> Compiler<'f> {
         let memory = self.code.place(count);
         self.memories.push((memory, count));
         memory
+    }
+
+    /// A function of one number.
+    fn elementary(&mut self, function: Function, a: u16) -> u16 {
+        match function {
+            Function::Cos => self.code.scalar(|to| Op::Cosine { to, a }),
+            Function::Tan => {
+                let (a, b) = (self.elementary(Function::Sin, a), self.elementary(Function::Cos, a));
+                self.code.scalar(|to| Op::Divide { to, a, b })
+            }
+            Function::Exp => self.code.scalar(|to| Op::Exponential { to, a }),
+            Function::Floor => self.code.scalar(|to| Op::Floor { to, a }),
+            _ => self.code.scalar(|to| Op::Sine { to, a }),
+        }
+    }
+
+    /// The angle with the sine or the cosine `x`: that of a vector of length 1. Not a number unless there is one.
+    fn arc(&mut self, function: Function, x: u16) -> u16 {
+        let one = self.code.constant(1.0);
+        // 1 - x² without the loss of digits near 1.
+        let below = self.code.scalar(|to| Op::Subtract { to, a: one, b: x });
+        let above = self.code.scalar(|to| Op::Add { to, a: one, b: x });
+        let rest = self.code.scalar(|to| Op::Multiply { to, a: below, b: above });
+        let other = self.code.scalar(|to| Op::SquareRoot { to, a: rest });
+        let sides = if function == Function::Asin { [other, x] } else { [x, other] };
+        let vector = self.code.place(2);
+        self.code.push(Op::Copy { to: vector, a: sides[0] });
+        self.code.push(Op::Copy { to: vector + 1, a: sides[1] });
+        self.code.scalar(|to| Op::Angle { to, a: vector })
     }
 
     /// The dot or the cross product of two vectors.
@@ -180,8 +216,7 @@ impl<'f> Compiler<'f> {
         let mut complete = true;
         for (argument, value) in arguments.iter().zip(values) {
             // An unknown type is reported where the law itself is checked.
-            let of = argument.type_name.of.as_ref().map(|of| of.text.as_str());
-            let value = match Type::named(&argument.type_name.base.text, of) {
+            let value = match Type::named(&argument.type_name) {
                 Some(r#type) => self.expect(scope, value, r#type),
                 None => self.expression(scope, value).and(None),
             };
@@ -218,24 +253,4 @@ fn square_root(dimension: Dimension) -> Option<Dimension> {
     let Dimension { length, angle, time, mass } = dimension;
     let even = [length, angle, time, mass].iter().all(|exponent| exponent % 2 == 0);
     even.then(|| Dimension::new(length / 2, angle / 2, time / 2, mass / 2))
-}
-
-/// What a function takes.
-fn expectation(function: Function) -> &'static str {
-    match function {
-        Function::Abs | Function::Sign => "it takes one number of any dimension",
-        Function::Sqrt => "it takes one number whose dimension is a square, such as an area",
-        Function::Min | Function::Max | Function::Vector => "it takes two numbers of one dimension",
-        Function::Clamp => "it takes three numbers of one dimension: what to clamp, the least, the greatest",
-        Function::Sin | Function::Cos | Function::Direction => "it takes one angle",
-        Function::Unit | Function::Angle => "it takes one vector",
-        Function::Rotate => "it takes a vector and an angle",
-        Function::Turn => "it takes two angles and gives the shorter turn from the first to the second",
-        Function::Dot | Function::Cross => "it takes two vectors",
-        Function::LowPass => "it takes a number and a frequency",
-        Function::Pid => {
-            "it takes the error, gains for its value, its integral and its change, and the output's limit; each gain times what \
-             it is for has the dimension of the limit"
-        }
-    }
 }

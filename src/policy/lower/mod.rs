@@ -24,7 +24,7 @@ use super::ast::{Argument, Name, Statement, TypeName};
 use super::hint::did_you_mean;
 use super::load::Files;
 use super::test::{FigurePlace, PolicyTest};
-use super::types::{DIMENSIONS, Type, Value};
+use super::types::{DIMENSIONS, Type, Value, dimension};
 use code::Code;
 use hierarchy::Hierarchy;
 use names::Names;
@@ -193,8 +193,7 @@ impl<'f> Compiler<'f> {
 
     /// The type that a name names, if it names one.
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
-        let of = name.of.as_ref().map(|of| of.text.as_str());
-        let found = Type::named(&name.base.text, of);
+        let found = Type::named(name);
         if found.is_none() {
             self.report(unknown_type(name));
         }
@@ -206,22 +205,31 @@ impl<'f> Compiler<'f> {
 fn unknown_type(name: &TypeName) -> Diagnostic {
     let dimensions = DIMENSIONS.iter().map(|&(known, _)| known);
     let list = dimensions.clone().collect::<Vec<_>>().join(", ");
+    let is_dimension = |part: &Name| dimension(&part.text).is_some();
+    let first = name.of.as_ref().unwrap_or(&name.base);
     match &name.of {
         Some(of) if name.base.text != "vector" => {
             let message = format!("`{}` is of nothing", name.base.text);
             Diagnostic::error("P0204", message, name.base.span.to(of.span), "only a vector is `of` a dimension")
                 .hint(format!("write `{}` alone, or `vector of {}`", name.base.text, of.text))
         }
-        Some(of) => {
-            let message = format!("there is no dimension `{}`", of.text);
-            let diagnostic = Diagnostic::error("P0204", message, of.span, "unknown dimension");
-            did_you_mean(diagnostic, &of.text, dimensions).hint(format!("dimensions are {list}"))
-        }
-        None => {
+        None if name.factors.is_empty() => {
             let message = format!("there is no type `{}`", name.base.text);
             let diagnostic = Diagnostic::error("P0204", message, name.base.span, "unknown type");
-            did_you_mean(diagnostic, &name.base.text, dimensions.chain(["whisker", "truth", "vector"]))
-                .hint(format!("types are whisker, truth, {list}, vector, and `vector of` a dimension"))
+            did_you_mean(diagnostic, &name.base.text, dimensions.chain(["whisker", "contour", "truth", "vector"]))
+                .hint(format!("types are whisker, contour, truth, {list}, vector, and `vector of` a dimension"))
         }
+        _ => match std::iter::once(first)
+            .chain(name.factors.iter().map(|(_, part)| part))
+            .find(|&part| !is_dimension(part))
+        {
+            Some(part) => {
+                let message = format!("there is no dimension `{}`", part.text);
+                let diagnostic = Diagnostic::error("P0204", message, part.span, "unknown dimension");
+                did_you_mean(diagnostic, &part.text, dimensions).hint(format!("dimensions are {list}"))
+            }
+            None => Diagnostic::error("P0305", "the dimension has too large an exponent", name.span(), "of this")
+                .hint("no physical quantity needs such a power"),
+        },
     }
 }

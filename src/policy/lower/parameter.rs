@@ -44,7 +44,13 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.note(low_bound.span.to(high_bound.span), "the range"));
             }
         }
-        Some(machine::Parameter { name: parameter.name.text.clone(), dimension, default, range })
+        Some(machine::Parameter {
+            name: parameter.name.text.clone(),
+            description: String::new(),
+            dimension,
+            default,
+            range,
+        })
     }
 
     /// A bound's SI value and dimension; without a unit of its own it takes that of `other`.

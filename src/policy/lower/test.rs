@@ -130,6 +130,7 @@ fn reads_a_tick(op: &Op) -> bool {
             | Op::Whisker { .. }
             | Op::WhiskerVector { .. }
             | Op::TipAt { .. }
+            | Op::ContourAt { .. }
             | Op::LowPass { .. }
             | Op::Pid { .. }
     )

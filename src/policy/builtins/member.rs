@@ -1,0 +1,210 @@
+//! Members of whiskers, contours, the body and a run.
+
+use crate::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
+use crate::policy::test::RunFigure;
+use crate::policy::types::Type;
+use crate::units::Dimension;
+
+/// A member of a whisker, a contour or the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::policy) struct Member {
+    pub(in crate::policy) name: &'static str,
+    pub(in crate::policy) r#type: Type,
+    pub(in crate::policy) source: MemberSource,
+    /// What it gives for a value in parentheses, if it takes one.
+    pub(in crate::policy) at: Option<At>,
+    /// What it means, for the reference page.
+    pub(in crate::policy) meaning: &'static str,
+}
+
+/// Where a member's value comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::policy) enum MemberSource {
+    Scalar(WhiskerScalar),
+    Vector(WhiskerVector),
+    /// The contour of the whisker, which is known by the whisker.
+    Contour,
+    Body(BodyScalar),
+    BodyPosition,
+    /// Only for a value.
+    At,
+    Run(RunFigure),
+    /// How often a state was entered that is given as a value.
+    Visits,
+    /// For how long a state was active that is given as a value.
+    TimeIn,
+}
+
+/// What a member gives for a value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::policy) enum At {
+    /// The tip's place at a deflection.
+    Tip,
+    /// A vector of the contour at a distance behind its end.
+    Contour(ContourVector),
+}
+
+impl At {
+    /// What the value is, its type, and an example.
+    pub(in crate::policy) fn takes(self) -> (&'static str, Type, &'static str) {
+        match self {
+            Self::Tip => ("deflection", Type::ANGLE, "300 urad"),
+            Self::Contour(_) => ("distance behind the end", Type::LENGTH, "5 mm"),
+        }
+    }
+}
+
+const fn member(name: &'static str, r#type: Type, source: MemberSource, meaning: &'static str) -> Member {
+    Member { name, r#type, source, at: None, meaning }
+}
+
+const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::Scalar(quantity), meaning)
+}
+
+const fn place(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
+    member(name, Type::PLACE, MemberSource::Vector(quantity), meaning)
+}
+
+const WHISKER: [Member; 12] = [
+    scalar(
+        "deflection",
+        Type::ANGLE,
+        WhiskerScalar::Deflection,
+        "the filtered angle of its base, counter-clockwise positive",
+    ),
+    scalar(
+        "touching",
+        Type::Truth,
+        WhiskerScalar::Touching,
+        "whether the deflection is beyond the rig's contact threshold",
+    ),
+    scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of its straight shaft"),
+    scalar("side", Type::NUMBER, WhiskerScalar::Side, "\u{2212}1 on the right, 1 on the left"),
+    scalar(
+        "sense",
+        Type::NUMBER,
+        WhiskerScalar::Sense,
+        "1 when bent as forward motion bends it, \u{2212}1 when bent the other way, 0 when not touching",
+    ),
+    scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of its shaft"),
+    place("tip", WhiskerVector::Tip, "where its tip touches, by the tip model"),
+    place("tip_base", WhiskerVector::TipBase, "the same seen from its base: x along the straight shaft, y to its left"),
+    scalar(
+        "tip_spread",
+        Type::LENGTH,
+        WhiskerScalar::TipSpread,
+        "how far off `tip` may be, as a standard deviation: what the sensor's noise and a surface 10 deg off the heading do to it; \
+         infinite beyond the tip model's range",
+    ),
+    place("base", WhiskerVector::Base, "its base"),
+    Member {
+        at: Some(At::Tip),
+        ..member(
+            "tip_at",
+            Type::PLACE,
+            MemberSource::At,
+            "where the tip would touch at another deflection, seen from its base",
+        )
+    },
+    member("contour", Type::Contour, MemberSource::Contour, "what `record` has gathered behind its tip"),
+];
+
+const CONTOUR: [Member; 6] = [
+    scalar(
+        "ready",
+        Type::Truth,
+        WhiskerScalar::ContourReady,
+        "whether there are seven points, each a millimetre or more from the last; the curve is fitted to the newest seven",
+    ),
+    Member {
+        at: Some(At::Contour(ContourVector::Tangent)),
+        ..member(
+            "tangent",
+            Type::Vector(Dimension::NUMBER),
+            MemberSource::Vector(WhiskerVector::ContourTangent),
+            "the direction of travel at its end, or a distance behind it",
+        )
+    },
+    Member {
+        at: Some(At::Contour(ContourVector::Normal)),
+        ..member(
+            "normal",
+            Type::Vector(Dimension::NUMBER),
+            MemberSource::Vector(WhiskerVector::ContourNormal),
+            "the direction away from the object: square to the tangent, on the side on which the whisker's base was when the newest \
+             point was taken",
+        )
+    },
+    place("end", WhiskerVector::ContourEnd, "its newest point"),
+    Member {
+        at: Some(At::Contour(ContourVector::Point)),
+        ..member("point", Type::PLACE, MemberSource::At, "the point of the curve at a distance behind its end")
+    },
+    scalar(
+        "curvature",
+        Type::Scalar(Dimension::new(-1, 1, 0, 0)),
+        WhiskerScalar::ContourCurvature,
+        "the curvature at its end, counter-clockwise positive",
+    ),
+];
+
+const BODY: [Member; 2] = [
+    member("yaw", Type::ANGLE, MemberSource::Body(BodyScalar::Yaw), "its heading; it counts whole turns"),
+    member("position", Type::PLACE, MemberSource::BodyPosition, "its centre of mass"),
+];
+
+const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::Run(figure), meaning)
+}
+
+const RUN: [Member; 12] = [
+    figure(
+        "completed",
+        Type::Truth,
+        RunFigure::Completed,
+        "whether it ended as it should: the loop closed, or the time of a scenario without a loop was up",
+    ),
+    figure("failed", Type::Truth, RunFigure::Failed, "whether the policy gave up"),
+    figure("timed_out", Type::Truth, RunFigure::TimedOut, "whether the time was up before the loop closed"),
+    figure("diverged", Type::Truth, RunFigure::Diverged, "whether the simulation could not be trusted"),
+    figure("time", Type::TIME, RunFigure::Time, "how much time was simulated"),
+    figure(
+        "error_mean",
+        Type::LENGTH,
+        RunFigure::ErrorMean,
+        "how far the recorded tips were from the object, on average",
+    ),
+    figure("error_p95", Type::LENGTH, RunFigure::ErrorP95, "the 95th percentile of that"),
+    figure("error_max", Type::LENGTH, RunFigure::ErrorMax, "the maximum of that"),
+    figure(
+        "hausdorff",
+        Type::LENGTH,
+        RunFigure::Hausdorff,
+        "the Hausdorff distance between the measured contour and the object's",
+    ),
+    figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the object's outline that was traced, 0 to 1"),
+    member(
+        "visits",
+        Type::NUMBER,
+        MemberSource::Visits,
+        "how often a tick ended in the state that is given, or in one within it, and the tick before did not",
+    ),
+    member(
+        "time_in",
+        Type::TIME,
+        MemberSource::TimeIn,
+        "for how long the state that is given, or one within it, was active",
+    ),
+];
+
+/// The members of a type.
+pub(in crate::policy) fn members(owner: Type) -> &'static [Member] {
+    match owner {
+        Type::Whisker => &WHISKER,
+        Type::Contour => &CONTOUR,
+        Type::Body => &BODY,
+        Type::Run => &RUN,
+        Type::Truth | Type::Scalar(_) | Type::Vector(_) => &[],
+    }
+}

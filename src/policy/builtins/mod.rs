@@ -1,0 +1,26 @@
+//! What the language offers: members of whiskers, contours and the body, and functions. The checker reads these tables, and the
+//! reference page is made of them.
+
+mod function;
+mod member;
+#[cfg(test)]
+mod reference;
+
+pub(super) use function::{FUNCTIONS, Function, function};
+pub(super) use member::{At, Member, MemberSource, members};
+
+#[cfg(test)]
+mod tests {
+    use super::FUNCTIONS;
+    use crate::policy::types::DIMENSIONS;
+
+    #[test]
+    fn the_editors_grammar_lists_the_functions_and_types_of_the_language() {
+        let grammar = include_str!("../../../editors/vscode/syntaxes/fsm.tmLanguage.json");
+        let list =
+            |words: &mut dyn Iterator<Item = &'static str>| format!(r"\\b({})\\b", words.collect::<Vec<_>>().join("|"));
+        assert!(grammar.contains(&list(&mut FUNCTIONS.iter().map(|&(name, ..)| name))));
+        let types = ["truth", "contour", "vector"].into_iter().chain(DIMENSIONS.map(|(name, _)| name));
+        assert!(grammar.contains(&list(&mut { types })));
+    }
+}

@@ -1,0 +1,141 @@
+//! The reference page, made of the tables that the checker reads.
+
+use std::fmt::Write;
+
+use crate::diagnostic::Source;
+use crate::policy::ast::{Argument, Name};
+use crate::policy::description::description;
+use crate::policy::parse::parse;
+use crate::policy::standard::{MODULES, ROOT};
+use crate::policy::types::{DIMENSIONS, Type};
+use crate::units::{Dimension, units_of};
+
+use super::{At, FUNCTIONS, MemberSource, members};
+
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
+
+#[test]
+fn the_reference_page_is_up_to_date() {
+    let page = page();
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        std::fs::write(PAGE, &page).unwrap_or_else(|cause| panic!("{PAGE}: {cause}"));
+    }
+    let found = std::fs::read_to_string(PAGE).unwrap_or_default();
+    assert!(found == page, "docs/reference.md is stale; run `INSTA_UPDATE=always cargo test --lib reference`");
+}
+
+fn page() -> String {
+    let mut page = "\
+# Reference of the policy language
+
+What policies can read and call, with types and units. A test makes this page of the tables that the checker reads; to change
+it, change these, and run `INSTA_UPDATE=always cargo test --lib reference`. How the language works is in
+[language.md](language.md).
+
+Places and directions are in the world (x right, y up) unless said otherwise.
+
+## Types
+
+| type | units |
+|---|---|
+| `truth` | `true` or `false` |
+| `whisker` | one of the bound whiskers |
+| `contour` | the contour of a whisker: `w.contour` |
+"
+    .to_owned();
+    for (name, dimension) in DIMENSIONS {
+        let units = if dimension == Dimension::NUMBER {
+            "a plain number, without a unit".to_owned()
+        } else {
+            units_of(dimension)
+                .iter()
+                .map(|unit| format!("`{}`", unit.replace(' ', "*")))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        row(&mut page, [&format!("`{name}`"), &units]);
+    }
+    page += "\
+| `vector`, `vector of length`, \u{2026} | x and y, plain or of one dimension |
+| `angular_speed / length`, `vector of length / time`, \u{2026} | products and quotients of dimensions |
+
+## Names
+
+| name | type | is |
+|---|---|---|
+";
+    row(&mut page, ["`time`", &shown(Type::TIME), "the time since the start of the run"]);
+    for (owner, prefix) in [(Type::Body, "body"), (Type::Whisker, "w"), (Type::Contour, "c"), (Type::Run, "run")] {
+        page += match owner {
+            Type::Body => "",
+            Type::Whisker => "\n## Members of a whisker `w`\n\n| member | type | is |\n|---|---|---|\n",
+            Type::Run => {
+                "\n## Members of `run`, in the expectations of a test\n\n| member | type | is |\n|---|---|---|\n"
+            }
+            _ => {
+                "\n## Members of a contour `c`, such as `w.contour`\n\nA distance `back` is a length, and counts along the curve; \
+                 it leads no farther back than the curve's beginning.\n\n| member | type | is |\n|---|---|---|\n"
+            }
+        };
+        for member in members(owner) {
+            let plain = format!("`{prefix}.{}`", member.name);
+            let with_value = member.at.map(|at| format!("`{prefix}.{}({})`", member.name, value(at)));
+            let usage = match (member.source, with_value) {
+                (MemberSource::At, Some(usage)) => usage,
+                (MemberSource::Visits | MemberSource::TimeIn, _) => format!("`{prefix}.{}(State)`", member.name),
+                (_, Some(usage)) => format!("{plain}, {usage}"),
+                (_, None) => plain,
+            };
+            row(&mut page, [&usage, &shown(member.r#type), member.meaning]);
+        }
+    }
+    page += "\n## Functions\n\n| function | takes | gives |\n|---|---|---|\n";
+    for (_, function, usage, meaning) in FUNCTIONS {
+        row(&mut page, [&format!("`{usage}`"), function.takes(), meaning]);
+    }
+    standard(&mut page);
+    page
+}
+
+/// The standard library, as its files describe themselves.
+fn standard(page: &mut String) {
+    *page += "\n## The standard library\n";
+    for (module, text) in MODULES {
+        let source = Source::new(module, text);
+        let file = parse(&source, 0).unwrap_or_else(|fault| panic!("{module}: {fault:?}"));
+        let about =
+            text.lines().take_while(|line| line.starts_with('#')).map(|line| line.trim_start_matches(['#', ' ']));
+        let about = about.collect::<Vec<_>>().join(" ");
+        let _ = write!(page, "\n### `use {ROOT}.{module}`\n\n{about}\n\n| item | is |\n|---|---|\n");
+        let laws = file.laws.iter().map(|law| ("law", &law.name, &law.arguments));
+        let values = file.derived.iter().map(|value| ("let", &value.name, &value.arguments));
+        let mut items: Vec<(&str, &Name, &Vec<Argument>)> = laws.chain(values).collect();
+        items.sort_by_key(|(_, name, _)| name.span.start);
+        for (kind, name, arguments) in items {
+            let arguments =
+                arguments.iter().map(|one| format!("{}: {}", one.name.text, source.slice(one.type_name.span())));
+            let arguments = arguments.collect::<Vec<_>>().join(", ");
+            let arguments = if arguments.is_empty() && kind == "let" { arguments } else { format!("({arguments})") };
+            let said = description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
+            row(page, [&format!("`{kind} {}{arguments}`", name.text), &said]);
+        }
+    }
+}
+
+/// What the value of a member is called.
+fn value(at: At) -> &'static str {
+    match at {
+        At::Tip => "deflection",
+        At::Contour(_) => "back",
+    }
+}
+
+fn row<const N: usize>(page: &mut String, cells: [&str; N]) {
+    let _ = writeln!(page, "| {} |", cells.join(" | "));
+}
+
+/// A type in words, without its article.
+fn shown(r#type: Type) -> String {
+    let shown = r#type.to_string();
+    shown.strip_prefix("a ").or_else(|| shown.strip_prefix("an ")).unwrap_or(&shown).to_owned()
+}

@@ -1,0 +1,117 @@
+//! What comments say about items.
+
+use crate::diagnostic::{Source, Span};
+
+use super::ast::File;
+use super::format::comment_behind;
+use super::grammar::is_word;
+use crate::machine::{DESCRIPTION_LIMIT, Program};
+
+/// What the policy's author says about the item that is named at `name`: the comment behind it on the line of its name, or
+/// else the comment lines directly above it. Lines are joined to one; it has no control characters, and no more bytes than
+/// [`DESCRIPTION_LIMIT`].
+pub(super) fn description(source: &Source, name: Span) -> Option<String> {
+    let part = source.part_span(source.part_at(name.start));
+    let behind = source.slice(Span::new(name.start, part.end));
+    let line = &behind[..behind.find('\n').unwrap_or(behind.len())];
+    let text = match comment_behind(line) {
+        Some(comment) => said(comment),
+        None => above(source.slice(Span::new(part.start, name.start))),
+    };
+    (!text.is_empty()).then(|| bounded(text))
+}
+
+/// What is said in the comment lines above an item whose name stands behind the text `before`.
+fn above(before: &str) -> String {
+    let mut head = before.trim_end();
+    // Of several whiskers the keyword stands before the first.
+    while let Some(others) = head.strip_suffix(',') {
+        head = others.trim_end().trim_end_matches(is_word).trim_end();
+    }
+    let head = head.trim_end_matches(is_word);
+    let line_start = head.rfind('\n').map_or(0, |end| end + 1);
+    if !head[line_start..].trim().is_empty() {
+        return String::new();
+    }
+    let lines = head[..line_start].lines().rev().map(str::trim).take_while(|line| line.starts_with('#'));
+    let lines: Vec<String> = lines.map(said).collect();
+    lines.into_iter().rev().filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// Gives the parameters of a program what is said about them in the file that it comes from.
+pub(super) fn describe(program: &mut Program, source: &Source, file: &File) {
+    for (parameter, written) in program.parameters.iter_mut().zip(&file.parameters) {
+        parameter.description = description(source, written.name.span).unwrap_or_default();
+    }
+}
+
+/// A comment without its mark, on one line.
+fn said(comment: &str) -> String {
+    let words =
+        comment.trim().trim_start_matches('#').split(|letter: char| letter.is_whitespace() || letter.is_control());
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+fn bounded(mut text: String) -> String {
+    const ELLIPSIS: &str = "\u{2026}";
+    if text.len() > DESCRIPTION_LIMIT {
+        text.truncate(text.floor_char_boundary(DESCRIPTION_LIMIT - ELLIPSIS.len()));
+        text += ELLIPSIS;
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn of(text: &str) -> Option<String> {
+        let start = text.find("here").unwrap_or(0);
+        description(&Source::new("a", text), Span::new(start, start + 4))
+    }
+
+    #[test]
+    fn an_item_is_described_behind_it_or_above_it() {
+        for (text, expected) in [
+            ("param here = 1 m  # how far", Some("how far")),
+            ("# how far\nparam here = 1 m\n", Some("how far")),
+            ("  #  how\n  ## far\n  #\n  param here = 1 m", Some("how far")),
+            ("# of all\nparam here = 1 m  # how far", Some("how far")),
+            ("# the file\n\nparam here = 1 m", None),
+            ("param a = 1 m  # of the other\nparam here = 1 m", None),
+            ("state here {  # what it does\n  stop  # not this\n}", Some("what it does")),
+            ("state here { when a -> Failure(\"#1\") }  # what it does", Some("what it does")),
+            ("state here { when a -> Failure(\"#1\") }", None),
+            ("#\nlet here = 1", None),
+            ("let here = 1 #\ta\r\n", Some("a")),
+            ("# both\nwhisker a, here", Some("both")),
+            ("# one\nparam\n  here = 1", Some("one")),
+            ("# two\nparam a = 1 param here = 2", None),
+            ("param here = 1 param b = 2  # of b", None),
+            ("let here = not a and b  # what it means", Some("what it means")),
+            ("state here { stop  # this\n}", None),
+            ("law here(w: whisker) {  # for one\n}", Some("for one")),
+        ] {
+            assert_eq!(of(text).as_deref(), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_comments_of_another_part_belong_to_that() {
+        let mut source = Source::new("a", "machine a\n# the end of a");
+        source.add("b", Ok("library b"));
+        let start = source.part_span(1).start + 8;
+        assert_eq!(description(&source, Span::new(start, start + 1)), None);
+    }
+
+    proptest! {
+        #[test]
+        fn a_description_is_one_bounded_line(text in "(\\PC|\n|\r|\t|#|here|\u{7}){0,60}", at in 0_usize..99, times in 1_usize..200) {
+            let source = Source::new("a", text.replace("here", &"h\u{fc}re ".repeat(times)));
+            if let Some(said) = description(&source, Span::new(at, at + 1)) {
+                prop_assert!(!said.is_empty() && said.len() <= DESCRIPTION_LIMIT && !said.chars().any(char::is_control));
+            }
+        }
+    }
+}
