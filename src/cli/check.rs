@@ -57,10 +57,16 @@ struct StateSummary {
     /// Where it is in the policy's text.
     #[serde(flatten)]
     place: Position,
+    /// The state that it lies in.
+    parent: Option<String>,
+    /// Whether the run, or the state that it lies in, begins in it.
     initial: bool,
     transitions: usize,
-    /// The most operations that a tick in this state does without leaving it.
+    /// The most operations that a tick in this state does without leaving it, with those of the states that it lies in.
     operations: usize,
+    /// How many states it lies in.
+    #[serde(skip)]
+    depth: usize,
 }
 
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
@@ -119,9 +125,14 @@ fn summary(artifact: &Artifact) -> Summary {
     let state = |(index, state): (usize, &State)| StateSummary {
         name: state.name.to_string(),
         place: places.states[index].name,
-        initial: index == program.initial,
+        parent: state.parent.map(|parent| program.states[parent].name.to_string()),
+        initial: match state.parent {
+            None => index == program.initial,
+            Some(parent) => program.states[parent].initial.as_ref().is_some_and(|&(inner, _)| inner == index),
+        },
         transitions: state.transitions.len(),
         operations: program.operations(index),
+        depth: program.outward(index).skip(1).count(),
     };
     Summary {
         name: program.name.clone(),
@@ -139,7 +150,7 @@ fn describe(file: &str, machine: &Summary) -> String {
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
         table.add_row([
-            format!("{}{initial}", state.name),
+            format!("{:indent$}{}{initial}", "", state.name, indent = 2 * state.depth),
             state.transitions.to_string(),
             state.operations.to_string(),
         ]);
