@@ -91,6 +91,21 @@ fn check_says_what_a_policy_consists_of() {
 }
 
 #[test]
+fn check_shows_a_state_in_a_state_below_it_and_farther_in_with_the_operations_of_both() {
+    let policy = "tests/fixtures/charts/nested.fsm";
+    let table = stdout(&vibrissa(&["check", policy]));
+    let rows = ["Following ", "  Touching (initial) ", "    Swiping (initial) ", "    Pressing ", "  Searching "];
+    let places: Vec<usize> = rows.iter().map(|row| table.find(&format!("\n {row}")).unwrap()).collect();
+    assert!(places.is_sorted(), "{table}");
+    let checked: serde_json::Value = serde_json::from_str(&stdout(&vibrissa(&["check", policy, "--json"]))).unwrap();
+    let states = checked[0]["machine"]["states"].as_array().unwrap();
+    let of = |name: &str| states.iter().find(|state| state["name"] == name).unwrap();
+    assert_eq!((&of("Following")["parent"], &of("Swiping")["parent"]), (&serde_json::Value::Null, &"Touching".into()));
+    let operations = |name: &str| of(name)["operations"].as_u64().unwrap();
+    assert!(operations("Following") < operations("Touching") && operations("Touching") < operations("Swiping"));
+}
+
+#[test]
 fn every_malformed_policy_is_refused_with_a_place_and_exit_status_2() {
     let files = bad("policies");
     assert!(files.len() >= 20);

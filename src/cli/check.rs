@@ -71,12 +71,18 @@ struct StateSummary {
     /// Where it is in the policy's text.
     #[serde(flatten)]
     place: Position,
+    /// The state that it lies in.
+    parent: Option<String>,
+    /// Whether the run, or the state that it lies in, begins in it.
     initial: bool,
     transitions: usize,
     /// Where it is left to when the machine cannot go on in it; `null` for the machine's failsafe.
     failsafe: Option<String>,
-    /// The most operations that a tick in this state does without leaving it.
+    /// The most operations that a tick in this state does without leaving it, with those of the states that it lies in.
     operations: usize,
+    /// How many states it lies in.
+    #[serde(skip)]
+    depth: usize,
 }
 
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
@@ -164,10 +170,15 @@ fn summary(artifact: &Artifact) -> Summary {
     let state = |(index, state): (usize, &State)| StateSummary {
         name: state.name.to_string(),
         place: places.states[index].name,
-        initial: index == program.initial,
+        parent: state.parent.map(|parent| program.states[parent].name.to_string()),
+        initial: match state.parent {
+            None => index == program.initial,
+            Some(parent) => program.states[parent].initial.as_ref().is_some_and(|&(inner, _)| inner == index),
+        },
         transitions: state.transitions.len(),
         failsafe: state.failsafe.as_ref().map(|target| name(program, target)),
         operations: program.operations(index),
+        depth: program.outward(index).skip(1).count(),
     };
     Summary {
         failsafe: program.failsafe.as_ref().map(|target| name(program, target)),
@@ -193,7 +204,8 @@ fn describe(file: &str, machine: &Summary) -> String {
     let mut states = table(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
-        let cells = [format!("{}{initial}", state.name), state.transitions.to_string(), state.operations.to_string()];
+        let name = format!("{:indent$}{}{initial}", "", state.name, indent = 2 * state.depth);
+        let cells = [name, state.transitions.to_string(), state.operations.to_string()];
         let failsafe = state.failsafe.clone().unwrap_or_default();
         states.add_row(cells.into_iter().chain(has_failsafe.then_some(failsafe)));
     }

@@ -165,7 +165,7 @@ fn step(pair: Pair<'_>) -> Parsed<Step> {
     let span = place(&pair);
     let mut reader = Reader::new(pair);
     let name = reader.name()?;
-    Ok(Step { span: name.span.to(span), name, values: reader.values()?.unwrap_or_default() })
+    Ok(Step { span: Span::new(name.span.start, span.end), name, values: reader.values()?.unwrap_or_default() })
 }
 
 fn test(reader: &mut Reader<'_>) -> Parsed<Test> {

@@ -22,6 +22,9 @@ pub(crate) struct Done {
     pub(crate) commander: Option<usize>,
 }
 
+/// A rule of a state, or one that holds always, by its number among those.
+pub(crate) type Which = (Option<usize>, usize);
+
 /// An active state, and the one in it.
 struct Active {
     state: usize,
@@ -43,6 +46,8 @@ pub(crate) struct Interpreter<'t> {
     touching: [bool; 8],
     done: Done,
     has_failed: bool,
+    /// All rules that were taken.
+    pub(crate) taken: Vec<Which>,
 }
 
 impl<'t> Interpreter<'t> {
@@ -58,6 +63,7 @@ impl<'t> Interpreter<'t> {
             touching: [false; 8],
             done: Done::default(),
             has_failed: false,
+            taken: Vec::new(),
         }
     }
 
@@ -86,6 +92,8 @@ impl<'t> Interpreter<'t> {
                 self.has_failed = true;
                 return Done { state: None, commander: None, ..std::mem::take(&mut self.done) };
             }
+            let rules = from.map_or(&self.tree.always, |from| &self.tree.states[from].rules);
+            self.taken.extend(rules.iter().position(|known| std::ptr::eq(known, rule)).map(|index| (from, index)));
             self.take(from, rule);
         }
         let active = self.active.take();

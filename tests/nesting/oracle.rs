@@ -31,18 +31,24 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
 }
 
 /// Runs a program and its tree side by side.
-pub(crate) fn run_both(tree: &Tree, program: Program, touches: &[[bool; 8]]) -> Result<Machine, TestCaseError> {
+pub(crate) fn run_both<'t>(
+    tree: &'t Tree,
+    program: Program,
+    touches: &[[bool; 8]],
+) -> Result<(Machine, Interpreter<'t>, Vec<Done>), TestCaseError> {
     let mut machine = Machine::new(Arc::new(program));
     let mut interpreter = Interpreter::new(tree);
+    let mut all = Vec::new();
     let feel = |&touching: &bool| Feel { touching, ..Feel::default() };
     let mut script = Script::new(touches.iter().map(|tick| tick.iter().map(feel).collect()).collect());
     script.period = 1.0 / RATE;
     for (now, &touching) in touches.iter().enumerate() {
         script.now = now;
         let found = done(&mut machine, &mut script);
-        prop_assert_eq!(found, interpreter.tick(now, touching), "tick {} of\n{}", now, tree.text());
+        prop_assert_eq!(&found, &interpreter.tick(now, touching), "tick {} of\n{}", now, tree.text());
+        all.push(found);
     }
-    Ok(machine)
+    Ok((machine, interpreter, all))
 }
 
 const ALL: Features = Features { states: 14, rules: 24, times: true, resume: true, always: true };
@@ -59,12 +65,46 @@ fn program(text: &str) -> Option<Program> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
     #[test]
     fn a_machine_enters_leaves_waits_and_resumes_as_the_interpreter_does(tree in trees(ALL), touches in touches()) {
         let Some(program) = program(&tree.text()) else { return Err(TestCaseError::reject("goes round")) };
         run_both(&tree, program, &touches)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_run_gainsays_what_is_said_of_states_and_transitions(
+        tree in trees(ALL), touches in prop::collection::vec(touches(), 5),
+    ) {
+        let source = Source::new("tree.fsm", tree.text());
+        let Ok(compiled) = compile_with_warnings(&source) else { return Err(TestCaseError::reject("goes round")) };
+        let places = &compiled.artifact.places;
+        let said = |code: &str| -> Vec<usize> {
+            let warnings = compiled.warnings.iter().filter(|warning| warning.code == code);
+            warnings.map(|warning| source.line_column(warning.primary.span.start).line).collect()
+        };
+        let (never_taken, never_reached, never_left) = (said("P0511"), said("P0501"), said("P0502"));
+        for touches in &touches {
+            let (_, interpreter, done) = run_both(&tree, compiled.artifact.program.clone(), touches)?;
+            for (from, index) in interpreter.taken {
+                let place = match from { None => places.always[index], Some(from) => places.states[from].transitions[index] };
+                prop_assert!(!never_taken.contains(&place.line), "line {} of\n{}", place.line, source.text);
+            }
+            let events = || done.iter().flat_map(|done| &done.events);
+            let entered = |state: usize| events().filter(|&&(event, of, _)| event == 0 && of == state).count();
+            for (index, place) in places.states.iter().enumerate() {
+                prop_assert!(entered(index) == 0 || !never_reached.contains(&place.name.line), "S{} of\n{}", index, source.text);
+                let is_left = |done: &Done| done.state.is_some_and(|active| !tree.way(active).contains(&index));
+                let is_in = |done: &Done| done.state.is_some_and(|active| tree.way(active).contains(&index));
+                let leaves = done.windows(2).any(|pair| is_in(&pair[0]) && is_left(&pair[1]));
+                prop_assert!(!leaves || !never_left.contains(&place.name.line), "S{} of\n{}", index, source.text);
+            }
+        }
     }
 }
 

@@ -15,6 +15,8 @@ use super::unknown::{Domain, Unknown};
 const STEP_LIMIT: usize = 10_000;
 /// Cycles that are looked at.
 const CYCLE_LIMIT: usize = 100;
+/// Ways to go along a cycle that are looked at.
+const WAY_LIMIT: usize = 16;
 
 /// Reports cycles of transitions that a tick cannot end, each with values at which a machine indeed fails in one.
 pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
@@ -31,7 +33,6 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         if path.iter().all(|&(state, _)| told[state]) {
             continue;
         }
-        let goals: Vec<Goal<'_>> = path.iter().filter_map(|(_, edge)| edge.condition()).map(Goal::holds).collect();
         let start = path[0].0;
         let fails = |point: &Point, registers: Vec<f64>| {
             is_felt_freely(model, point) && {
@@ -42,15 +43,43 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
                     || left.is_some_and(|failsafe| failsafe.cause == Cause::Chain)
             }
         };
-        if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {
-            let witness = search.describe_such(&goals, point, Some(&fails));
-            for &(state, _) in path {
-                told[state] = true;
+        for goals in goals(model, path) {
+            if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {
+                let witness = search.describe_such(&goals, point, Some(&fails));
+                for &(state, _) in path {
+                    told[state] = true;
+                }
+                faults.push(fault(model, path, &witness));
+                break;
             }
-            faults.push(fault(model, path, &witness));
         }
     }
     faults
+}
+
+/// What it takes to go along a path, in every way that there is: each of its guards holds, and none that is tried before it
+/// keeps it from being taken. In an outer state all of those fail, or the first that does not has led where it leads.
+fn goals<'a>(model: &Model<'a>, path: &[(usize, &Edge<'a>)]) -> Vec<Vec<Goal<'a>>> {
+    let mut all = vec![path.iter().filter_map(|(_, edge)| edge.condition()).map(Goal::holds).collect::<Vec<_>>()];
+    for &(state, edge) in path {
+        let before = model.tried_before(edge, state);
+        for of_source in before.chunk_by(|one, next| one.from == next.from) {
+            let (mut ways, mut failing) = (Vec::new(), Vec::new());
+            for before in of_source.iter().filter(|before| before.is_immediate()) {
+                let has_led = before.leads_to().is_some() && model.leads_to_one(before, state).is_none();
+                let Some(condition) = before.condition() else { continue };
+                if before.from != edge.from && has_led {
+                    ways.push([failing.clone(), vec![Goal::holds(condition)]].concat());
+                }
+                failing.push(Goal::fails(condition));
+            }
+            ways.insert(0, failing);
+            let longer =
+                all.iter().flat_map(|goals| ways.iter().map(|way| [goals.as_slice(), way.as_slice()].concat()));
+            all = longer.take(WAY_LIMIT).collect();
+        }
+    }
+    all
 }
 
 fn fault(model: &Model<'_>, path: &[(usize, &Edge<'_>)], witness: &str) -> Diagnostic {

@@ -144,6 +144,12 @@ impl<'a> Model<'a> {
         self.inward(innermost).into_iter().flat_map(|state| &self.states[state].edges).collect()
     }
 
+    /// The transitions that are tried before another one while `innermost` is the innermost active state.
+    pub(super) fn tried_before(&self, edge: &Edge<'_>, innermost: usize) -> Vec<&Edge<'a>> {
+        let before = self.active_edges(innermost).into_iter();
+        before.take_while(|before| !std::ptr::eq(before.guard, edge.guard)).collect()
+    }
+
     /// A state and those that it lies in, the outermost first.
     pub(super) fn inward(&self, state: usize) -> Vec<usize> {
         let mut way: Vec<usize> = self.program.outward(state).collect();

@@ -21,10 +21,18 @@ pub(super) fn shadowed(
     let edge = &edges[index];
     let time = delay(search, edge);
     let mut immediate = Vec::new();
-    let outer = outer.iter().filter(|before| comes_first(search.model.program, before, edge)).map(|before| (0, before));
-    let outer: Vec<(usize, &Edge<'_>)> = outer.collect();
     search.bounds.work += outer.len();
-    let own = edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other]);
+    // What has led where it leads keeps those written after it from being tried, and leaves the inner states their turn.
+    let of_sources = outer.chunk_by(|one, next| one.from == next.from);
+    let outer = of_sources
+        .flat_map(|edges| edges.iter().take_while(|before| comes_first(search.model.program, before, edge)))
+        .map(|before| (0, before));
+    let outer: Vec<(usize, &Edge<'_>)> = outer.collect();
+    // One written later may be due sooner; but not every one leaves its state, nor lets those behind it be tried.
+    let program = search.model.program;
+    let stays = edges.iter().enumerate().position(|(other, before)| other != index && !leaves(program, before));
+    let counts = |other: usize| other < index || stays.is_none_or(|stays| other < stays);
+    let own = edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other] && counts(other));
     let own = own.map(|(other, before)| (other + 1, before));
     let index = index + 1;
     for (other, before) in outer.into_iter().chain(own) {
@@ -53,7 +61,12 @@ pub(super) fn shadowed(
 pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     let (Some(target), Some(state)) = (before.leads_to(), edge.from) else { return true };
     let is_related = program.contains(target, state) || program.contains(state, target);
-    before.from == edge.from || !is_related || !program.is_settled(before.from, target, target)
+    before.from == edge.from || !is_related || leaves(program, before)
+}
+
+/// Whether a transition leaves its state, so that the times of the others begin anew.
+fn leaves(program: &Program, edge: &Edge<'_>) -> bool {
+    edge.leads_to().is_none_or(|target| !program.is_settled(edge.from, target, target))
 }
 
 /// Whether one transition is always due before, or when, another is, and then taken rather than that.

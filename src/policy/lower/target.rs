@@ -74,7 +74,7 @@ impl<'f> Compiler<'f> {
         }
         let way = self.hierarchy.entered(from, state);
         let mut given = self.outer_values(target, state, &way)?;
-        self.check_count(&target.name, target.span, &target.values, &arguments)?;
+        self.check_count(&target.name, target.span, &target.values, &arguments, &way)?;
         given.push((&target.values, arguments));
         let arguments = self.pass(scope, &given)?;
         Some(machine::Target::State { state, arguments, resume: target.resume.is_some() })
@@ -83,7 +83,7 @@ impl<'f> Compiler<'f> {
     /// The values of the outer states on the `way` to a state, which are entered with it.
     fn outer_values(&mut self, target: &'f Target, state: usize, way: &[usize]) -> Option<Vec<Given<'f>>> {
         let path = self.path(way);
-        let mut steps = Vec::with_capacity(target.outer.len());
+        let mut steps: Vec<(usize, &Step)> = Vec::with_capacity(target.outer.len());
         let mut behind = 0;
         for step in &target.outer {
             let Some(index) = self.states.get(step.name.text.as_str()).map(|entry| entry.index) else {
@@ -100,9 +100,13 @@ impl<'f> Compiler<'f> {
                     Diagnostic::error("P0408", message, step.span, "is not entered")
                         .hint(format!("write `{path}`, without the states that stay active"))
                 } else {
-                    let message = format!("the state `{inner}` does not lie there in `{name}`");
-                    Diagnostic::error("P0408", message, step.span, "is no outer state of what follows")
-                        .hint(format!("write `{path}`"))
+                    let message = match steps.last() {
+                        Some((_, before)) if outer.contains(&index) => {
+                            format!("the state `{name}` does not lie in `{}`", before.name.text)
+                        }
+                        _ => format!("the state `{inner}` does not lie in `{name}`"),
+                    };
+                    Diagnostic::error("P0408", message, step.span, "leads nowhere").hint(format!("write `{path}`"))
                 });
                 return None;
             };
@@ -114,14 +118,14 @@ impl<'f> Compiler<'f> {
             let outer = &self.hierarchy.states[index].name;
             let arguments = self.states.get(outer.text.as_str())?.arguments.clone();
             if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
-                self.check_count(&step.name, step.span, &step.values, &arguments)?;
+                self.check_count(&step.name, step.span, &step.values, &arguments, way)?;
                 given.push((step.values.as_slice(), arguments));
             } else if !arguments.is_empty() {
-                let message = format!("the state `{}` is entered with `{}`", outer.text, target.name.text);
+                let message = format!("`{}` is entered with `{}`, and takes values", outer.text, target.name.text);
                 let label = format!("the values of `{}` are missing", outer.text);
                 self.report(
                     Diagnostic::error("P0307", message, target.span, label)
-                        .note(outer.span, "lies in this")
+                        .note(outer.span, "in this")
                         .hint(format!("write `{path}`")),
                 );
                 return None;
@@ -146,13 +150,14 @@ impl<'f> Compiler<'f> {
         did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]))
     }
 
-    /// Whether a state is given as many values as it takes.
+    /// Whether a state on a way is given as many values as it takes.
     fn check_count(
         &mut self,
         name: &Name,
         span: Span,
         values: &[Expression],
         arguments: &[(String, Meaning)],
+        way: &[usize],
     ) -> Option<()> {
         if values.len() == arguments.len() {
             return Some(());
@@ -163,7 +168,7 @@ impl<'f> Compiler<'f> {
         if let Some(&made) = self.names().items.get(name.text.as_str()) {
             diagnostic = diagnostic.note(made, "made here");
         }
-        self.report(diagnostic.hint(format!("write `{}`", usage(&name.text, arguments))));
+        self.report(diagnostic.hint(format!("write `{}`", self.path(way))));
         None
     }
 
@@ -219,7 +224,7 @@ impl<'f> Compiler<'f> {
         let fault = if let Some(outer) = self.hierarchy.states[index].parent {
             let outer = &self.hierarchy.states[outer].name.text;
             let hint = format!("start in an outermost state; `{outer}` begins in its own initial state");
-            Some((format!("the initial state cannot lie in another, such as `{outer}`"), hint))
+            Some((format!("a run cannot start within the state `{outer}`"), hint))
         } else if entry.arguments.is_empty() {
             None
         } else {
@@ -275,7 +280,7 @@ impl<'f> Compiler<'f> {
             });
             return None;
         }
-        self.check_count(begin, *span, values, &arguments)?;
+        self.check_count(begin, *span, values, &arguments, &[child])?;
         let values = self.pass(scope, &[(values, arguments)])?;
         Some((child, values))
     }
