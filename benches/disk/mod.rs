@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each bench uses a part of it")]
 
+pub(crate) mod senses;
+
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
@@ -33,11 +35,14 @@ pub(crate) struct Swiping {
 
 impl Disk {
     pub(crate) fn load() -> Result<Self, Box<dyn Error>> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let read = |name: &str| std::fs::read_to_string(root.join(name)).map(|text| Source::new(name, text));
         let scene = Scene::from_yaml(&read("scenarios/disk.yaml")?).map_err(|faults| format!("{faults:?}"))?;
-        let program = compile(&read("policies/thesis.fsm")?).map_err(|faults| format!("{faults:?}"))?;
+        let program = compile(&Self::policy()?).map_err(|faults| format!("{faults:?}"))?;
         Ok(Self { scene, program: Arc::new(program) })
+    }
+
+    /// The policy's text.
+    pub(crate) fn policy() -> Result<Source, Box<dyn Error>> {
+        read("policies/thesis.fsm")
     }
 
     pub(crate) fn world(&self) -> Result<MujocoWorld, Box<dyn Error>> {
@@ -59,4 +64,9 @@ impl Disk {
         }
         Ok(Swiping { world, control, samples })
     }
+}
+
+fn read(name: &str) -> Result<Source, Box<dyn Error>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    Ok(Source::new(name, std::fs::read_to_string(path)?))
 }

@@ -17,6 +17,7 @@ Commands:
             --wheel FILE   take it from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
+  fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
 
 /// One command of `cargo x`.
@@ -26,6 +27,7 @@ pub(crate) enum Command {
     Setup(Options),
     Demo,
     Test,
+    Fuzz(u64),
 }
 
 /// Why a command line was not understood.
@@ -37,6 +39,8 @@ pub(crate) enum ArgumentError {
     UnexpectedArgument { command: String, argument: String },
     #[error("`--wheel` needs the file that it is to take")]
     NoWheelFile,
+    #[error("`fuzz` needs how many policies to try, such as `cargo x fuzz 100000`")]
+    NoCount,
 }
 
 impl Command {
@@ -49,6 +53,10 @@ impl Command {
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
             "test" => Self::Test,
+            "fuzz" => {
+                let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
+                Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)
+            }
             _ => return Err(ArgumentError::UnknownCommand(name)),
         };
         match arguments.next() {
@@ -105,5 +113,6 @@ mod tests {
             Err(ArgumentError::UnexpectedArgument { command: "demo".to_owned(), argument: "box".to_owned() })
         );
         assert_eq!(parse(&["setup", "--wheel"]), Err(ArgumentError::NoWheelFile));
+        assert_eq!(parse(&["fuzz", "many"]), Err(ArgumentError::NoCount));
     }
 }

@@ -6,6 +6,7 @@ mod cargo;
 mod checkout;
 mod checks;
 mod demo;
+mod fuzz;
 mod hash;
 mod platform;
 mod setup;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
+        Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }
 

@@ -124,7 +124,7 @@ pub(super) fn middle(range: Interval) -> f64 {
     let Interval { low, high, .. } = range;
     if low < 0.0 && high > 0.0 {
         0.0
-    } else if high <= 0.0 {
+    } else if low < 0.0 {
         -middle(range.negate())
     } else if high > 4.0 * low.max(1e-6) {
         // From nothing to far away: the geometric mean, if both ends are of a size that anything has.

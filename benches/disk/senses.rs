@@ -1,0 +1,90 @@
+//! What a policy felt in one tick of a run.
+
+use vibrissa::geometry::Vector2;
+use vibrissa::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::run::Control;
+
+/// What a whisker's reader may ask; in the order of [`Recorded`]'s arrays.
+const SCALARS: [WhiskerScalar; 7] = [
+    WhiskerScalar::Deflection,
+    WhiskerScalar::Touching,
+    WhiskerScalar::Yaw,
+    WhiskerScalar::Side,
+    WhiskerScalar::Sense,
+    WhiskerScalar::Length,
+    WhiskerScalar::ContourReady,
+];
+const VECTORS: [WhiskerVector; 2] = [WhiskerVector::TipBase, WhiskerVector::ContourTangent];
+
+/// What the thesis's policy felt in one tick, taken down so that reading it costs next to nothing.
+#[derive(Debug, Clone)]
+pub(crate) struct Recorded {
+    time: f64,
+    yaw: f64,
+    position: Vector2,
+    whiskers: Vec<Whisker>,
+}
+
+#[derive(Debug, Clone)]
+struct Whisker {
+    scalars: [f64; SCALARS.len()],
+    vectors: [Vector2; VECTORS.len()],
+    /// The tip at no deflection, and at the target of either sign.
+    tip_at: [(f64, Vector2); 3],
+}
+
+impl Recorded {
+    /// What the tick that `control` has just done read. It recorded its contour point before it asked for the contour, and
+    /// asked for nothing before that changes by it: so this is what it got.
+    pub(crate) fn after(control: &Control, target: f64) -> Self {
+        let senses = control.perception();
+        let whisker = |index| Whisker {
+            scalars: SCALARS.map(|quantity| senses.whisker(index, quantity)),
+            vectors: VECTORS.map(|quantity| senses.whisker_vector(index, quantity)),
+            tip_at: [0.0, target, -target].map(|deflection| (deflection, senses.tip_at(index, deflection))),
+        };
+        Self {
+            time: Senses::time(senses),
+            yaw: senses.body(BodyScalar::Yaw),
+            position: senses.body_position(),
+            whiskers: (0..control.machine().program().whiskers.len()).map(whisker).collect(),
+        }
+    }
+}
+
+impl Senses for Recorded {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn body(&self, quantity: BodyScalar) -> f64 {
+        match quantity {
+            BodyScalar::Yaw => self.yaw,
+        }
+    }
+
+    fn body_position(&self) -> Vector2 {
+        self.position
+    }
+
+    fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
+        let at = SCALARS.iter().position(|&scalar| scalar == quantity);
+        at.map_or(f64::NAN, |at| self.whiskers[whisker].scalars[at])
+    }
+
+    fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
+        let at = VECTORS.iter().position(|&vector| vector == quantity);
+        at.map_or(Vector2::new(f64::NAN, f64::NAN), |at| self.whiskers[whisker].vectors[at])
+    }
+
+    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
+        let same = |&&(recorded, _): &&(f64, Vector2)| recorded == deflection;
+        self.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
+    }
+
+    fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
+        Vector2::new(f64::NAN, f64::NAN)
+    }
+
+    fn record(&mut self, _: usize) {}
+}

@@ -1,0 +1,11 @@
+//! Any text as a policy: compiled, laid out, drawn, written, read again and run.
+#![no_main]
+
+#[path = "../../tests/policy_robustness/answered.rs"]
+mod answered;
+#[path = "../../tests/artifact/erratic.rs"]
+mod erratic;
+
+libfuzzer_sys::fuzz_target!(|text: &str| {
+    answered::is_handled(text);
+});
