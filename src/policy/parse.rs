@@ -3,15 +3,18 @@
 //! The grammar fixes which pairs follow which, so that this file only takes them in order. Where the grammar promises a pair
 //! and none comes, [`Reader`] gives an internal error instead of a panic.
 
+mod state;
+
 use pest::iterators::Pair;
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Binary, Bound, Derived, Expression, File, Guard, Kind, Law, Name, Parameter, Quantity, State, Statement,
-    Steer, Step, Target, Transition, Turn, TypeName,
+    Argument, Binary, Bound, Derived, Expression, File, Guard, Kind, Law, Name, Parameter, Quantity, Statement, Steer,
+    Transition, Turn, TypeName,
 };
 use super::grammar::{self, Rule};
+use state::{state, target};
 
 /// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 200;
@@ -107,41 +110,6 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     Ok(arguments)
 }
 
-/// Adds a state and those in it to `states`.
-fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
-    let (name, arguments) = (reader.name()?, arguments(reader)?);
-    let (memory, entry, exit, body, transitions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let initial = Vec::new();
-    let own = states.len();
-    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions });
-    while let Ok(pair) = reader.next() {
-        if pair.as_rule() == Rule::state {
-            self::state(&mut Reader::new(pair), Some(own), states)?;
-            continue;
-        }
-        let state = &mut states[own];
-        match pair.as_rule() {
-            Rule::start => state.initial.push(step(pair)?),
-            Rule::when | Rule::after => state.transitions.push(transition(pair)?),
-            Rule::memory => {
-                let mut memory = Reader::new(pair);
-                state.memory.push((memory.name()?, memory.expression()?));
-            }
-            Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            _ => state.body.push(statement(pair)?),
-        }
-    }
-    Ok(())
-}
-
-fn step(pair: Pair<'_, Rule>) -> Parsed<Step> {
-    let span = place(&pair);
-    let mut reader = Reader::new(pair);
-    let name = reader.name()?;
-    Ok(Step { span: Span::new(name.span.start, span.end), name, values: reader.values()?.unwrap_or_default() })
-}
-
 fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
     let rule = pair.as_rule();
     let mut reader = Reader::new(pair);
@@ -152,30 +120,6 @@ fn transition(pair: Pair<'_, Rule>) -> Parsed<Transition> {
         _ => Guard::When { condition: first, lasting: None },
     };
     Ok(Transition { guard, target: target(reader.take(Rule::target)?)? })
-}
-
-fn target(pair: Pair<'_, Rule>) -> Parsed<Target> {
-    let span = place(&pair);
-    let mut reader = Reader::new(pair);
-    let resume = if reader.has(Rule::kw_resume) { Some(place(&reader.next()?)) } else { None };
-    let name = reader.name()?;
-    if reader.has(Rule::text_argument) {
-        let mut text = Reader::new(reader.take(Rule::text_argument)?);
-        let text = named(&Reader::new(text.take(Rule::text)?).take(Rule::text_inner)?);
-        return Ok(Target { resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
-    }
-    let mut last = Step { span: name.span, name, values: Vec::new() };
-    if reader.has(Rule::values) {
-        let pair = reader.next()?;
-        last.span = last.span.to(place(&pair));
-        last.values = values(pair)?;
-    }
-    let mut outer = Vec::new();
-    while reader.has(Rule::inner) {
-        outer.push(std::mem::replace(&mut last, step(reader.take(Rule::inner)?)?));
-    }
-    let Step { name, values, .. } = last;
-    Ok(Target { resume, outer, name, text: None, values, span })
 }
 
 fn block(pair: Pair<'_, Rule>) -> Parsed<Vec<Statement>> {
