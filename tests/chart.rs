@@ -365,7 +365,7 @@ fn charts() -> impl Strategy<Value = Chart> {
             for (before, (_, depth)) in states[1..].iter().enumerate() {
                 let around = std::iter::successors(Some(before), |&state| parents[state]);
                 let around: Vec<usize> = around.collect();
-                parents.push(around.iter().rev().take(*depth).last().copied());
+                parents.push(around.iter().rev().take(*depth).next_back().copied());
             }
             let outermost: Vec<usize> = (0..count).filter(|&state| parents[state].is_none()).collect();
             let initial = outermost[initial.index(outermost.len())];

@@ -74,3 +74,25 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
     assert_eq!(seen, ["Exploring", "Swiping", "Failure"]);
     assert!(COUNT.get() > 0, "the count counts");
 }
+
+#[test]
+fn a_tick_among_states_in_states_allocates_nothing() {
+    let program = compile(&Source::new("nested.fsm", include_str!("fixtures/charts/nested.fsm"))).unwrap();
+    let mut control = Control::new(&Rig::default(), Arc::new(program)).unwrap();
+    let mut seen: Vec<String> = Vec::with_capacity(64);
+    for tick in 0..240 {
+        // Touched and lost, again and again; then touched too strongly.
+        let base_angle = if tick > 200 { -2e-3 } else { [0.0, -3e-4][tick / 15 % 2] };
+        let samples = samples(tick, base_angle);
+        let before = COUNT.get();
+        control.tick(&samples);
+        assert_eq!(COUNT.get() - before, 0, "tick {tick}");
+        let state = control.machine().state_name();
+        if seen.last().map(String::as_str) != Some(state) {
+            seen.push(state.to_owned());
+        }
+    }
+    for state in ["Exploring", "Swiping", "Searching", "Retreating"] {
+        assert!(seen.iter().any(|known| known == state), "{state} of {seen:?}");
+    }
+}

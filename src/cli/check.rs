@@ -113,7 +113,7 @@ fn unreadable(path: &Path, failure: &Failure, json: bool) -> Checked {
 
 fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
     let source = match input::policy_file(path)?.value {
-        PolicyFile::Text(source) => source,
+        PolicyFile::Text(source) => input::with_libraries(&source),
         PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
     let (machine, library, diagnostics) = match policy::check(&source) {

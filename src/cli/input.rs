@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
@@ -71,22 +71,28 @@ pub(super) enum PolicyFile {
     Machine(Box<Artifact>),
 }
 
-/// Reads a policy's text or a compiled machine.
+/// Reads a policy's text or a compiled machine; the hash is that of the file alone.
 pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
     let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
-    if Artifact::is_in(&bytes) {
-        let hash = Sha256::new().chain_update(&bytes);
-        let artifact = Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?;
-        return Ok(Loaded { value: PolicyFile::Machine(Box::new(artifact)), hash });
-    }
-    let source = with_libraries(path, text(bytes).map_err(Failure::read(path))?);
-    let hash = Sha256::new().chain_update(&source.text);
-    Ok(Loaded { value: PolicyFile::Text(source), hash })
+    let hash = Sha256::new().chain_update(&bytes);
+    let value = if Artifact::is_in(&bytes) {
+        PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
+    } else {
+        PolicyFile::Text(Source::new(path.display().to_string(), text(bytes).map_err(Failure::read(path))?))
+    };
+    Ok(Loaded { value, hash })
 }
 
 /// A policy's text with those of the files that it uses.
-fn with_libraries(path: &Path, text: String) -> Source {
-    policy::gather(&Source::new(path.display().to_string(), text), &mut library)
+pub(super) fn with_libraries(source: &Source) -> Source {
+    policy::gather(source, &mut library)
+}
+
+/// The files that a policy with its libraries was read from, but for the first.
+pub(super) fn library_files(source: &Source) -> impl Iterator<Item = PathBuf> {
+    let paths = (1..source.count()).map(|part| PathBuf::from(source.part_name(part)));
+    // What belongs to the standard library has the name of a module.
+    paths.filter(|path| path.extension().is_some_and(|ending| ending == "fsm"))
 }
 
 /// The text of a file that a policy uses.
@@ -121,16 +127,20 @@ pub(super) struct PolicyText {
 /// Reads a policy's text and compiles it, or a compiled machine.
 pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
-    let value = match value {
-        PolicyFile::Machine(artifact) => Policy { artifact: *artifact, text: None },
-        PolicyFile::Text(source) => match compile_with_warnings(&source) {
-            Ok(Compiled { artifact, tests, warnings }) => {
-                Policy { artifact, text: Some(PolicyText { source, warnings, tests }) }
-            }
-            Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
-        },
+    let source = match value {
+        PolicyFile::Machine(artifact) => {
+            return Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash });
+        }
+        PolicyFile::Text(source) => with_libraries(&source),
     };
-    Ok(Loaded { value, hash })
+    let hash = Sha256::new().chain_update(&source.text);
+    match compile_with_warnings(&source) {
+        Ok(Compiled { artifact, tests, warnings }) => {
+            let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests }) };
+            Ok(Loaded { value, hash })
+        }
+        Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
+    }
 }
 
 /// Reads a policy's text where a compiled machine will not do.
@@ -144,7 +154,7 @@ pub(super) fn policy_text(path: &Path) -> Result<Source, Failure> {
 }
 
 pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
-    let source = with_libraries(path, policy_text(path)?.text);
+    let source = with_libraries(&policy_text(path)?);
     policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 

@@ -9,6 +9,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
+use crate::diagnostic::Source;
 use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
@@ -38,6 +39,12 @@ pub(super) struct Files {
     told: BTreeSet<PathBuf>,
 }
 
+impl Files {
+    fn add(&mut self, source: &Source) {
+        self.read.extend(input::library_files(source));
+    }
+}
+
 impl Job {
     /// Prepares all runs that a command line asks for. Whatever is wrong with the last scenario shows before the first has
     /// run.
@@ -65,7 +72,13 @@ impl Job {
             (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
         };
         files.read.insert(policy_path.clone());
-        let Loaded { value: Policy { artifact, text }, hash: mut policy_hash } = input::policy(&policy_path)?;
+        let policy = input::policy(&policy_path);
+        match &policy {
+            Ok(Loaded { value: Policy { text: Some(PolicyText { source, .. }), .. }, .. }) => files.add(source),
+            Err(Failure::Faults { source_text, .. }) => files.add(source_text),
+            _ => {}
+        }
+        let Loaded { value: Policy { artifact, text }, hash: mut policy_hash } = policy?;
         if let Some(PolicyText { source, warnings, .. }) = &text
             && files.told.insert(policy_path)
         {

@@ -3,14 +3,19 @@
 //! The grammar fixes which pairs follow which, so that this file only takes them in order. Where the grammar promises a pair
 //! and none comes, [`Reader`] gives an internal error instead of a panic.
 
+mod state;
+mod test;
+
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Binary, Bound, Derived, Expression, File, From, Guard, Kind, Law, Name, Parameter, Quantity, State,
-    Statement, Steer, Step, Target, Test, Transition, Turn, TypeName, Use,
+    Argument, Binary, Bound, Derived, Expression, File, From, Guard, Kind, Law, Name, Parameter, Quantity, Statement,
+    Steer, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::pair::{Pair, Pairs, place};
+use state::{state, target};
+use test::test;
 
 /// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 200;
@@ -132,57 +137,6 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     Ok(arguments)
 }
 
-/// Adds a state and those in it to `states`.
-fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
-    let (name, arguments) = (reader.name()?, arguments(reader)?);
-    let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (initial, transitions, failsafes) = (Vec::new(), Vec::new(), Vec::new());
-    let own = states.len();
-    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions, failsafes });
-    while let Ok(pair) = reader.next() {
-        if pair.as_rule() == Rule::state {
-            self::state(&mut Reader::new(pair), Some(own), states)?;
-            continue;
-        }
-        let state = &mut states[own];
-        match pair.as_rule() {
-            Rule::start => state.initial.push(step(pair)?),
-            Rule::when | Rule::after => state.transitions.push(transition(pair)?),
-            Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
-            Rule::memory => {
-                let mut memory = Reader::new(pair);
-                state.memory.push((memory.name()?, memory.expression()?));
-            }
-            Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            _ => state.body.push(statement(pair)?),
-        }
-    }
-    Ok(())
-}
-
-fn step(pair: Pair<'_>) -> Parsed<Step> {
-    let span = place(&pair);
-    let mut reader = Reader::new(pair);
-    let name = reader.name()?;
-    Ok(Step { span: Span::new(name.span.start, span.end), name, values: reader.values()?.unwrap_or_default() })
-}
-
-fn test(reader: &mut Reader<'_>) -> Parsed<Test> {
-    let (title, scenario) = (text(reader)?, text(reader)?);
-    let mut test = Test { title, scenario, settings: Vec::new(), expectations: Vec::new() };
-    while let Ok(pair) = reader.next() {
-        let rule = pair.as_rule();
-        let mut reader = Reader::new(pair);
-        if rule == Rule::setting {
-            test.settings.push((reader.name()?, bound(reader.take(Rule::bound)?)?));
-        } else {
-            test.expectations.push(reader.expression()?);
-        }
-    }
-    Ok(test)
-}
-
 /// What stands between two quotes.
 fn text(reader: &mut Reader<'_>) -> Parsed<Name> {
     let mut text = Reader::new(reader.take(Rule::text)?);
@@ -199,29 +153,6 @@ fn transition(pair: Pair<'_>) -> Parsed<Transition> {
         _ => Guard::When { condition: first, lasting: None },
     };
     Ok(Transition { guard, target: target(reader.take(Rule::target)?)? })
-}
-
-fn target(pair: Pair<'_>) -> Parsed<Target> {
-    let span = place(&pair);
-    let mut reader = Reader::new(pair);
-    let resume = if reader.has(Rule::kw_resume) { Some(place(&reader.next()?)) } else { None };
-    let name = reader.name()?;
-    if reader.has(Rule::text_argument) {
-        let text = text(&mut Reader::new(reader.take(Rule::text_argument)?))?;
-        return Ok(Target { resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
-    }
-    let mut last = Step { span: name.span, name, values: Vec::new() };
-    if reader.has(Rule::values) {
-        let pair = reader.next()?;
-        last.span = last.span.to(place(&pair));
-        last.values = values(pair)?;
-    }
-    let mut outer = Vec::new();
-    while reader.has(Rule::inner) {
-        outer.push(std::mem::replace(&mut last, step(reader.take(Rule::inner)?)?));
-    }
-    let Step { name, values, .. } = last;
-    Ok(Target { resume, outer, name, text: None, values, span })
 }
 
 fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {

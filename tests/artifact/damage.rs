@@ -54,7 +54,7 @@ fn no_single_bit_can_flip_unnoticed() {
 #[test]
 fn whatever_bit_an_attacker_flips_the_machine_is_refused_or_safe() {
     let mut accepted = 0;
-    for artifact in [policies::thesis(), policies::everything()] {
+    for artifact in [policies::thesis(), policies::everything(), policies::nested()] {
         let bytes = artifact.to_bytes().unwrap();
         let mut content = content(&bytes).to_vec();
         for at in 0..content.len() {

@@ -59,7 +59,12 @@ pub(crate) fn thesis() -> Artifact {
     artifact("policies/thesis.fsm", include_str!("../../policies/thesis.fsm"))
 }
 
-/// The artifacts of all policies of this project, of the examples of its language's page, and of [`EVERYTHING`].
+/// The artifact of three levels of states.
+pub(crate) fn nested() -> Artifact {
+    artifact("nested.fsm", include_str!("../fixtures/charts/nested.fsm"))
+}
+
+/// The artifacts of all policies of this project, of the examples of its language's page, of [`nested`], and of [`EVERYTHING`].
 pub(crate) fn all() -> Vec<Artifact> {
     let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("policies");
     let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
@@ -75,7 +80,7 @@ pub(crate) fn all() -> Vec<Artifact> {
             &format!("machine example whisker bound {example} initial Still state Still {{ stop }}"),
         )
     });
-    let all: Vec<Artifact> = files.chain(examples).chain([everything()]).collect();
+    let all: Vec<Artifact> = files.chain(examples).chain([everything(), nested()]).collect();
     assert!(all.len() >= 4);
     all
 }

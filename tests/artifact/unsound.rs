@@ -1,6 +1,6 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
-use vibrissa::machine::{Artifact, ArtifactError, Guard, Mark, Op, Program, Target, WhiskerScalar};
+use vibrissa::machine::{Artifact, ArtifactError, Guard, Mark, Op, Program, State, Target, WhiskerScalar};
 
 use super::{erratic, policies};
 
@@ -134,6 +134,60 @@ fn states_and_timers_are_bounded_and_timers_keep_to_their_kind() {
         *timer += 1;
     });
     assert!(told.contains("its timer 1"), "{told}");
+}
+
+#[test]
+fn states_lie_in_those_before_them_and_begin_directly_in_themselves() {
+    let told = |change: &dyn Fn(&mut Program)| {
+        let mut artifact = policies::nested();
+        change(&mut artifact.program);
+        artifact.to_bytes().unwrap_err().to_string()
+    };
+    // Exploring, Following { Touching { Swiping, Pressing }, Searching, Retreating }, Tunnelling
+    for (state, parent) in [(1, 1), (1, 2), (2, 2), (2, usize::MAX), (0, 7)] {
+        let told = told(&|program| program.states[state].parent = Some(parent));
+        assert!(told.contains(&format!("its state {state} lies in no state before it")), "{told}");
+    }
+    for (state, initial) in [(1, 0), (1, 1), (1, 3), (1, 99), (0, 1), (3, 4), (7, 0)] {
+        let told = told(&|program| program.states[state].initial = Some((initial, 0..0)));
+        assert!(told.contains(&format!("its state {state} cannot begin")), "{told}");
+    }
+    assert!(told(&|program| program.states[2].initial = None).contains("its state 2 cannot begin"));
+    assert!(told(&|program| program.states[5].parent = Some(0)).contains("its state 0 cannot begin"));
+    let told_of_resume = told(&|program| {
+        program.states[6].transitions[0].target = Target::State { state: 5, arguments: 0..0, resume: true };
+    });
+    assert!(told_of_resume.contains("its state 5 cannot begin"), "{told_of_resume}");
+    let told_of_block = told(&|program| {
+        let Some((_, arguments)) = &mut program.states[2].initial else { panic!("an initial state") };
+        arguments.end = u32::MAX;
+    });
+    assert!(told_of_block.contains("its block of code"), "{told_of_block}");
+    let deep = told(&|program| {
+        let template = program.states[7].clone();
+        for level in 0..8 {
+            let (own, outer) = (program.states.len(), program.states.len() - 1);
+            program.states[outer].initial = Some((own, 0..0));
+            program.states.push(State { name: format!("S{level}").into(), parent: Some(outer), ..template.clone() });
+        }
+    });
+    assert!(deep.contains("its state 15 lies in no state before it, or more than 8 deep"), "{deep}");
+}
+
+#[test]
+fn the_blocks_of_the_states_around_a_state_count_with_its_own() {
+    let mut artifact = policies::nested();
+    let program = &mut artifact.program;
+    let longest = program.states[6].body.clone();
+    for state in &mut program.states[1..4] {
+        (state.entry, state.body, state.exit) = (longest.clone(), longest.clone(), longest.clone());
+        for transition in &mut state.transitions {
+            let (Guard::When { code, .. } | Guard::After { code, .. }) = &mut transition.guard;
+            *code = longest.clone();
+        }
+    }
+    let told = artifact.to_bytes().unwrap_err().to_string();
+    assert!(told.contains("operations a tick"), "{told}");
 }
 
 #[test]

@@ -73,7 +73,7 @@ impl<'t> Interpreter<'t> {
             return Done::default();
         }
         if self.active.is_none() {
-            self.active = Some(self.enter(&[0], false));
+            self.active = Some(Box::new(self.enter(&[0], false)));
         }
         let mut since = std::mem::take(&mut self.always_since);
         let mut due = self.due(None, &self.tree.always, 0, &mut since);
@@ -82,7 +82,7 @@ impl<'t> Interpreter<'t> {
         loop {
             due = due.or_else(|| {
                 let mut active = self.active.take();
-                let due = self.due_inside(active.as_mut());
+                let due = self.due_inside(active.as_deref_mut());
                 self.active = active;
                 due
             });
@@ -97,7 +97,7 @@ impl<'t> Interpreter<'t> {
             self.take(from, rule);
         }
         let active = self.active.take();
-        self.act(active.as_ref());
+        self.act(active.as_deref());
         self.active = active;
         std::mem::take(&mut self.done)
     }
@@ -119,7 +119,7 @@ impl<'t> Interpreter<'t> {
     }
 
     /// Enters the first state of a way, in it the second, and so on; then where the last begins or was left.
-    fn enter(&mut self, way: &[usize], resume: bool) -> Box<Active> {
+    fn enter(&mut self, way: &[usize], resume: bool) -> Active {
         let (state, rest) = (way[0], &way[1..]);
         let node = &self.tree.states[state];
         let begin = if node.has_argument { self.arguments[&state] } else { state % 8 };
@@ -135,29 +135,29 @@ impl<'t> Interpreter<'t> {
                 Some(self.enter(&[initial], resume))
             }
         };
-        Box::new(Active { state, entered_at: self.now, since: vec![None; node.rules.len()], inner })
+        Active { state, entered_at: self.now, since: vec![None; node.rules.len()], inner: inner.map(Box::new) }
     }
 
-    fn exit(&mut self, active: Box<Active>) {
+    fn exit(&mut self, active: Active) {
         if let Some(inner) = active.inner {
             self.left.insert(active.state, inner.state);
-            self.exit(inner);
+            self.exit(*inner);
         }
         self.do_it(Event::Exit, active.state);
     }
 
-    fn act(&mut self, active: Option<&Box<Active>>) {
+    fn act(&mut self, active: Option<&Active>) {
         let Some(active) = active else { return };
         self.do_it(Event::Body, active.state);
         if self.tree.states[active.state].commands {
             self.done.commander = Some(active.state);
         }
         self.done.state = Some(active.state);
-        self.act(active.inner.as_ref());
+        self.act(active.inner.as_deref());
     }
 
     /// The first rule that holds of an active state, or else of the one in it; none if it has led where it leads.
-    fn due_inside(&self, active: Option<&mut Box<Active>>) -> Option<(Option<usize>, &'t Rule)> {
+    fn due_inside(&self, active: Option<&mut Active>) -> Option<(Option<usize>, &'t Rule)> {
         let active = active?;
         let rules = &self.tree.states[active.state].rules;
         let own = first(self.holding(rules, active.entered_at, &mut active.since));
@@ -167,7 +167,7 @@ impl<'t> Interpreter<'t> {
             !inside.any(|inner| inner.state == rule.target)
         })
         .map(|rule| (Some(active.state), rule))
-        .or_else(|| self.due_inside(active.inner.as_mut()))
+        .or_else(|| self.due_inside(active.inner.as_deref_mut()))
     }
 
     fn due(
@@ -211,7 +211,7 @@ impl<'t> Interpreter<'t> {
             if let Some(parent) = self.tree.states[left.state].parent {
                 self.left.insert(parent, left.state);
             }
-            self.exit(left);
+            self.exit(*left);
         }
         let values: Vec<usize> = entered
             .iter()
@@ -226,7 +226,7 @@ impl<'t> Interpreter<'t> {
         for _ in 0..level {
             place = &mut place.as_mut().unwrap().inner;
         }
-        *place = Some(inner);
+        *place = Some(Box::new(inner));
     }
 }
 

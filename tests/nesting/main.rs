@@ -1,4 +1,5 @@
 //! States in states: what they mean, by example and against an interpreter of their own.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[path = "../common/mod.rs"]
 mod common;

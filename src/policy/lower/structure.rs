@@ -206,7 +206,9 @@ impl<'f> Compiler<'f> {
             let (start, variables) = state.parent.map_or((0, 0), |parent| ends[parent]);
             scope.truncate(start);
             self.variables.truncate(variables);
-            names.into_iter().for_each(|(name, meaning)| scope.insert(name, meaning));
+            for (name, meaning) in names {
+                scope.insert(name, meaning);
+            }
             self.variables.extend(state.memory.iter().map(|(name, _)| name.text.as_str()));
             ends.push((scope.len(), self.variables.len()));
             self.state(index, state, &mut scope, timers)
