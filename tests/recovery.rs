@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
 use vibrissa::policy::{chart, compile, format};
 
-const THESIS: &str = include_str!("../policies/thesis.fsm");
+const WHOLE: &str = include_str!("fixtures/policies/whole/swiping.fsm");
 
 fn faults(text: &str) -> Vec<Diagnostic> {
     compile(&Source::new("policy.fsm", text)).err().unwrap_or_default()
@@ -40,9 +40,9 @@ const SLIPS: [(&str, &str); 14] = [
 #[test]
 fn every_slip_is_told_where_it_is_and_has_no_consequences() {
     for (right, wrong) in SLIPS {
-        let text = THESIS.replacen(right, wrong, 1);
-        assert_ne!(text, THESIS, "{right}");
-        let line = THESIS[..THESIS.find(right).unwrap()].matches('\n').count() + 1;
+        let text = WHOLE.replacen(right, wrong, 1);
+        assert_ne!(text, WHOLE, "{right}");
+        let line = WHOLE[..WHOLE.find(right).unwrap()].matches('\n').count() + 1;
         let told = told(&text);
         assert!(told.len() == 1 && (line..=line + 1).contains(&told[0].0), "{wrong}: {told:?} for {line}");
     }
@@ -50,7 +50,7 @@ fn every_slip_is_told_where_it_is_and_has_no_consequences() {
 
 #[test]
 fn faults_of_meaning_are_told_beside_those_of_syntax() {
-    let text = THESIS.replacen("initial Exploring", "inital Exploring", 1).replacen("w.sense < 0", "w.sence < 0", 1);
+    let text = WHOLE.replacen("initial Exploring", "inital Exploring", 1).replacen("w.sense < 0", "w.sence < 0", 1);
     let codes: Vec<_> = told(&text).iter().map(|&(_, code)| code).collect();
     assert_eq!(codes, ["P0101", "P0203"]);
 }
@@ -59,7 +59,7 @@ fn faults_of_meaning_are_told_beside_those_of_syntax() {
 fn everything_that_reads_a_policy_tells_the_same_faults_of_syntax() {
     let source = Source::new(
         "policy.fsm",
-        THESIS.replacen("let tangent =", "let tangent", 1).replacen("always when", "always", 1),
+        WHOLE.replacen("let tangent =", "let tangent", 1).replacen("always when", "always", 1),
     );
     let syntax = compile(&source).unwrap_err();
     assert_eq!(syntax.len(), 2, "{}", terminal(&source, &syntax, Colour::Plain));
@@ -75,26 +75,26 @@ proptest! {
         // The law and the states have several each: of those, one may hide another.
         let item = |slip: usize| match slip { 5..=8 => 5, 9..=10 => 9, 11..=12 => 11, other => other };
         let items: std::collections::BTreeSet<_> = chosen.iter().map(|&slip| item(slip)).collect();
-        let text = chosen.iter().fold(THESIS.to_owned(), |text, &slip| text.replacen(SLIPS[slip].0, SLIPS[slip].1, 1));
+        let text = chosen.iter().fold(WHOLE.to_owned(), |text, &slip| text.replacen(SLIPS[slip].0, SLIPS[slip].1, 1));
         let told = told(&text);
         prop_assert!(told.iter().all(|&(_, code)| code == "P0101"), "{told:?} {chosen:?}");
         prop_assert!((items.len()..=chosen.len()).contains(&told.len()), "{told:?} {chosen:?}");
     }
 
     #[test]
-    fn a_text_with_a_fault_never_compiles_by_leaving_it_out(at in 0..THESIS.len(), stray in "[;&%$!@}{)(\"]") {
-        let text = format!("{}{stray}{}", &THESIS[..at], &THESIS[at..]);
-        let in_comment = THESIS[..at].rsplit('\n').next().unwrap().contains('#');
-        let in_text = THESIS[..at].rsplit('\n').next().unwrap().matches('"').count() % 2 == 1;
+    fn a_text_with_a_fault_never_compiles_by_leaving_it_out(at in 0..WHOLE.len(), stray in "[;&%$!@}{)(\"]") {
+        let text = format!("{}{stray}{}", &WHOLE[..at], &WHOLE[at..]);
+        let in_comment = WHOLE[..at].rsplit('\n').next().unwrap().contains('#');
+        let in_text = WHOLE[..at].rsplit('\n').next().unwrap().matches('"').count() % 2 == 1;
         prop_assert!(in_comment || in_text || !faults(&text).is_empty());
     }
 }
 
 #[test]
 fn garbage_takes_bounded_time() {
-    let lines = |line: &str| line.repeat((250_000 - THESIS.len()) / line.len());
+    let lines = |line: &str| line.repeat((250_000 - WHOLE.len()) / line.len());
     let start = Instant::now();
-    let clean = format!("{THESIS}{}", lines("# nothing but words\n"));
+    let clean = format!("{WHOLE}{}", lines("# nothing but words\n"));
     assert_eq!(told(&clean), []);
     let once = start.elapsed();
     for line in [
@@ -110,7 +110,7 @@ fn garbage_takes_bounded_time() {
         "; ",
     ] {
         let start = Instant::now();
-        let found = faults(&format!("{THESIS}{}", lines(line))).len();
+        let found = faults(&format!("{WHOLE}{}", lines(line))).len();
         assert!((1..=50).contains(&found), "{line:?}: {found}");
         // Twenty parses and what comes with them, and much for a busy machine.
         assert!(

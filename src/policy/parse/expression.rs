@@ -1,0 +1,110 @@
+//! Expressions.
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::ast::{Binary, Expression, Kind};
+use crate::policy::grammar::Rule;
+use crate::policy::pair::{Pair, place};
+
+use super::{Parsed, Reader, internal, named, quantity};
+
+/// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
+const DEPTH_LIMIT: usize = 200;
+
+/// Binds tighter than every operator.
+const PREFIX_POWER: u8 = 6;
+
+pub(super) fn binary(rule: Rule) -> Option<(Binary, u8)> {
+    Some(match rule {
+        Rule::kw_or => (Binary::Or, 1),
+        Rule::kw_and => (Binary::And, 2),
+        Rule::less => (Binary::Less, 3),
+        Rule::less_or_equal => (Binary::LessOrEqual, 3),
+        Rule::greater => (Binary::Greater, 3),
+        Rule::greater_or_equal => (Binary::GreaterOrEqual, 3),
+        Rule::equal => (Binary::Equal, 3),
+        Rule::unequal => (Binary::Unequal, 3),
+        Rule::plus => (Binary::Add, 4),
+        Rule::minus => (Binary::Subtract, 4),
+        Rule::times => (Binary::Multiply, 5),
+        Rule::over => (Binary::Divide, 5),
+        _ => return None,
+    })
+}
+
+/// Precedence climbing over the flat list of operands and operators that the grammar gives.
+pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
+    let mut left = operand(reader)?;
+    while let Some((operator, power)) = reader.peek().and_then(binary) {
+        if power < least {
+            break;
+        }
+        reader.next()?;
+        let right = climb(reader, power + 1)?;
+        let span = left.span.to(right.span);
+        let depth = left.depth.max(right.depth);
+        left = node(Kind::Binary { operator, left: Box::new(left), right: Box::new(right) }, span, depth)?;
+    }
+    Ok(left)
+}
+
+fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
+    let pair = reader.next()?;
+    let span = place(&pair);
+    match pair.as_rule() {
+        Rule::minus => {
+            let inner = climb(reader, PREFIX_POWER)?;
+            let (span, depth) = (span.to(inner.span), inner.depth);
+            node(Kind::Negate(Box::new(inner)), span, depth)
+        }
+        Rule::kw_not => {
+            // `not` takes a whole comparison: `not a < b` is `not (a < b)`.
+            let inner = climb(reader, 3)?;
+            let (span, depth) = (span.to(inner.span), inner.depth);
+            node(Kind::Not(Box::new(inner)), span, depth)
+        }
+        Rule::norm => {
+            let inner = Reader::new(pair).expression()?;
+            let depth = inner.depth;
+            node(Kind::Norm(Box::new(inner)), span, depth)
+        }
+        Rule::group => Reader::new(pair).expression().map(|inner| Expression { span, ..inner }),
+        Rule::truth => node(Kind::Truth(pair.as_str() == "true"), span, 0),
+        Rule::quantity => node(Kind::Quantity(quantity(pair)?), span, 0),
+        Rule::access => access(pair),
+        _ => Err(internal(span)),
+    }
+}
+
+fn access(pair: Pair<'_>) -> Parsed<Expression> {
+    let mut reader = Reader::new(pair);
+    let mut parts = Reader::new(reader.take(Rule::root)?);
+    let span = parts.span;
+    let name = named(&parts.next()?);
+    let values = parts.values()?;
+    let depth = deepest(values.as_deref());
+    let mut expression = node(Kind::Root { name, values }, span, depth)?;
+    while reader.has(Rule::member) {
+        let mut parts = Reader::new(reader.take(Rule::member)?);
+        let span = expression.span.to(parts.span);
+        let name = parts.name()?;
+        let values = parts.values()?;
+        let depth = expression.depth.max(deepest(values.as_deref()));
+        expression = node(Kind::Member { owner: Box::new(expression), name, values }, span, depth)?;
+    }
+    Ok(expression)
+}
+
+fn deepest(values: Option<&[Expression]>) -> usize {
+    values.into_iter().flatten().map(|value| value.depth).max().unwrap_or(0)
+}
+
+/// A node above others of which the deepest has `depth` levels.
+fn node(kind: Kind, span: Span, depth: usize) -> Parsed<Expression> {
+    if depth >= DEPTH_LIMIT {
+        let message = format!("the expression nests more than {DEPTH_LIMIT} deep");
+        return Err(Box::new(
+            Diagnostic::error("P0104", message, span, "too many parts").hint("name parts of it with `let`"),
+        ));
+    }
+    Ok(Expression { kind, span, depth: depth + 1 })
+}
