@@ -97,8 +97,8 @@ impl Program {
     /// finite is seen to by [`Machine::tick`](super::Machine::tick), that they are bounded by steering.
     ///
     /// # Errors
-    /// [`Unsound`] with the first thing that is wrong. Of the policies that compile, two kinds give such a program: one
-    /// with a state for a whisker and no whisker, and one with a control character in a reason.
+    /// [`Unsound`] with the first thing that is wrong. Of the policies that compile, one kind gives such a program: one with
+    /// a state for a whisker and no whisker.
     pub fn verify(&self) -> Result<(), Unsound> {
         // Taken apart, so that a field that is new is not forgotten.
         let Self { name, whiskers, parameters, states, initial, always, code, image, timers: _ } = self;

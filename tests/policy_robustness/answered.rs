@@ -54,7 +54,12 @@ pub(crate) fn is_handled(text: &str) -> bool {
     let chart = chart(&source).unwrap();
     assert!(!chart_mermaid(&chart).is_empty() && !chart_dot(&chart).is_empty());
     assert!(chart_svg(&chart).is_ok_and(|drawn| !drawn.is_empty()));
-    let bytes = artifact.to_bytes().unwrap();
+    let bytes = match artifact.to_bytes() {
+        Ok(bytes) => bytes,
+        // A state that is given a whisker, where there is none to give, can be compiled but not verified.
+        Err(_) if artifact.program.whiskers.is_empty() => return true,
+        Err(error) => panic!("{error}"),
+    };
     assert_eq!(Artifact::from_bytes(&bytes).as_ref(), Ok(&artifact));
     erratic::run(artifact.program);
     true

@@ -243,6 +243,14 @@ impl<'f> Compiler<'f> {
                 );
                 return None;
             };
+            if reason.text.chars().any(char::is_control) {
+                let message = "the reason has a character that cannot be shown";
+                self.report(
+                    Diagnostic::error("P0304", message, reason.span, "a tab or another control character is in it")
+                        .hint("write the reason in letters, digits, signs and blanks"),
+                );
+                return None;
+            }
             return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
         }
         let Some(entry) = self.states.get(target.name.text.as_str()) else {
