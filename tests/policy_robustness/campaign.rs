@@ -103,9 +103,11 @@ fn mutated_and_generated_policies_are_handled_in_bounded_time_and_memory() {
 /// `cargo x fuzz` runs this.
 #[test]
 #[ignore = "takes minutes"]
+#[expect(clippy::print_stdout, reason = "the figures are what it is run for")]
 fn as_many_policies_as_asked_for_are_handled_in_bounded_time_and_memory() {
-    let number = |name| env::var(name).ok().and_then(|number| number.parse().ok());
-    let report = campaign(number("FUZZ_SEED").unwrap_or(0), number("FUZZ_TEXTS").unwrap_or(100_000) as usize);
+    let texts = env::var("FUZZ_TEXTS").ok().and_then(|texts| texts.parse().ok()).unwrap_or(100_000);
+    let seed = env::var("FUZZ_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+    let report = campaign(seed, texts);
     println!("{report}");
     report.check();
 }
