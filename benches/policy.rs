@@ -5,13 +5,15 @@
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
 mod disk;
+mod recorded;
 mod thesis;
 
 use std::error::Error;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use disk::{Disk, Recorded};
+use disk::Disk;
+use recorded::Recorded;
 use thesis::{State, Thesis};
 use vibrissa::machine::{Action, Machine, Turn};
 use vibrissa::policy::{compile, compile_with_warnings};

@@ -2,8 +2,6 @@
 
 #![allow(dead_code, reason = "each bench uses a part of it")]
 
-mod senses;
-
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
@@ -15,8 +13,6 @@ use vibrissa::run::Control;
 use vibrissa::scene::Scene;
 use vibrissa::signal::{Command, Sample};
 use vibrissa::world::{MujocoWorld, World};
-
-pub(crate) use senses::Recorded;
 
 /// Ticks after which the platform swipes steadily.
 const SETTLED: usize = 300;

@@ -83,7 +83,7 @@ impl Senses for &Recorded {
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
-        let same = |&&(recorded, _): &&(f64, Vector2)| recorded == deflection;
+        let same = |&&(recorded, _): &&(f64, Vector2)| recorded.total_cmp(&deflection).is_eq();
         self.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
     }
 
