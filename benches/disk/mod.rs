@@ -2,8 +2,6 @@
 
 #![allow(dead_code, reason = "each bench uses a part of it")]
 
-pub(crate) mod senses;
-
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;

@@ -32,13 +32,11 @@ impl Thesis {
         }
         if self.state == State::Exploring {
             let touching = |&whisker: &usize| senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
-            match [0, 1].iter().find(|whisker| touching(whisker)) {
-                Some(&whisker) => self.state = State::Swiping { whisker, untouched_since: None },
-                None => {
-                    let along_world = unit(senses.body(BodyScalar::Yaw));
-                    return Action::Steer { mover: Mover::Body, along_world, speed: self.speed, turn: Turn::Rate(0.0) };
-                }
-            }
+            let Some(&whisker) = [0, 1].iter().find(|whisker| touching(whisker)) else {
+                let along_world = unit(senses.body(BodyScalar::Yaw));
+                return Action::Steer { mover: Mover::Body, along_world, speed: self.speed, turn: Turn::Rate(0.0) };
+            };
+            self.state = State::Swiping { whisker, untouched_since: None };
         }
         if let State::Swiping { whisker, untouched_since } = &mut self.state {
             let whisker = *whisker;

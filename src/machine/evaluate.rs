@@ -11,10 +11,10 @@ use super::stateful;
 pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
     let mut file = File(registers);
     let mut action = None;
-    let mut next = block.start as usize;
-    while next < block.end as usize {
-        let op = code[next];
-        next += 1;
+    // A jump goes on with what lies ahead; taking operations off a slice spares the check of an index for each.
+    let code = &code[..block.end as usize];
+    let mut ahead = code[block.start as usize..].iter();
+    while let Some(&op) = ahead.next() {
         match op {
             Op::Copy { to, a } => file.put(to, file.at(a)),
             Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
@@ -71,10 +71,10 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
             Op::JumpUnless { a, target } => {
                 if !file.truth(a) {
-                    next = target as usize;
+                    ahead = code[target as usize..].iter();
                 }
             }
-            Op::Jump { target } => next = target as usize,
+            Op::Jump { target } => ahead = code[target as usize..].iter(),
             Op::Record { whisker } => senses.record(file.index(whisker)),
             Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
             Op::SteerBodyFacing { along, speed, heading } => {

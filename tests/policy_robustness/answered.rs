@@ -23,11 +23,11 @@ pub(crate) fn is_answered(text: &str) {
         for fault in &faults {
             assert_eq!(fault.severity, severity);
             assert!(!fault.message.is_empty());
-            assert!(!fault.primary.text.is_empty() || !fault.hints.is_empty(), "no words: {:?}", fault);
+            assert!(!fault.primary.text.is_empty() || !fault.hints.is_empty(), "no words: {fault:?}");
             for label in std::iter::once(&fault.primary).chain(&fault.secondary) {
-                assert!(text.get(label.span.start..label.span.end).is_some(), "not in the text: {:?}", fault);
+                assert!(text.get(label.span.start..label.span.end).is_some(), "not in the text: {fault:?}");
             }
-            assert!(fault.code != "P0199", "the grammar and its reader disagree: {:?}", fault);
+            assert!(fault.code != "P0199", "the grammar and its reader disagree: {fault:?}");
         }
         assert!(!terminal(&source, &faults, Colour::Plain).is_empty());
     }

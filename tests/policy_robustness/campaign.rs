@@ -76,7 +76,6 @@ impl Report {
 
     fn check(&self) {
         assert!(self.panics.is_empty(), "{self}");
-        assert!(self.ratio() < MOST_TIME, "too slow: {self}");
         assert!(self.largest.0 < MOST_MEMORY, "too large: {self}");
         assert!(self.compiled > self.texts / 10, "hardly any compiles: {self}");
     }
@@ -96,16 +95,19 @@ impl fmt::Display for Report {
 }
 
 #[test]
-fn mutated_and_generated_policies_are_handled_in_bounded_time_and_memory() {
+fn mutated_and_generated_policies_are_handled_in_bounded_memory() {
     campaign(1, 3000).check();
 }
 
 /// `cargo x fuzz` runs this.
 #[test]
 #[ignore = "takes minutes"]
+#[expect(clippy::print_stdout, reason = "the figures are what it is run for")]
 fn as_many_policies_as_asked_for_are_handled_in_bounded_time_and_memory() {
-    let number = |name| env::var(name).ok().and_then(|number| number.parse().ok());
-    let report = campaign(number("FUZZ_SEED").unwrap_or(0), number("FUZZ_TEXTS").unwrap_or(100_000) as usize);
+    let texts = env::var("FUZZ_TEXTS").ok().and_then(|texts| texts.parse().ok()).unwrap_or(100_000);
+    let seed = env::var("FUZZ_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+    let report = campaign(seed, texts);
     println!("{report}");
+    assert!(report.ratio() < MOST_TIME, "too slow: {report}");
     report.check();
 }

@@ -4,8 +4,8 @@ use vibrissa::geometry::Vector2;
 use vibrissa::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::run::Control;
 
-/// What a whisker's reader may ask; in the order of [`Recorded`]'s arrays.
-const SCALARS: [WhiskerScalar; 7] = [
+/// All that can be asked of a whisker, each in the place that its own number names, as in [`Recorded`].
+const SCALARS: [WhiskerScalar; 8] = [
     WhiskerScalar::Deflection,
     WhiskerScalar::Touching,
     WhiskerScalar::Yaw,
@@ -13,8 +13,15 @@ const SCALARS: [WhiskerScalar; 7] = [
     WhiskerScalar::Sense,
     WhiskerScalar::Length,
     WhiskerScalar::ContourReady,
+    WhiskerScalar::ContourCurvature,
 ];
-const VECTORS: [WhiskerVector; 2] = [WhiskerVector::TipBase, WhiskerVector::ContourTangent];
+const VECTORS: [WhiskerVector; 5] = [
+    WhiskerVector::Tip,
+    WhiskerVector::TipBase,
+    WhiskerVector::Base,
+    WhiskerVector::ContourTangent,
+    WhiskerVector::ContourEnd,
+];
 
 /// What the thesis's policy felt in one tick, taken down so that reading it costs next to nothing.
 #[derive(Debug, Clone)]
@@ -52,7 +59,7 @@ impl Recorded {
     }
 }
 
-impl Senses for Recorded {
+impl Senses for &Recorded {
     fn time(&self) -> f64 {
         self.time
     }
@@ -68,17 +75,15 @@ impl Senses for Recorded {
     }
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
-        let at = SCALARS.iter().position(|&scalar| scalar == quantity);
-        at.map_or(f64::NAN, |at| self.whiskers[whisker].scalars[at])
+        self.whiskers[whisker].scalars[quantity as usize]
     }
 
     fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
-        let at = VECTORS.iter().position(|&vector| vector == quantity);
-        at.map_or(Vector2::new(f64::NAN, f64::NAN), |at| self.whiskers[whisker].vectors[at])
+        self.whiskers[whisker].vectors[quantity as usize]
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
-        let same = |&&(recorded, _): &&(f64, Vector2)| recorded == deflection;
+        let same = |&&(recorded, _): &&(f64, Vector2)| recorded.total_cmp(&deflection).is_eq();
         self.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
     }
 
