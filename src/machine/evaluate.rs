@@ -39,6 +39,11 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::And { to, a, b } => file.put_truth(to, file.truth(a) && file.truth(b)),
             Op::Or { to, a, b } => file.put_truth(to, file.truth(a) || file.truth(b)),
             Op::Not { to, a } => file.put_truth(to, !file.truth(a)),
+            Op::AddVectors { to, a, b } => file.put_vector(to, file.vector(a) + file.vector(b)),
+            Op::SubtractVectors { to, a, b } => file.put_vector(to, file.vector(a) - file.vector(b)),
+            Op::NegateVector { to, a } => file.put_vector(to, -file.vector(a)),
+            Op::MultiplyVector { to, a, b } => file.put_vector(to, file.vector(a) * file.at(b)),
+            Op::DivideVector { to, a, b } => file.put_vector(to, file.vector(a) / file.at(b)),
             Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
             Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {

@@ -5,6 +5,7 @@
 //! transitions are limited) and allocates nothing. An [`Artifact`] is a program as bytes.
 
 mod action;
+mod activity;
 mod artifact;
 mod evaluate;
 mod failsafe;
@@ -16,9 +17,10 @@ mod source_map;
 mod stateful;
 mod tick;
 mod verify;
+mod way;
 
+pub(crate) use activity::TIME_SLACK;
 pub(crate) use evaluate::evaluate;
-pub(crate) use tick::TIME_SLACK;
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};

@@ -63,6 +63,16 @@ pub enum Op {
     Or { to: Register, a: Register, b: Register },
     /// `to = not a`
     Not { to: Register, a: Register },
+    /// `to = a + b`, vectors
+    AddVectors { to: Wide, a: Wide, b: Wide },
+    /// `to = a - b`, vectors
+    SubtractVectors { to: Wide, a: Wide, b: Wide },
+    /// `to = -a`, a vector
+    NegateVector { to: Wide, a: Wide },
+    /// `to = the vector a times the number b`
+    MultiplyVector { to: Wide, a: Wide, b: Register },
+    /// `to = the vector a over the number b`
+    DivideVector { to: Wide, a: Wide, b: Register },
     /// `to = length of the vector a`
     Norm { to: Register, a: Wide },
     /// `to = the vector a at unit length`, and zero for zero

@@ -94,8 +94,13 @@ impl Op {
             | Self::And { to, a, b }
             | Self::Or { to, a, b } => operands.write(number(to)).read([number(a), number(b)]),
             Self::Norm { to, a } | Self::Angle { to, a } => operands.write(number(to)).read([vector(a)]),
-            Self::Unit { to, a } => operands.write(vector(to)).read([vector(a)]),
-            Self::Rotate { to, a, b } => operands.write(vector(to)).read([vector(a), number(b)]),
+            Self::AddVectors { to, a, b } | Self::SubtractVectors { to, a, b } => {
+                operands.write(vector(to)).read([vector(a), vector(b)])
+            }
+            Self::Unit { to, a } | Self::NegateVector { to, a } => operands.write(vector(to)).read([vector(a)]),
+            Self::Rotate { to, a, b } | Self::MultiplyVector { to, a, b } | Self::DivideVector { to, a, b } => {
+                operands.write(vector(to)).read([vector(a), number(b)])
+            }
             Self::Time { to } | Self::Body { to, .. } => operands.write(number(to)),
             Self::BodyPosition { to } => operands.write(vector(to)),
             Self::Whisker { to, whisker, .. } => operands.write(number(to)).whisker(whisker),

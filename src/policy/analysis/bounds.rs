@@ -104,6 +104,22 @@ impl<'m> Bounds<'m> {
             | Op::Equal { .. }
             | Op::And { .. }
             | Op::Or { .. } => self.two(op, region)?,
+            Op::AddVectors { to, a, b } => self.parts(to, (a, b), region, Interval::add),
+            Op::SubtractVectors { to, a, b } => self.parts(to, (a, b), region, Interval::subtract),
+            Op::NegateVector { to, a } => {
+                let value = self.vector_at(a, region).map(Interval::negate);
+                self.put_vector(to, value);
+            }
+            Op::MultiplyVector { to, a, b } => {
+                let by = self.at(b, region);
+                let value = self.vector_at(a, region).map(|part| part.multiply(by));
+                self.put_vector(to, value);
+            }
+            Op::DivideVector { to, a, b } => {
+                let by = self.at(b, region);
+                let value = self.vector_at(a, region).map(|part| part.divide(by));
+                self.put_vector(to, value);
+            }
             Op::Norm { to, a } => {
                 let value = Interval::norm(self.vector_at(a, region));
                 self.put(to, value);
@@ -160,6 +176,18 @@ impl<'m> Bounds<'m> {
             | Op::Stop => return None,
         }
         Some(())
+    }
+
+    /// An operation on two vectors, part by part.
+    fn parts(
+        &mut self,
+        to: Register,
+        (a, b): (Register, Register),
+        region: &mut Region<'_>,
+        operation: fn(Interval, Interval) -> Interval,
+    ) {
+        let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
+        self.put_vector(to, [operation(x, u), operation(y, v)]);
     }
 
     /// An operation on two numbers or truths; `None` for any other.

@@ -109,7 +109,12 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         | Op::Pid { to, .. }
         | Op::Body { to, .. }
         | Op::Whisker { to, .. } => to..to + 1,
-        Op::Unit { to, .. }
+        Op::AddVectors { to, .. }
+        | Op::SubtractVectors { to, .. }
+        | Op::NegateVector { to, .. }
+        | Op::MultiplyVector { to, .. }
+        | Op::DivideVector { to, .. }
+        | Op::Unit { to, .. }
         | Op::Rotate { to, .. }
         | Op::BodyPosition { to }
         | Op::WhiskerVector { to, .. }

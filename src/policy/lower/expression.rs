@@ -33,10 +33,13 @@ impl<'f> Compiler<'f> {
             Kind::Norm(inner) => self.norm(scope, inner),
             Kind::Negate(inner) => {
                 let value = self.expression(scope, inner)?;
-                match value.r#type {
-                    Type::Scalar(_) | Type::Vector(_) => Some(self.each(value, |to, a| Op::Negate { to, a })),
-                    other => self.mismatch(inner.span, other, "only a number or a vector can be negated"),
-                }
+                let a = value.register;
+                let register = match value.r#type {
+                    Type::Scalar(_) => self.code.scalar(|to| Op::Negate { to, a }),
+                    Type::Vector(_) => self.code.vector(|to| Op::NegateVector { to, a }),
+                    other => return self.mismatch(inner.span, other, "only a number or a vector can be negated"),
+                };
+                Some(Value { register, ..value })
             }
             Kind::Not(inner) => {
                 let a = self.expect(scope, inner, Type::Truth)?;
@@ -255,36 +258,37 @@ impl<'f> Compiler<'f> {
                 let equal = self.code.scalar(|to| Op::Equal { to, a, b });
                 truth(if operator == Binary::Equal { equal } else { self.code.scalar(|to| Op::Not { to, a: equal }) })
             }
-            (Binary::Add, Type::Scalar(l), Type::Scalar(r)) | (Binary::Add, Type::Vector(l), Type::Vector(r))
-                if l == r =>
-            {
-                Some(self.pairwise(left, right, |to, a, b| Op::Add { to, a, b }))
+            (Binary::Add, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                Some(Value { register: self.code.scalar(|to| Op::Add { to, a, b }), ..left })
             }
-            (Binary::Subtract, Type::Scalar(l), Type::Scalar(r))
-            | (Binary::Subtract, Type::Vector(l), Type::Vector(r))
-                if l == r =>
-            {
-                Some(self.pairwise(left, right, |to, a, b| Op::Subtract { to, a, b }))
+            (Binary::Add, Type::Vector(l), Type::Vector(r)) if l == r => {
+                Some(Value { register: self.code.vector(|to| Op::AddVectors { to, a, b }), ..left })
+            }
+            (Binary::Subtract, Type::Scalar(l), Type::Scalar(r)) if l == r => {
+                Some(Value { register: self.code.scalar(|to| Op::Subtract { to, a, b }), ..left })
+            }
+            (Binary::Subtract, Type::Vector(l), Type::Vector(r)) if l == r => {
+                Some(Value { register: self.code.vector(|to| Op::SubtractVectors { to, a, b }), ..left })
             }
             (Binary::Multiply, Type::Scalar(l), Type::Scalar(r)) => {
                 let r#type = Type::Scalar(self.dimension(l.checked_mul(r), left_span.to(right_span))?);
                 Some(Value { r#type, register: self.code.scalar(|to| Op::Multiply { to, a, b }) })
             }
             (Binary::Multiply, Type::Scalar(l), Type::Vector(r)) => {
-                let dimension = self.dimension(l.checked_mul(r), left_span.to(right_span))?;
-                Some(self.scaled(right, left, dimension, |to, a, b| Op::Multiply { to, a, b }))
+                let r#type = Type::Vector(self.dimension(l.checked_mul(r), left_span.to(right_span))?);
+                Some(Value { r#type, register: self.code.vector(|to| Op::MultiplyVector { to, a: b, b: a }) })
             }
             (Binary::Multiply, Type::Vector(l), Type::Scalar(r)) => {
-                let dimension = self.dimension(l.checked_mul(r), left_span.to(right_span))?;
-                Some(self.scaled(left, right, dimension, |to, a, b| Op::Multiply { to, a, b }))
+                let r#type = Type::Vector(self.dimension(l.checked_mul(r), left_span.to(right_span))?);
+                Some(Value { r#type, register: self.code.vector(|to| Op::MultiplyVector { to, a, b }) })
             }
             (Binary::Divide, Type::Scalar(l), Type::Scalar(r)) => {
                 let r#type = Type::Scalar(self.dimension(l.checked_div(r), left_span.to(right_span))?);
                 Some(Value { r#type, register: self.code.scalar(|to| Op::Divide { to, a, b }) })
             }
             (Binary::Divide, Type::Vector(l), Type::Scalar(r)) => {
-                let dimension = self.dimension(l.checked_div(r), left_span.to(right_span))?;
-                Some(self.scaled(left, right, dimension, |to, a, b| Op::Divide { to, a, b }))
+                let r#type = Type::Vector(self.dimension(l.checked_div(r), left_span.to(right_span))?);
+                Some(Value { r#type, register: self.code.vector(|to| Op::DivideVector { to, a, b }) })
             }
             (_, left_type, right_type) => {
                 let message = format!("`{}` does not go with {left_type} and {right_type}", operator.symbol());
@@ -312,33 +316,6 @@ impl<'f> Compiler<'f> {
     pub(super) fn mismatch<T>(&mut self, span: Span, found: Type, rule: &str) -> Option<T> {
         self.report(Diagnostic::error("P0301", rule, span, format!("is {found}")));
         None
-    }
-
-    /// Applies an operation to a number, or to both parts of a vector.
-    fn each(&mut self, value: Value, op: impl Fn(u16, u16) -> Op) -> Value {
-        let register = self.code.place(value.r#type.width());
-        for part in 0..value.r#type.width() {
-            self.code.push(op(register + part, value.register + part));
-        }
-        Value { r#type: value.r#type, register }
-    }
-
-    /// Applies an operation to two numbers, or part by part to two vectors, of one type.
-    pub(super) fn pairwise(&mut self, left: Value, right: Value, op: impl Fn(u16, u16, u16) -> Op) -> Value {
-        let register = self.code.place(left.r#type.width());
-        for part in 0..left.r#type.width() {
-            self.code.push(op(register + part, left.register + part, right.register + part));
-        }
-        Value { r#type: left.r#type, register }
-    }
-
-    /// Applies an operation to both parts of a vector and a number.
-    fn scaled(&mut self, vector: Value, by: Value, dimension: Dimension, op: impl Fn(u16, u16, u16) -> Op) -> Value {
-        let register = self.code.place(2);
-        for part in 0..2 {
-            self.code.push(op(register + part, vector.register + part, by.register));
-        }
-        Value { r#type: Type::Vector(dimension), register }
     }
 }
 

@@ -1,0 +1,230 @@
+//! What a machine is doing: its active states, its memory, its times.
+
+use std::sync::Arc;
+
+use super::action::Action;
+use super::evaluate::evaluate;
+use super::failsafe::{Cause, Failsafe};
+use super::op::Block;
+use super::program::{Guard, Program, Target, Transition};
+use super::senses::Senses;
+use super::tick::{CHAIN_LIMIT, Failure};
+use super::way::Way;
+
+/// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
+pub(crate) const TIME_SLACK: f64 = 1e-9;
+
+/// What a machine is doing. The program is the same at every call.
+#[derive(Debug, Clone)]
+pub(super) struct Activity {
+    registers: Vec<f64>,
+    active: Way,
+    has_begun: bool,
+    /// When each state was entered last (s).
+    entered_at: Vec<f64>,
+    /// For every state, which of the states directly in it was active last.
+    last_inner: Vec<Option<usize>>,
+    /// For every guard with a duration, since when its condition has held.
+    holding_since: Vec<Option<f64>>,
+}
+
+impl Activity {
+    /// What a machine does that is about to enter `state`, with `registers` as its memory.
+    pub(super) fn new(program: &Program, state: usize, registers: Vec<f64>) -> Self {
+        Self {
+            registers,
+            active: Way::to(program, state),
+            has_begun: false,
+            entered_at: vec![0.0; program.states.len()],
+            last_inner: vec![None; program.states.len()],
+            holding_since: vec![None; program.timers],
+        }
+    }
+
+    /// Index of the innermost active state.
+    pub(super) fn state(&self) -> usize {
+        self.active.innermost()
+    }
+
+    /// One tick, as [`Machine::tick`](super::Machine::tick) describes it.
+    pub(super) fn tick<S: Senses>(
+        &mut self,
+        program: &Program,
+        senses: &mut S,
+    ) -> (Result<Action, Failure>, Option<Failsafe>) {
+        let now = senses.time();
+        if !self.has_begun {
+            self.has_begun = true;
+            self.enter(program, None, (self.state(), false), now, senses);
+        }
+        let mut due = self.due(program, None, now, senses);
+        for taken in 0..=CHAIN_LIMIT {
+            if due.is_none() {
+                due = self.due_within(program, now, senses);
+            }
+            match due.take() {
+                None => {
+                    return match self.act(program, senses) {
+                        Ok(action) => (Ok(action), None),
+                        Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses),
+                    };
+                }
+                Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
+                Some((from, Target::State { state, arguments, resume })) if taken < CHAIN_LIMIT => {
+                    self.take(program, from, (*state, arguments, *resume), now, senses);
+                }
+                Some((_, Target::State { .. })) => {}
+            }
+        }
+        self.leave(program, (self.state(), Cause::Chain), now, senses)
+    }
+
+    /// What is due of the active states' transitions, from the outermost state to the innermost.
+    fn due_within<'p, S: Senses>(
+        &mut self,
+        program: &'p Program,
+        now: f64,
+        senses: &mut S,
+    ) -> Option<(Option<usize>, &'p Target)> {
+        (0..self.active.states().len())
+            .find_map(|level| self.due(program, Some(self.active.states()[level]), now, senses))
+    }
+
+    /// Goes to a target of a state's transition, or of one that belongs to none.
+    fn take<S: Senses>(
+        &mut self,
+        program: &Program,
+        from: Option<usize>,
+        (target, arguments, resume): (usize, &Block, bool),
+        now: f64,
+        senses: &mut S,
+    ) {
+        let stays = program.stays(from, target);
+        for left in program.outward(self.state()).take_while(|&left| Some(left) != stays) {
+            evaluate(&program.code, &program.states[left].exit, &mut self.registers, senses);
+        }
+        evaluate(&program.code, arguments, &mut self.registers, senses);
+        self.enter(program, stays, (target, resume), now, senses);
+    }
+
+    /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
+    /// was in last, and so on.
+    fn enter<S: Senses>(
+        &mut self,
+        program: &Program,
+        stays: Option<usize>,
+        (target, resume): (usize, bool),
+        now: f64,
+        senses: &mut S,
+    ) {
+        let (way, first) = (Way::to(program, target), stays.map_or(0, |stays| program.outward(stays).count()));
+        for &state in &way.states()[first..] {
+            self.enter_one(program, state, now, senses);
+        }
+        while let Some((initial, arguments)) = &program.states[self.state()].initial {
+            let inner = match self.last_inner[self.state()] {
+                Some(last) if resume => last,
+                _ => {
+                    evaluate(&program.code, arguments, &mut self.registers, senses);
+                    *initial
+                }
+            };
+            self.enter_one(program, inner, now, senses);
+        }
+    }
+
+    fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
+        let state = &program.states[index];
+        self.active = Way::to(program, index);
+        self.entered_at[index] = now;
+        if let Some(parent) = state.parent {
+            self.last_inner[parent] = Some(index);
+        }
+        for transition in &state.transitions {
+            if let Guard::When { lasting: Some((_, timer)), .. } = transition.guard {
+                self.holding_since[timer] = None;
+            }
+        }
+        evaluate(&program.code, &state.entry, &mut self.registers, senses);
+    }
+
+    /// What the active states do: the last action that one of them gives. If it is not finite, the state that gave it.
+    fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Result<Action, usize> {
+        let mut given = None;
+        for &state in self.active.states() {
+            let action = evaluate(&program.code, &program.states[state].body, &mut self.registers, senses);
+            given = action.map(|action| (state, action)).or(given);
+        }
+        match given {
+            Some((state, action)) if !action.is_finite() => Err(state),
+            _ => Ok(given.map_or(Action::Hold, |(_, action)| action)),
+        }
+    }
+
+    /// Leaves the active state, because of a state in which the machine cannot go on, by the failsafe. The state entered only
+    /// acts: whatever it would do next has time until the next tick.
+    fn leave<S: Senses>(
+        &mut self,
+        program: &Program,
+        (stuck, cause): (usize, Cause),
+        now: f64,
+        senses: &mut S,
+    ) -> (Result<Action, Failure>, Option<Failsafe>) {
+        let left = self.state();
+        let action = match program.failsafe_of(left) {
+            None => return (Err(cause.failure(&program.states[stuck].name)), None),
+            Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
+            Some((from, Target::State { state, arguments, resume })) => {
+                self.take(program, from, (*state, arguments, *resume), now, senses);
+                self.act(program, senses).map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
+            }
+        };
+        (action, Some(Failsafe { left, cause }))
+    }
+
+    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds, unless it
+    /// has led where it leads already. Every guard is looked at, so that the timers of the later ones run.
+    fn due<'p, S: Senses>(
+        &mut self,
+        program: &'p Program,
+        from: Option<usize>,
+        now: f64,
+        senses: &mut S,
+    ) -> Option<(Option<usize>, &'p Target)> {
+        let (transitions, since) = match from {
+            None => (&program.always, 0.0),
+            Some(state) => (&program.states[state].transitions, self.entered_at[state]),
+        };
+        let mut first: Option<&Transition> = None;
+        for transition in transitions {
+            if self.holds(program, &transition.guard, now - since, now, senses) {
+                first = first.or(Some(transition));
+            }
+        }
+        match &first?.target {
+            Target::State { state, .. } if program.is_settled(from, *state, self.state()) => None,
+            target => Some((from, target)),
+        }
+    }
+
+    /// Whether a guard holds whose state has been active for the time `active` (s).
+    fn holds<S: Senses>(&mut self, program: &Program, guard: &Guard, active: f64, now: f64, senses: &mut S) -> bool {
+        match guard {
+            Guard::When { code, truth, lasting } => {
+                evaluate(&program.code, code, &mut self.registers, senses);
+                let holds = self.registers[usize::from(*truth)] > 0.5;
+                let Some((duration, timer)) = lasting else { return holds };
+                let since = &mut self.holding_since[*timer];
+                if !holds {
+                    *since = None;
+                    return false;
+                }
+                now - *since.get_or_insert(now) >= self.registers[usize::from(*duration)] - TIME_SLACK
+            }
+            Guard::After { code, time } => {
+                evaluate(&program.code, code, &mut self.registers, senses);
+                active >= self.registers[usize::from(*time)] - TIME_SLACK
+            }
+        }
+    }
+}
