@@ -530,4 +530,5 @@ fn tests_pass_or_show_what_was_measured() {
 fn the_policies_pass_their_own_tests() {
     let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("policies/thesis.fsm: ") && stdout(&output).contains("policies/bang.fsm: "));
 }

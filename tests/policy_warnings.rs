@@ -119,7 +119,7 @@ fn what_never_or_always_holds_is_told() {
         ("wrap(body.yaw) > 190 deg", "P0508"),
         ("r.touching and r.sense == 0", "P0508"),
         ("r.sense > 0 and r.deflection * r.side < 0 rad", "P0508"),
-        ("|r.deflection| > 91 deg", "P0508"),
+        ("|r.deflection| > 361 deg", "P0508"),
         ("turn(body.yaw, r.yaw) > 190 deg", "P0508"),
         ("p > 2", "P0508"),
         ("r.contour.curvature > 0 rad/m and not r.contour.ready", "P0508"),

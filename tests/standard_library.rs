@@ -184,11 +184,15 @@ fn every_module_is_sound_by_itself_and_needs_nothing_that_it_does_not_use() {
 }
 
 prop_compose! {
+    /// Both whiskers touch, and the walls do not go opposite ways: else some laws keep the last command.
     fn felt()(
         (x, y, heading) in (-1.0..1.0_f64, -1.0..1.0_f64, -PI..PI),
-        bends in [-6e-4..6e-4_f64, -6e-4..6e-4_f64], directions in [-PI..PI, -PI..PI],
+        bends in [3e-5..6e-4_f64, 3e-5..6e-4_f64], senses in any::<[bool; 2]>(), direction in -PI..PI, between in -2.5..2.5_f64,
     ) -> Felt {
-        let whisker = |index: usize| Whisker { deflection: bends[index], tangent: unit(directions[index]), ready: true };
+        let whisker = |index: usize| {
+            let deflection = if senses[index] { bends[index] } else { -bends[index] };
+            Whisker { deflection, tangent: unit(direction + between * index as f64), ready: true }
+        };
         Felt { body: Pose { position: Point2::new(x, y), heading }, whiskers: [whisker(0), whisker(1)] }
     }
 }
@@ -383,9 +387,6 @@ fn guards_hold_when_they_say() {
         assert!(!holds("bent_wrong_way(w)", whisker, &free));
         for felt in [&bent, &back] {
             assert!(holds("at_limit(w, 299 urad)", whisker, felt) && !holds("at_limit(w, 301 urad)", whisker, felt));
-            assert!(
-                holds("bent_enough(w, 299 urad)", whisker, felt) && !holds("bent_enough(w, 301 urad)", whisker, felt)
-            );
         }
         assert!(!holds("same_sense(v, w)", whisker, &bent), "one of them is free");
         let mut both = bent;

@@ -7,7 +7,6 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
-use std::time::Duration;
 
 /// A program that is ended with the test.
 struct Watching {
@@ -16,9 +15,9 @@ struct Watching {
 }
 
 impl Watching {
-    fn new(scenario: &Path) -> Self {
+    fn new(folder: &Path, scenario: &str) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
-        command.arg("run").arg(scenario).arg("--watch").stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.args(["run", scenario, "--watch"]).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
         let (sender, lines) = channel();
         let (out, told) = (child.stdout.take().unwrap(), child.stderr.take().unwrap());
@@ -30,7 +29,7 @@ impl Watching {
 
     /// Reads on until a line has `text` in it.
     fn until(&self, text: &str) {
-        while !self.lines.recv_timeout(Duration::from_mins(2)).unwrap().contains(text) {}
+        while !self.lines.recv().unwrap().contains(text) {}
     }
 }
 
@@ -47,15 +46,14 @@ fn saving_a_policy_runs_it_again_and_breaks_off_the_run_before() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("watch");
     std::fs::create_dir_all(&folder).unwrap();
     let scenario = std::fs::read_to_string(root.join("scenarios/disk.yaml")).unwrap();
-    let scenario_path = folder.join("disk.yaml");
     // An hour: no run ends by itself.
     let scenario = scenario.replace("../policies/thesis.fsm", "policy.fsm").replace("time: 120 s", "time: 3600 s");
-    std::fs::write(&scenario_path, scenario).unwrap();
+    std::fs::write(folder.join("disk.yaml"), scenario).unwrap();
     let policy = folder.join("policy.fsm");
     let still = |state: &str| format!("machine still initial {state} state {state} {{ stop }}");
 
     std::fs::write(&policy, still("First")).unwrap();
-    let watching = Watching::new(&scenario_path);
+    let watching = Watching::new(&folder, "disk.yaml");
     watching.until("2 s  First");
 
     // As editors do it: a new file in the place of the old one.

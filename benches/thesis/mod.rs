@@ -55,7 +55,8 @@ impl Thesis {
     }
 
     fn swipe<S: Senses>(&self, whisker: usize, senses: &S) -> Action {
-        if senses.whisker(whisker, WhiskerScalar::ContourReady) < 0.5 {
+        let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
+        if !touching || senses.whisker(whisker, WhiskerScalar::ContourReady) < 0.5 {
             return Action::Hold;
         }
         let tangent = senses.whisker_vector(whisker, WhiskerVector::ContourTangent);

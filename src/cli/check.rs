@@ -37,8 +37,10 @@ struct Summary {
     states: Vec<StateSummary>,
     /// Where states without a failsafe of their own are left to.
     failsafe: Option<String>,
-    /// Bytes of a running machine's registers.
+    /// Bytes that a running machine keeps.
     memory_bytes: usize,
+    /// A bound on the operations of any tick, with eight transitions in it.
+    most_operations: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -186,7 +188,8 @@ fn summary(artifact: &Artifact) -> Summary {
         whiskers: program.whiskers.clone(),
         parameters: program.parameters.iter().zip(&program.image).map(parameter).collect(),
         states: program.states.iter().enumerate().map(state).collect(),
-        memory_bytes: std::mem::size_of_val(program.image.as_slice()),
+        memory_bytes: program.memory_bytes(),
+        most_operations: program.most_operations(),
     }
 }
 
@@ -200,7 +203,7 @@ fn name(program: &Program, target: &Target) -> String {
 
 fn describe(file: &str, machine: &Summary) -> String {
     let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
-    let headings = ["state", "transitions", "operations a tick, at most"];
+    let headings = ["state", "transitions", "operations in a tick that stays"];
     let mut states = table(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
     for state in &machine.states {
         let initial = if state.initial { " (initial)" } else { "" };
@@ -215,10 +218,11 @@ fn describe(file: &str, machine: &Summary) -> String {
         parameters.add_row([name, value, &range, description]);
     }
     let mut text = format!(
-        "{file}: machine {}, whiskers {}, {} bytes of memory\n",
+        "{file}: machine {}, whiskers {}, {} bytes of memory, at most {} operations a tick\n",
         machine.name,
         machine.whiskers.join(", "),
-        machine.memory_bytes
+        machine.memory_bytes,
+        machine.most_operations
     );
     if !machine.parameters.is_empty() {
         text += &(parameters.trim_fmt() + "\n");

@@ -98,6 +98,10 @@ pub(super) fn library_files(source: &Source) -> impl Iterator<Item = PathBuf> {
 /// The text of a file that a policy uses.
 fn library(path: &str) -> Result<String, String> {
     let path = Path::new(path);
+    // A pipe might never end, or never begin.
+    if path.metadata().is_ok_and(|about| !about.is_file()) {
+        return Err("it is no file".to_owned());
+    }
     File::open(path).and_then(read_text).map_err(|cause| {
         let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
         let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sha2::Digest;
+use sha2::{Digest, Sha256};
 
 use crate::diagnostic::Source;
 use crate::machine::Program;
@@ -78,7 +78,7 @@ impl Job {
             Err(Failure::Faults { source_text, .. }) => files.add(source_text),
             _ => {}
         }
-        let Loaded { value: Policy { artifact, text }, hash: mut policy_hash } = policy?;
+        let Loaded { value: Policy { artifact, text }, hash: policy_hash } = policy?;
         if let Some(PolicyText { source, warnings, .. }) = &text
             && files.told.insert(policy_path)
         {
@@ -87,8 +87,9 @@ impl Job {
         let mut program = artifact.program;
         for setting in &arguments.settings {
             program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
-            policy_hash.update(format!("\0{}={}", setting.name, setting.value.value_si));
         }
+        let settings = arguments.settings.iter().map(|setting| (setting.name.as_str(), setting.value.value_si));
+        let policy_hash = with_settings(policy_hash, settings);
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
         Self::with(path, scene, program, arguments.world.into(), seed, hashes)
@@ -178,6 +179,11 @@ impl Job {
         let json = serde_json::to_string_pretty(result)? + "\n";
         std::fs::write(&json_path, json).map_err(Failure::write(&json_path))
     }
+}
+
+/// The hash of a policy with parameters that are set, by name, to values (SI).
+pub(super) fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str, f64)>) -> Sha256 {
+    settings.fold(policy, |hash, (name, value)| hash.chain_update(format!("\0{name}={value}")))
 }
 
 /// A path with an extension behind whatever it ends in: names of scenarios may have points.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use sha2::Digest;
+use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Record, records};
 use crate::machine::Program;
@@ -15,7 +15,7 @@ use crate::study::violations;
 use super::arguments::TestArguments;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::job::Job;
+use super::job::{Job, with_settings};
 use super::{output, run};
 
 /// What came of one test.
@@ -38,9 +38,8 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
         output::diagnostics(&text.source, &text.warnings);
         let wanted =
             |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
-        let hash = hash.finalize();
         let jobs = text.tests.iter().filter(wanted).map(|test| {
-            let job = job(path, &text, test, artifact.program.clone(), &hash, arguments)?;
+            let job = job(path, &text, test, artifact.program.clone(), hash.clone(), arguments)?;
             Ok((test.clone(), job))
         });
         let jobs = jobs.collect::<Result<Vec<_>, Failure>>()?;
@@ -89,7 +88,7 @@ fn job(
     text: &PolicyText,
     test: &PolicyTest,
     mut program: Program,
-    policy_hash: &[u8],
+    policy_hash: Sha256,
     arguments: &TestArguments,
 ) -> Result<Job, Failure> {
     let path = policy.parent().unwrap_or(Path::new("")).join(&test.scenario);
@@ -103,9 +102,8 @@ fn job(
         other => other,
     })?;
     test.set(&mut program);
-    let policy_hash = test.settings.iter().fold(sha2::Sha256::new_with_prefix(policy_hash), |hash, (index, value)| {
-        hash.chain_update(index.to_le_bytes()).chain_update(value.to_le_bytes())
-    });
+    let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
+    let policy_hash = with_settings(policy_hash, settings);
     let seed = scene.seed;
     Job::with(&path, scene, program, arguments.world.into(), seed, (hash.finalize(), policy_hash.finalize()))
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::Duration;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
 
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 
@@ -90,13 +90,10 @@ impl Watch {
     fn add(&mut self, files: BTreeSet<PathBuf>) -> Result<bool, Failure> {
         let mut is_new = false;
         for file in files {
-            let folder = match file.parent() {
-                Some(folder) if folder != Path::new("") => folder.to_owned(),
-                _ => PathBuf::from("."),
-            };
-            if let Some(name) = file.file_name() {
-                self.files.insert(folder.join(name));
-            }
+            // Events name files by absolute paths.
+            let file = std::path::absolute(&file).map_err(Failure::read(&file))?;
+            let Some(folder) = file.parent().map(Path::to_owned) else { continue };
+            self.files.insert(file);
             if !self.folders.contains(&folder) {
                 self.watcher.watch(&folder, RecursiveMode::NonRecursive)?;
                 self.folders.insert(folder);
@@ -124,12 +121,14 @@ impl Watch {
         }
     }
 
-    /// Waits until nothing more happens.
+    /// Waits until nothing more happens to the files.
     fn settle(&self) {
-        while !matches!(
-            self.events.recv_timeout(QUIET),
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected)
-        ) {}
+        let mut until = Instant::now() + QUIET;
+        while let Ok(event) = self.events.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            if self.concerns(&event) {
+                until = Instant::now() + QUIET;
+            }
+        }
     }
 
     /// Whether an event is about one of the files. If events were lost, it may have been.

@@ -64,7 +64,7 @@ impl Activity {
             }
             match due.take() {
                 None => {
-                    return match self.act(program, senses) {
+                    return match self.act(program, 0, senses) {
                         Ok(action) => (Ok(action), None),
                         Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses),
                     };
@@ -148,10 +148,11 @@ impl Activity {
         evaluate(&program.code, &state.entry, &mut self.registers, senses);
     }
 
-    /// What the active states do: the last action that one of them gives. If it is not finite, the state that gave it.
-    fn act<S: Senses>(&mut self, program: &Program, senses: &mut S) -> Result<Action, usize> {
+    /// What the active states do, but for the `from` outermost: the last action that one of them gives. If it is not finite, the
+    /// state that gave it.
+    fn act<S: Senses>(&mut self, program: &Program, from: usize, senses: &mut S) -> Result<Action, usize> {
         let mut given = None;
-        for &state in self.active.states() {
+        for &state in &self.active.states()[from..] {
             let action = evaluate(&program.code, &program.states[state].body, &mut self.registers, senses);
             given = action.map(|action| (state, action)).or(given);
         }
@@ -161,8 +162,8 @@ impl Activity {
         }
     }
 
-    /// Leaves the active state, because of a state in which the machine cannot go on, by the failsafe. The state entered only
-    /// acts: whatever it would do next has time until the next tick.
+    /// Leaves the active state by the failsafe of the state in which the machine cannot go on. The states entered only act:
+    /// whatever they would do next has time until the next tick.
     fn leave<S: Senses>(
         &mut self,
         program: &Program,
@@ -170,20 +171,24 @@ impl Activity {
         now: f64,
         senses: &mut S,
     ) -> (Result<Action, Failure>, Option<Failsafe>) {
-        let left = self.state();
-        let action = match program.failsafe_of(left) {
+        let action = match program.failsafe_of(stuck) {
             None => return (Err(cause.failure(&program.states[stuck].name)), None),
             Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
-                self.act(program, senses).map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
+                let have_acted = match cause {
+                    Cause::NotFinite => program.stays(from, *state).map_or(0, |stays| program.outward(stays).count()),
+                    Cause::Chain => 0,
+                };
+                let action = self.act(program, have_acted, senses);
+                action.map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
             }
         };
-        (action, Some(Failsafe { left, cause }))
+        (action, Some(Failsafe { left: stuck, cause }))
     }
 
-    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds, unless it
-    /// has led where it leads already. Every guard is looked at, so that the timers of the later ones run.
+    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds. If that has
+    /// led where it leads already, the others wait, but for a failure. Every guard is looked at, so that the timers of the later ones run.
     fn due<'p, S: Senses>(
         &mut self,
         program: &'p Program,
@@ -195,16 +200,20 @@ impl Activity {
             None => (&program.always, 0.0),
             Some(state) => (&program.states[state].transitions, self.entered_at[state]),
         };
-        let mut first: Option<&Transition> = None;
-        for transition in transitions {
-            if self.holds(program, &transition.guard, now - since, now, senses) {
-                first = first.or(Some(transition));
+        let (mut first, mut failure): (Option<&Target>, Option<&Target>) = (None, None);
+        for Transition { guard, target } in transitions {
+            if self.holds(program, guard, now - since, now, senses) {
+                first = first.or(Some(target));
+                if let Target::Failure(_) = target {
+                    failure = failure.or(Some(target));
+                }
             }
         }
-        match &first?.target {
-            Target::State { state, .. } if program.is_settled(from, *state, self.state()) => None,
-            target => Some((from, target)),
-        }
+        let target = match first? {
+            Target::State { state, .. } if program.is_settled(from, *state, self.state()) => failure?,
+            target => target,
+        };
+        Some((from, target))
     }
 
     /// Whether a guard holds whose state has been active for the time `active` (s).

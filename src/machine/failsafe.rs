@@ -7,7 +7,7 @@ use super::tick::Failure;
 /// That a machine left a state by its failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Failsafe {
-    /// Index of the state that was left.
+    /// Index of the state in which it could not go on: the one that gave the command, or the innermost active one.
     pub left: usize,
     /// Why.
     pub cause: Cause,

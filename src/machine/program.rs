@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::units::{Dimension, format_si};
 
 use super::op::{Block, Op, Register};
+use super::tick::CHAIN_LIMIT;
 
 /// The most operations that a program may have.
 pub const CODE_LIMIT: usize = 50_000;
@@ -210,6 +211,37 @@ impl Program {
         };
         let active = self.outward(state).map(|state| &self.states[state]);
         guards(&self.always) + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
+    }
+
+    /// A bound on the operations of any tick: eight transitions, each with the most that one can do, guards before and behind
+    /// each, a failsafe, and what states do.
+    #[must_use]
+    pub fn most_operations(&self) -> usize {
+        let most = |of: &dyn Fn(usize) -> usize| (0..self.states.len()).map(of).max().unwrap_or(0);
+        let on_the_way = |state: usize, of: &dyn Fn(&State) -> usize| -> usize {
+            self.outward(state).map(|state| of(&self.states[state])).sum()
+        };
+        let guards = |transitions: &[Transition]| -> usize {
+            transitions.iter().map(|transition| transition.guard.code().len()).sum()
+        };
+        let values = |target: &Target| if let Target::State { arguments, .. } = target { arguments.len() } else { 0 };
+        let of_states =
+            self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.failsafe));
+        let targets = self.always.iter().map(|one| &one.target).chain(&self.failsafe).chain(of_states);
+        let entering = |state: &State| state.entry.len() + state.initial.as_ref().map_or(0, |(_, values)| values.len());
+        let transition = most(&|state| on_the_way(state, &|state| state.exit.len()))
+            + targets.map(values).max().unwrap_or(0)
+            + most(&|state| on_the_way(state, &entering));
+        let look = most(&|state| on_the_way(state, &|state| guards(&state.transitions)));
+        let act = most(&|state| on_the_way(state, &|state| state.body.len()));
+        guards(&self.always) + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
+    }
+
+    /// Bytes that a running machine keeps: registers, times, and which state was last active in which.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        let (number, index, time) = (size_of::<f64>(), size_of::<Option<usize>>(), size_of::<Option<f64>>());
+        self.image.len() * number + self.states.len() * (number + index) + self.timers * time
     }
 
     /// The state with this index and those that it lies in, the innermost first.

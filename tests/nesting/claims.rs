@@ -130,3 +130,62 @@ fn operations_count_those_of_the_outer_states() {
     };
     assert_eq!(counts, [1 + guard(0), 1 + guard(0) + 2 + guard(1), 1 + guard(0) + 1, 1]);
 }
+
+#[test]
+fn a_failure_is_taken_behind_a_rule_that_has_led_where_it_leads() {
+    let rest = "state A { stop }  state Out { stop }";
+    let text = format!(
+        "machine m whisker v, w initial A {rest}
+        always when v.touching -> Out  always when w.touching for 10 ms -> Failure(\"why\")"
+    );
+    assert_eq!(states(&text, &mut two(".xxxx", "...xx")), ["A", "Out", "Out", "Out", "Failure"]);
+    let text = "machine m whisker v, w initial O
+        state O { initial A  when v.touching -> B  when w.touching -> Failure(\"why\")
+          state A { let x = 1 }  state B { let x = 1 } }";
+    assert_eq!(states(text, &mut two(".xx", "..x")), ["A", "B", "Failure"]);
+}
+
+#[test]
+fn the_failsafe_is_that_of_the_state_that_gave_the_command_or_of_one_around_it() {
+    let steer = |speed: &str| format!("steer body along vector(1, 0) at {speed} turning 0 rad/s");
+    let text = |outer: &str, inner: &str| {
+        format!(
+            "machine m initial O  failsafe -> Rest
+            state O {{ initial I {outer} state I {{ {inner} failsafe -> J }} state J {{ stop }} }}
+            state Rest {{ stop }}"
+        )
+    };
+    let (good, bad) = (steer("1 m/s"), steer("1 m/s / 0"));
+    assert_eq!(states(&text(&bad, ""), &mut Script::touches(".")), ["Rest"]);
+    assert_eq!(states(&text(&good, &bad), &mut Script::touches(".")), ["J"]);
+    let around = text(&format!("failsafe -> Out {good}"), &bad).replace("failsafe -> J", "") + " state Out { stop }";
+    assert_eq!(states(&around, &mut Script::touches(".")), ["Out"]);
+}
+
+#[test]
+fn a_failsafe_within_an_outer_state_lets_that_act_once_in_the_tick() {
+    let text = "machine m whisker w initial O
+        state O { initial I  var n = 0  set n = n + 1
+          state I { steer body along vector(1, 0) at 1 m/s / 0 turning 0 rad/s  failsafe -> J }
+          state J { steer body along vector(1, 0) at n * 1 m/s turning 0 rad/s } }";
+    let ticks = run(text, &mut Script::touches("..")).1;
+    assert_eq!(ticks.iter().map(|&(_, action)| speed(action)).collect::<Vec<_>>(), [1.0, 2.0]);
+}
+
+#[test]
+fn a_value_that_was_named_stays_what_it_was_when_memory_is_set() {
+    let text = "machine m initial A
+        state A { var n = 0  let old = n  set n = n + 1
+          steer body along vector(1, 0) at (n - old) * 1 m/s turning 0 rad/s }";
+    let ticks = run(text, &mut Script::touches("...")).1;
+    assert_eq!(ticks.iter().map(|&(_, action)| speed(action)).collect::<Vec<_>>(), [1.0, 1.0, 1.0]);
+}
+
+#[test]
+fn a_filter_in_an_entry_begins_anew_at_every_entry() {
+    let text = "machine m initial A
+        state A { var seen = 0  entry { set seen = lowpass(time / 1 s, 0.1 Hz) - time / 1 s }
+          steer body along vector(1, 0) at |seen| * 1 m/s turning 0 rad/s  after 50 ms -> A }";
+    let ticks = run(text, &mut Script::touches("........")).1;
+    assert!(ticks.iter().all(|&(_, action)| speed(action) == 0.0), "{ticks:?}");
+}

@@ -33,7 +33,7 @@ pub(super) fn shadowed(
     let stays = edges.iter().enumerate().position(|(other, before)| other != index && !leaves(program, before));
     let counts = |other: usize| other < index || stays.is_none_or(|stays| other < stays);
     let own = edges.iter().enumerate().filter(|&(other, _)| other != index && can_hold[other] && counts(other));
-    let own = own.map(|(other, before)| (other + 1, before));
+    let own = own.filter(|(_, before)| comes_first(program, before, edge)).map(|(other, before)| (other + 1, before));
     let index = index + 1;
     for (other, before) in outer.into_iter().chain(own) {
         if before.is_immediate() && (other < index || time.low > TIME_SLACK) {
@@ -57,8 +57,11 @@ pub(super) fn shadowed(
 }
 
 /// Whether a transition, of the same state or of one around it, is taken before another one whenever both are due. One of an
-/// outer state may have led where it leads, and leaves the other one its turn.
+/// outer state may have led where it leads, and leaves the other one its turn; so does one of the same state before a failure.
 pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
+    if edge.leads_to().is_none() && before.from == edge.from && !leaves(program, before) {
+        return false;
+    }
     let (Some(target), Some(state)) = (before.leads_to(), edge.from) else { return true };
     let is_related = program.contains(target, state) || program.contains(state, target);
     before.from == edge.from || !is_related || leaves(program, before)

@@ -1,6 +1,6 @@
 //! What is not known when a policy is compiled: parameters, what states are entered with, what is felt.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{PI, TAU};
 
 use crate::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
 
@@ -59,7 +59,8 @@ impl Domain {
             Unknown::Time => range(0.0, 1e9),
             Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-WHIRL, WHIRL),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
-            Unknown::Deflection(_) => range(-FRAC_PI_2, FRAC_PI_2),
+            // Half a turn, and what a filter adds.
+            Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Ready(_) => Self::Values(vec![1.0, 0.0]),
             Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
             Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),

@@ -51,6 +51,7 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
     }
     used.transitions(&file.always);
     used.targets(&file.failsafes);
+    file.tests.iter().for_each(|test| used.expressions(&test.expectations));
     for name in unread {
         warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));
     }

@@ -203,13 +203,9 @@ impl<'f> Compiler<'f> {
         if values.len() != arguments.len() {
             let message = format!("`{}` takes {}, not {}", name.text, count(arguments.len()), values.len());
             let names: Vec<&str> = arguments.iter().map(|argument| argument.name.text.as_str()).collect();
-            self.report(
-                Diagnostic::error("P0304", message, span, "used here").note(name.span, "made here").hint(format!(
-                    "write `{}({})`",
-                    name.text,
-                    names.join(", ")
-                )),
-            );
+            let usage = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
+            let diagnostic = Diagnostic::error("P0304", message, span, "used here").note(name.span, "made here");
+            self.report(diagnostic.hint(format!("write `{}{usage}`", name.text)));
             return None;
         }
         let mut inner = Scope::default();

@@ -27,7 +27,7 @@ impl<'f> Compiler<'f> {
     fn statement(&mut self, scope: &mut Scope<'f>, statement: &'f Statement) -> Option<()> {
         match statement {
             Statement::Let { name, value } => {
-                let meaning = self.expression(scope, value);
+                let meaning = self.expression(scope, value).map(|value| self.kept(scope, value));
                 self.bind(scope, name, meaning);
             }
             Statement::Set { name, value } => self.set(scope, name, value)?,
@@ -58,6 +58,18 @@ impl<'f> Compiler<'f> {
         Some(())
     }
 
+    /// A value that stays what it is: a copy, if it is that of memory, which `set` can change.
+    fn kept(&mut self, scope: &Scope<'f>, value: Value) -> Value {
+        let memory = |name: &&str| scope.get(name).flatten().is_some_and(|memory| memory.register == value.register);
+        if !self.variables.iter().any(memory) {
+            return value;
+        }
+        let width = value.r#type.width();
+        let register = self.code.place(width);
+        self.code.copy(register, value.register, width);
+        Value { register, ..value }
+    }
+
     /// Writes a command, unless there can be none here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
         if let Some(place) = self.commandless {
@@ -77,7 +89,8 @@ impl<'f> Compiler<'f> {
         if !self.writing.is_empty() || !self.variables.contains(&name.text.as_str()) {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
-            let diagnostic = Diagnostic::error("P0406", message, name.span, "not memory of this state");
+            let label = if self.writing.is_empty() { "not memory of this state" } else { "a law has no memory to set" };
+            let diagnostic = Diagnostic::error("P0406", message, name.span, label);
             let diagnostic = did_you_mean(diagnostic, &name.text, self.variables.iter().copied());
             self.report(diagnostic.hint(format!(
                 "only what a state declares with `var {} = \u{2026}` can be set, in that state and in the states in it",

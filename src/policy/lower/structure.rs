@@ -258,6 +258,10 @@ impl<'f> Compiler<'f> {
             self.code.push(Op::Clear { memory, count });
         }
         self.statements(scope, &state.entry);
+        // What these remember is for nothing else: the next entry begins anew.
+        for (memory, count) in std::mem::take(&mut self.memories) {
+            self.code.push(Op::Clear { memory, count });
+        }
         self.code.since(start)
     }
 

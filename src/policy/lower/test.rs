@@ -29,6 +29,14 @@ impl<'f> Compiler<'f> {
             let diagnostic = Diagnostic::error("P0703", "the test expects nothing", test.title.span, "cannot fail");
             self.report(diagnostic.hint("write `expect run.completed`, or what else must be true of the run"));
         }
+        for text in [&test.title, &test.scenario] {
+            if text.text.chars().any(char::is_control) {
+                let message = "the text has a character that cannot be shown";
+                let diagnostic =
+                    Diagnostic::error("P0703", message, text.span, "a tab or another control character is in it");
+                self.report(diagnostic.hint("write it in letters, digits, signs and blanks"));
+            }
+        }
         PolicyTest {
             title: test.title.text.clone(),
             scenario: test.scenario.text.clone(),
