@@ -7,6 +7,7 @@ mod exit;
 mod fmt;
 mod graph;
 mod input;
+mod lsp;
 mod mjcf;
 mod output;
 mod run;
@@ -25,6 +26,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
+        Command::Lsp => lsp::lsp(),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

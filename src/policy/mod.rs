@@ -13,6 +13,7 @@ pub mod chart;
 mod format;
 mod grammar;
 mod hint;
+pub mod index;
 mod lower;
 mod parse;
 mod syntax_error;

@@ -22,12 +22,17 @@ use super::types::{DIMENSIONS, Type, Value};
 use code::Code;
 use scope::{Meaning, Scope};
 
+pub(super) use scope::is_reserved;
+
 /// A program, and what else is known of it once it is written.
 pub(super) struct Lowered {
     pub(super) program: Program,
     /// What each state is entered with: names, types and places.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
 }
+
+/// The types of what names stand for, by the place at which each is given its meaning.
+pub(super) type Types = HashMap<Span, Type>;
 
 /// Checks a file and writes its program.
 pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
@@ -46,6 +51,13 @@ pub(super) fn lower(file: &File) -> Result<Lowered, Vec<Diagnostic>> {
         }
         _ => Err(diagnostics),
     }
+}
+
+/// The types of a file's names, as far as its faults let them be known.
+pub(super) fn types(file: &File) -> Types {
+    let mut compiler = Compiler::new();
+    structure::file(&mut compiler, file);
+    compiler.types
 }
 
 /// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
@@ -71,6 +83,8 @@ struct Compiler<'f> {
     items: HashMap<&'f str, Span>,
     /// Parameters and whiskers, by name.
     globals: HashMap<&'f str, Meaning>,
+    /// What is known of the types of names.
+    types: Types,
     derived: HashMap<&'f str, &'f Derived>,
     laws: HashMap<&'f str, &'f Law>,
     states: HashMap<&'f str, StateEntry>,
@@ -100,6 +114,7 @@ impl<'f> Compiler<'f> {
             diagnostics: Vec::new(),
             items: HashMap::new(),
             globals: HashMap::new(),
+            types: Types::new(),
             derived: HashMap::new(),
             laws: HashMap::new(),
             states: HashMap::new(),
