@@ -46,7 +46,7 @@ fn directory(name: &str) -> PathBuf {
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "compile", "graph", "fmt", "mjcf"] {
+    for command in ["run", "check", "compile", "graph", "fmt", "lsp", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -411,4 +411,12 @@ fn a_build_without_the_simulator_says_so() {
     let output = vibrissa(&["run", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
+}
+
+#[cfg(not(feature = "lsp"))]
+#[test]
+fn a_build_without_the_language_server_says_how_to_get_it() {
+    let output = vibrissa(&["lsp"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--features lsp"), "{}", stderr(&output));
 }

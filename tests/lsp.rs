@@ -103,7 +103,7 @@ fn an_exit_without_a_shutdown_and_an_editor_that_goes_away_have_exit_status_1() 
 #[test]
 fn garbage_does_not_keep_the_server_from_answering_nor_from_ending() {
     let mut editor = Editor::open(THESIS);
-    editor.send_bytes(&[0xff; 100_000]);
+    editor.send_bytes(&vec![0xff; 100_000]);
     editor.send_bytes(b"\nGET / HTTP/1.1\r\n\r\n");
     assert!(editor.ask_at("hover", &position(THESIS, "speed", 0), json!({}))["result"].is_object());
     editor.send_bytes(b"Content-Length: 5\r\n\r\n{\"a\":");

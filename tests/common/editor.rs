@@ -1,7 +1,7 @@
 //! An editor: the other side of the language server's protocol.
 #![allow(dead_code, unreachable_pub, reason = "every test file uses a part of it")]
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// The document that the editor has open.
 pub const URI: &str = "file:///policies/thesis.fsm";
 /// An answer is due within this time, even on a machine that does much else.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 pub struct Editor {
     child: Child,

@@ -93,13 +93,13 @@ impl Index {
         }
     }
 
-    /// The symbols that are known at a place, the word at the place itself left out.
+    /// The symbols that are known at a place.
     fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
-        let (at, in_transition) = (context.typed.start, context.in_transition);
+        let at = context.typed.start;
         self.symbols.iter().filter(move |symbol| {
             (symbol.visible.start..=symbol.visible.end).contains(&at)
-                && symbol.span.start != at
-                && !(in_transition && symbol.kind == SymbolKind::Local)
+                && context.statement != Some(symbol.whole.start)
+                && !(context.in_transition && symbol.kind == SymbolKind::Local)
         })
     }
 

@@ -51,6 +51,8 @@ pub(super) struct Context {
     pub(super) expected: Expected,
     /// The part of a word that stands there already.
     pub(super) typed: Span,
+    /// Where the statement begins that is being written; what it declares is not known in it.
+    pub(super) statement: Option<usize>,
     /// Whether the place is in a transition, which does not know the names that the state's statements give.
     pub(super) in_transition: bool,
 }
@@ -59,7 +61,8 @@ pub(super) struct Context {
 pub(super) fn context(text: &str, at: usize) -> Context {
     let before = &text[..at];
     let mut known = tokens(before);
-    let nothing = Context { expected: Expected::Nothing, typed: Span::new(at, at), in_transition: false };
+    let typed = Span::new(at, at);
+    let nothing = Context { expected: Expected::Nothing, typed, statement: None, in_transition: false };
     if known.last().is_some_and(|last| is_unfinished(before, *last)) {
         return nothing;
     }
@@ -82,6 +85,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     Context {
         expected: expected(&known, statement, level, typed),
         typed,
+        statement: statement.first().map(|token| token.start),
         in_transition: matches!(head, Some("when" | "after")),
     }
 }

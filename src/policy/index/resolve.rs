@@ -31,6 +31,7 @@ pub(super) fn resolve(tokens: &[Token<'_>], symbols: &[Symbol]) -> Resolved {
         let is_before = |mark: &str| before.is_some_and(|before| before.text == mark);
         names.advance(token.start);
         let meaning = match token.kind {
+            // A member, or a state within another: `-> Outer(w).Inner`.
             TokenKind::Name if is_before(".") => member(operand, token.text)
                 .or_else(|| names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads))),
             TokenKind::Name | TokenKind::Keyword if is_before(":") || is_before("of") => {
@@ -136,6 +137,6 @@ impl<'s> Names<'s> {
 
     fn state(&self, name: &str) -> Option<usize> {
         let known = self.known.get(name)?.iter().copied();
-        known.filter(|&index| self.symbols[index].kind == SymbolKind::State).last()
+        known.filter(|&index| self.symbols[index].kind == SymbolKind::State).next_back()
     }
 }
