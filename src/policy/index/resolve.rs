@@ -136,7 +136,6 @@ impl<'s> Names<'s> {
     }
 
     fn state(&self, name: &str) -> Option<usize> {
-        let known = self.known.get(name)?.iter().copied();
-        known.filter(|&index| self.symbols[index].kind == SymbolKind::State).next_back()
+        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == SymbolKind::State)
     }
 }
