@@ -90,7 +90,7 @@ fn with_libraries(path: &Path, text: String) -> Source {
 }
 
 /// The text of a file that a policy uses.
-fn library(path: &str) -> Result<String, String> {
+pub(super) fn library(path: &str) -> Result<String, String> {
     let path = Path::new(path);
     File::open(path).and_then(read_text).map_err(|cause| {
         let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::server::Server;
 use super::wire::error;
 
-impl Server {
+impl Server<'_> {
     /// Answers a request about documents.
     pub(super) fn answer(&self, id: Id, method: &str, parameters: Value) -> ResponseObject {
         match Method::from(method) {

@@ -16,7 +16,7 @@ use super::diagnose::diagnostic;
 use super::server::Server;
 use super::wire::error;
 
-impl Server {
+impl Server<'_> {
     pub(super) fn prepare_rename(&self, asked: &PrepareRenameParams) -> Result<Option<PrepareRenameResult>, Error> {
         let (document, at) = self.place(&asked.text_document_position_params)?;
         let span = document.index.renamable(at).map_err(|refusal| refused(&refusal))?;
@@ -62,7 +62,7 @@ impl Server {
                 CodeActionResponse::CodeAction(CodeAction {
                     title: format!("Write `{meant}`"),
                     kind: Some(CodeActionKind::QuickFix),
-                    diagnostics: Some(vec![diagnostic(uri, document, fault, self.client)]),
+                    diagnostics: Some(diagnostic(document, fault, self.client).into_iter().collect()),
                     is_preferred: Some(true),
                     edit: Some(changes(uri, vec![edit])),
                     ..Default::default()

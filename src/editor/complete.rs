@@ -10,7 +10,7 @@ use crate::policy::index::{Candidate, CandidateKind, SymbolKind};
 
 use super::server::Server;
 
-impl Server {
+impl Server<'_> {
     pub(super) fn complete(&self, asked: &CompletionParams) -> Result<Option<CompletionResponse>, Error> {
         let (document, at) = self.place(&asked.text_document_position_params)?;
         let (typed, candidates) = document.index.candidates(at);
@@ -42,6 +42,7 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
         CandidateKind::Function => CompletionItemKind::Function,
         CandidateKind::Member => CompletionItemKind::Field,
         CandidateKind::Type => CompletionItemKind::Struct,
+        CandidateKind::Module => CompletionItemKind::Module,
         CandidateKind::Unit => CompletionItemKind::Unit,
         CandidateKind::Symbol(SymbolKind::State) => CompletionItemKind::Class,
         CandidateKind::Symbol(SymbolKind::Law) => CompletionItemKind::Method,

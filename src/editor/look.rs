@@ -12,7 +12,7 @@ use crate::policy::index::{Role, SymbolKind};
 use super::document::Document;
 use super::server::Server;
 
-impl Server {
+impl Server<'_> {
     pub(super) fn hover(&self, asked: &HoverParams) -> Result<Option<Hover>, Error> {
         let (document, at) = self.place(&asked.text_document_position_params)?;
         Ok(document.index.hover(at).map(|hover| Hover {
@@ -22,20 +22,17 @@ impl Server {
     }
 
     pub(super) fn definition(&self, asked: &DefinitionParams) -> Result<Option<DefinitionResponse>, Error> {
-        let place = &asked.text_document_position_params;
-        let (document, at) = self.place(place)?;
-        let location = |span| Location { uri: place.text_document.uri.clone(), range: document.range(span) };
-        let found = document.index.definition(at).map(location);
+        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let found = document.index.definition(at).and_then(|place| document.location(place));
         Ok(found.map(|found| DefinitionResponse::Definition(Definition::Location(found))))
     }
 
     pub(super) fn references(&self, asked: &ReferenceParams) -> Result<Option<Vec<Location>>, Error> {
-        let place = &asked.text_document_position_params;
-        let (document, at) = self.place(place)?;
+        let (document, at) = self.place(&asked.text_document_position_params)?;
         let places = document.index.references(at).into_iter();
-        let wanted = places.filter(|&(_, role)| asked.context.include_declaration || role != Role::Declares);
-        let location = |(span, _)| Location { uri: place.text_document.uri.clone(), range: document.range(span) };
-        Ok(Some(wanted.map(location).collect()))
+        let used = places.filter(|&(_, role)| role != Role::Declares).map(|(span, _)| span);
+        let declared = document.index.definition(at).filter(|_| asked.context.include_declaration);
+        Ok(Some(declared.into_iter().chain(used).filter_map(|span| document.location(span)).collect()))
     }
 
     pub(super) fn highlights(&self, asked: &DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>, Error> {

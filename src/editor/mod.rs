@@ -12,6 +12,7 @@ mod document;
 mod look;
 mod position;
 mod server;
+mod uri;
 mod wire;
 
-pub use server::{Ended, serve};
+pub use server::{Ended, Library, serve};

@@ -1,14 +1,18 @@
 //! What can be written at a place.
 
 use crate::diagnostic::Span;
+use crate::policy::ast::{Name, TypeName};
 use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
+use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
 use crate::units::{Dimension, units_of};
 
 use super::context::{Context, Expected, Level, context};
+use super::import::{heading, offered};
+use super::resolve::Owner;
 use super::symbol::{Symbol, SymbolKind};
 use super::words::{Place, Word, word, words_of};
-use super::{Index, meaning};
+use super::{Index, text};
 
 /// What a candidate is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +27,8 @@ pub enum CandidateKind {
     Type,
     /// A unit.
     Unit,
+    /// A module of the standard library.
+    Module,
     /// A name that the policy gives.
     Symbol(SymbolKind),
 }
@@ -42,6 +48,8 @@ pub struct Candidate {
     pub snippet: String,
 }
 
+/// Words that begin an item of a library.
+const IN_LIBRARIES: [&str; 3] = ["use", "let", "law"];
 /// Dimensions of which a policy is likely to write numbers.
 const WRITTEN: [Dimension; 10] = [
     Dimension::LENGTH,
@@ -60,7 +68,8 @@ impl Index {
     /// What can be written at a byte, and the part of a word that it takes the place of.
     #[must_use]
     pub fn candidates(&self, at: usize) -> (Span, Vec<Candidate>) {
-        let context = context(&self.source.text, self.source.text.floor_char_boundary(at));
+        let text = text(&self.source);
+        let context = context(text, text.floor_char_boundary(at));
         (context.typed, self.expected(&context))
     }
 
@@ -70,52 +79,95 @@ impl Index {
         };
         match context.expected {
             Expected::Nothing => Vec::new(),
-            Expected::Member(dot) => {
-                self.resolved.owners.get(&dot).map_or_else(Vec::new, |&owner| members(owner).collect())
-            }
-            Expected::Target => of_kind(&[SymbolKind::State]).chain(words_of(Place::Target).map(of_word)).collect(),
-            Expected::Initial => {
+            Expected::Member(dot) => match self.resolved.owners.get(&dot) {
+                Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
+                Some(&Owner::Value(owner)) => members(owner).collect(),
+                Some(&Owner::State(outer)) => self.inner_states(outer),
+                None => Vec::new(),
+            },
+            Expected::Target => self.targets(context),
+            Expected::Initial => self.beginnings(context),
+            Expected::Resumed => self.resumable(context),
+            Expected::State => {
                 let states = self.known(context).filter(|symbol| symbol.kind == SymbolKind::State);
-                states.filter(|state| state.arguments.is_empty()).map(|state| self.symbol(state)).collect()
+                states.map(|state| Candidate { snippet: state.name.clone(), ..self.symbol(state) }).collect()
             }
+            Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
+            Expected::Mark => words_of(Place::Mark).map(of_word).collect(),
+            Expected::File => modules(&format!("{ROOT}.")).collect(),
+            Expected::Module => modules("").collect(),
+            Expected::Chosen => self.offered(context),
+            Expected::Value if context.level == Level::Test => self.values_of_a_run(context),
             Expected::Law => of_kind(&[SymbolKind::Law]).collect(),
             Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
-            Expected::Type => ["whisker", "truth", "vector"].into_iter().map(of_type).chain(dimensions()).collect(),
+            Expected::Type => {
+                ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions()).collect()
+            }
             Expected::Dimension => dimensions().collect(),
             Expected::Unit => units().collect(),
             Expected::Value => self.values(context),
             Expected::Machine => words_of(Place::File).map(of_word).collect(),
             Expected::Only(text) => word(text).map(of_word).into_iter().collect(),
-            Expected::Statement(level) => statements(level).collect(),
+            Expected::Statement(level) => self.statements(level).collect(),
             Expected::More(level, words) => {
-                words.iter().filter_map(|text| word(text)).map(of_word).chain(statements(level)).collect()
+                words.iter().filter_map(|text| word(text)).map(of_word).chain(self.statements(level)).collect()
             }
         }
     }
 
     /// The symbols that are known at a place.
-    fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
+    pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
         let at = context.typed.start;
         self.symbols.iter().filter(move |symbol| {
             (symbol.visible.start..=symbol.visible.end).contains(&at)
                 && context.statement != Some(symbol.whole.start)
-                && !(context.in_transition && symbol.kind == SymbolKind::Local)
+                && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
         })
+    }
+
+    /// Whether a value that a statement names is known at a place behind it: transitions do not know what their state's statements
+    /// name, nor do the states in it.
+    fn is_known_local(&self, local: &Symbol, context: &Context) -> bool {
+        let owner = local.owner.and_then(|owner| self.symbols.get(owner));
+        let is_beyond = owner.is_some_and(|owner| owner.kind == SymbolKind::State && Some(owner.span) != context.state);
+        !context.in_transition && !is_beyond
     }
 
     fn values(&self, context: &Context) -> Vec<Candidate> {
         let named = self.known(context).filter(|symbol| symbol.kind.is_value()).map(|symbol| self.symbol(symbol));
-        let functions = FUNCTIONS.iter().map(|&(name, _, usage)| Candidate {
-            label: name.to_owned(),
-            kind: CandidateKind::Function,
-            detail: usage.to_owned(),
-            meaning: meaning::of_function(name).to_owned(),
-            snippet: call_snippet(usage),
-        });
-        named.chain(words_of(Place::Value).map(of_word)).chain(functions).collect()
+        named.chain(words_of(Place::Value).map(of_word)).chain(functions()).collect()
     }
 
-    fn symbol(&self, symbol: &Symbol) -> Candidate {
+    /// What an expectation of a test can read.
+    fn values_of_a_run(&self, context: &Context) -> Vec<Candidate> {
+        let kinds = [SymbolKind::Parameter, SymbolKind::Derived];
+        let named = self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol));
+        words_of(Place::Run).map(of_word).chain(named).chain(functions()).collect()
+    }
+
+    /// What the file of the `use` that is being written offers.
+    fn offered(&self, context: &Context) -> Vec<Candidate> {
+        let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
+        let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
+        let candidate = |symbol: &Symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) };
+        offered(&self.source, part).iter().map(candidate).collect()
+    }
+
+    /// What begins a statement in such braces, or an item.
+    fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
+        let place = match level {
+            Level::Outside => Place::Item,
+            Level::State => Place::State,
+            Level::Test => Place::Test,
+            Level::Block => Place::Statement,
+        };
+        let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
+        let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
+        let fits = move |word: &&Word| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
+        words_of(place).filter(fits).map(of_word)
+    }
+
+    pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
         let detail = symbol.r#type.map_or_else(|| self.head(symbol), |r#type| r#type.to_string());
         let usage = format!("{}({})", symbol.name, symbol.arguments.join(", "));
         let snippet = if symbol.arguments.is_empty() && symbol.kind != SymbolKind::Law {
@@ -128,17 +180,7 @@ impl Index {
     }
 }
 
-/// What begins a statement in such braces.
-fn statements(level: Level) -> impl Iterator<Item = Candidate> {
-    let place = match level {
-        Level::Outside => Place::Item,
-        Level::State => Place::State,
-        Level::Block => Place::Statement,
-    };
-    words_of(place).map(of_word)
-}
-
-fn of_word(word: &'static Word) -> Candidate {
+pub(super) fn of_word(word: &'static Word) -> Candidate {
     Candidate {
         label: word.text.to_owned(),
         kind: CandidateKind::Word,
@@ -150,25 +192,52 @@ fn of_word(word: &'static Word) -> Candidate {
 
 fn members(owner: Type) -> impl Iterator<Item = Candidate> {
     builtins::members(owner).iter().map(move |member| {
-        let snippet = match member.source {
-            MemberSource::TipAt => format!("{}(${{1:deflection}})", member.name),
-            _ => member.name.to_owned(),
+        let value = match (member.source, member.at) {
+            (MemberSource::At, Some(at)) => Some(at.takes().0),
+            (MemberSource::Visits | MemberSource::TimeIn, _) => Some("State"),
+            _ => None,
         };
         Candidate {
             label: member.name.to_owned(),
             kind: CandidateKind::Member,
             detail: member.r#type.to_string(),
-            meaning: meaning::of_member(owner, member.name).to_owned(),
-            snippet,
+            meaning: member.meaning.to_owned(),
+            snippet: value.map_or_else(|| member.name.to_owned(), |value| format!("{}(${{1:{value}}})", member.name)),
+        }
+    })
+}
+
+fn functions() -> impl Iterator<Item = Candidate> {
+    FUNCTIONS.iter().map(|&(name, _, usage, meaning)| Candidate {
+        label: name.to_owned(),
+        kind: CandidateKind::Function,
+        detail: usage.to_owned(),
+        meaning: meaning.to_owned(),
+        snippet: call_snippet(usage),
+    })
+}
+
+/// The modules of the standard library, behind what is written of their names.
+fn modules(prefix: &str) -> impl Iterator<Item = Candidate> {
+    MODULES.iter().map(move |(module, text)| {
+        let label = format!("{prefix}{module}");
+        Candidate {
+            kind: CandidateKind::Module,
+            detail: format!("use {ROOT}.{module}"),
+            meaning: heading(text),
+            snippet: label.clone(),
+            label,
         }
     })
 }
 
 fn of_type(name: &str) -> Candidate {
+    let base = Name { text: name.to_owned(), span: Span::default() };
+    let r#type = Type::named(&TypeName { base, of: None, factors: Vec::new() });
     Candidate {
         label: name.to_owned(),
         kind: CandidateKind::Type,
-        detail: Type::named(name, None).map(|r#type| r#type.to_string()).unwrap_or_default(),
+        detail: r#type.map(|r#type| r#type.to_string()).unwrap_or_default(),
         meaning: String::new(),
         snippet: name.to_owned(),
     }

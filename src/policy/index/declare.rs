@@ -1,8 +1,8 @@
 //! What a policy's text declares: from tokens to symbols.
 //!
 //! It reads tokens, not the syntax tree, so that a text with faults has symbols too: those of everything but the fault. Which
-//! braces hold what follows from the word that begins a statement, and a word that can only stand outside of all braces ends
-//! them when it begins its line.
+//! braces hold what follows from the word that begins a statement. Where braces are not closed, a word that can stand outside of
+//! all braces ends them when it begins its line without a blank before it.
 
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind};
@@ -10,6 +10,7 @@ use crate::policy::types::Type;
 use crate::units::{Dimension, parse_unit};
 
 use super::symbol::{Symbol, SymbolKind};
+use super::type_name::type_name;
 use super::words::{Place, word};
 
 /// What stands between two braces, or outside of all.
@@ -20,7 +21,7 @@ pub(super) struct Frame<'t> {
     /// The token that begins the statement being read.
     pub(super) statement: Option<usize>,
     /// The symbol whose braces these are, if it is one's.
-    owner: Option<usize>,
+    pub(super) owner: Option<usize>,
     /// What the statement being read has declared.
     pending: Vec<usize>,
     /// What is known until the closing brace.
@@ -34,13 +35,29 @@ pub(super) struct Declared<'t> {
     pub(super) symbols: Vec<Symbol>,
     /// The braces that are open at the end, the innermost last. Never empty.
     pub(super) frames: Vec<Frame<'t>>,
+    /// Whether every brace can be trusted to have its other.
+    is_balanced: bool,
     /// The end of the token read last.
     end: usize,
 }
 
-/// Reads what `tokens`, among which there are no comments, declare.
-pub(super) fn declare<'t>(text: &str, tokens: &[Token<'t>]) -> Declared<'t> {
-    let mut declared = Declared { symbols: Vec::new(), frames: vec![Frame::default()], end: 0 };
+/// Whether every brace among tokens has its other.
+pub(super) fn is_balanced(tokens: &[Token<'_>]) -> bool {
+    let mut depth = 0_usize;
+    for token in tokens.iter().filter(|token| token.kind == TokenKind::Mark) {
+        match token.text {
+            "{" => depth += 1,
+            "}" if depth == 0 => return false,
+            "}" => depth -= 1,
+            _ => {}
+        }
+    }
+    depth == 0
+}
+
+/// Reads what `tokens`, among which there are no comments, declare. They may be the beginning of a text whose braces are balanced.
+pub(super) fn declare<'t>(text: &str, tokens: &[Token<'t>], is_balanced: bool) -> Declared<'t> {
+    let mut declared = Declared { symbols: Vec::new(), frames: vec![Frame::default()], is_balanced, end: 0 };
     for (index, token) in tokens.iter().enumerate() {
         match token.kind {
             TokenKind::Keyword => declared.word(text, tokens, index),
@@ -84,7 +101,7 @@ impl<'t> Declared<'t> {
         if before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
             return;
         }
-        if known.places.contains(&Place::Item) && begins_line_unindented(text, token.start) {
+        if !self.is_balanced && known.places.contains(&Place::Item) && begins_line_unindented(text, token.start) {
             while self.frames.len() > 1 {
                 self.close(self.end);
             }
@@ -95,7 +112,7 @@ impl<'t> Declared<'t> {
             frame.statement = Some(index);
         }
         let kind = match token.text {
-            "machine" => SymbolKind::Machine,
+            "machine" | "library" => SymbolKind::Machine,
             "param" => SymbolKind::Parameter,
             "law" => SymbolKind::Law,
             "state" => SymbolKind::State,
@@ -156,12 +173,9 @@ impl<'t> Declared<'t> {
             let span = place(*name);
             let (mut end, mut r#type) = (at, None);
             if tokens.get(at + 1).is_some_and(|token| token.is(":"))
-                && let Some(base) = tokens.get(at + 2)
+                && let Some((name, last)) = type_name(tokens, at + 2)
             {
-                end = at + 2;
-                let of = tokens.get(at + 4).filter(|_| tokens.get(at + 3).is_some_and(|token| token.text == "of"));
-                end += if of.is_some() { 2 } else { 0 };
-                r#type = Type::named(base.text, of.map(|of| of.text));
+                (end, r#type) = (last, Type::named(&name));
             }
             let whole = span.to(place(tokens[end]));
             self.symbols[owner].arguments.push(name.text.to_owned());

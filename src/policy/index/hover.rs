@@ -1,13 +1,15 @@
 //! What is said of a word when a person points at it.
 
 use crate::diagnostic::Span;
+use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
+use crate::policy::description::description;
 use crate::policy::types::Type;
 use crate::units::{Dimension, format_si, parse_unit, units_of};
 
-use super::description::description;
-use super::symbol::{Meaning, Symbol};
+use super::Index;
+use super::import::{heading, offered};
+use super::symbol::{Meaning, Symbol, SymbolKind};
 use super::words::word;
-use super::{Index, meaning};
 
 /// What is said of a word.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,14 +27,15 @@ impl Index {
         let known = self.use_at(at)?;
         let text = match known.meaning {
             Meaning::Symbol(index, _) => self.explain(&self.symbols[index]),
-            Meaning::Function(_, usage) => {
-                let name = usage.split('(').next().unwrap_or(usage);
-                paragraphs(&[code(usage), meaning::of_function(name).to_owned()])
+            Meaning::Function(function) => {
+                let (_, function, usage, meaning) = FUNCTIONS.get(function)?;
+                paragraphs(&[code(usage), (*meaning).to_owned(), format!("It takes {}.", function.takes())])
             }
             Meaning::Member(owner, member) => {
-                let head = code(&format!("{}.{}", owner_name(owner), member.name));
-                paragraphs(&[head, type_line(member.r#type), meaning::of_member(owner, member.name).to_owned()])
+                let head = code(&usages(owner, &member).join("\n"));
+                paragraphs(&[head, type_line(member.r#type), member.meaning.to_owned()])
             }
+            Meaning::File(part) => self.explain_file(part),
             Meaning::Type(r#type) => paragraphs(&[code(self.source.slice(known.span)), type_line(r#type)]),
             Meaning::Unit(dimension) => {
                 let unit = self.source.slice(known.span);
@@ -49,13 +52,25 @@ impl Index {
 
     fn explain(&self, symbol: &Symbol) -> String {
         let types = symbol.r#type.map(type_line).unwrap_or_default();
-        paragraphs(&[code(&self.head(symbol)), types, self.description(symbol)])
+        let file = self.file_of(symbol).map(|file| format!("from `{file}`")).unwrap_or_default();
+        paragraphs(&[code(&self.head(symbol)), types, self.description(symbol), file])
+    }
+
+    /// What a file gives.
+    fn explain_file(&self, part: usize) -> String {
+        let offered = offered(&self.source, part);
+        let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
+        let name = self.source.part_name(part);
+        let about = heading(self.source.slice(self.source.part_span(part)));
+        paragraphs(&[format!("`{name}`"), about, code(&heads.join("\n"))])
     }
 
     /// What the comments beside a symbol say of it.
     #[must_use]
     pub fn description(&self, symbol: &Symbol) -> String {
-        description(&self.source.text, symbol.whole)
+        // A comment beside an argument is one of what it belongs to.
+        let is_described = symbol.kind != SymbolKind::Argument;
+        is_described.then(|| description(&self.source, symbol.span)).flatten().unwrap_or_default()
     }
 }
 
@@ -88,10 +103,22 @@ fn unit_line(unit: &str, dimension: Dimension) -> String {
     }
 }
 
+/// How a member can be written.
+fn usages(owner: Type, member: &Member) -> Vec<String> {
+    let plain = format!("{}.{}", owner_name(owner), member.name);
+    let with_value = member.at.map(|at| format!("{plain}({})", at.takes().0));
+    match member.source {
+        MemberSource::At => with_value.into_iter().collect(),
+        MemberSource::Visits | MemberSource::TimeIn => vec![format!("{plain}(State)")],
+        _ => std::iter::once(plain).chain(with_value).collect(),
+    }
+}
+
 fn owner_name(owner: Type) -> &'static str {
     match owner {
         Type::Whisker => "whisker",
         Type::Contour => "contour",
+        Type::Run => "run",
         _ => "body",
     }
 }

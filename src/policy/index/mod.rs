@@ -1,18 +1,19 @@
 //! What is known of every place in a policy's text: for editors, which ask while it is being written.
 //!
-//! [`Index::new`] reads any text, with faults or without. `declare` finds the names that it gives and where they are known,
-//! `resolve` what each word means; both work on tokens, so that a fault hides nothing but itself. Only types of derived and local
-//! values come from the compiler, and of a text that it cannot read, from the index before.
+//! [`Index::new`] reads any text, with faults or without. `declare` finds the names that it gives and where they are known, `import`
+//! those that other files bring, `resolve` what each word means; all work on tokens, so that a fault hides nothing but itself. Only
+//! types of derived and local values come from the compiler, and where it cannot tell, from the index before.
 
 mod candidate;
 mod context;
 mod declare;
-mod description;
 mod hover;
-mod meaning;
+mod import;
 mod rename;
 mod resolve;
+mod state;
 mod symbol;
+mod type_name;
 mod words;
 
 use std::collections::HashMap;
@@ -20,9 +21,11 @@ use std::collections::HashMap;
 use crate::diagnostic::{Source, Span};
 
 use super::format::{Token, TokenKind, tokens};
+use super::load::{self, FILE_LIMIT, Library};
+use super::lower;
 use super::types::Type;
-use super::{lower, parse};
 
+use import::Import;
 use resolve::Resolved;
 use symbol::{Meaning, Use};
 
@@ -44,48 +47,111 @@ pub use symbol::{Role, Symbol, SymbolKind};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Index {
     source: Source,
+    /// Those of the text itself, and behind them those that other files bring.
     symbols: Vec<Symbol>,
+    /// How many of them are the text's own.
+    own: usize,
+    imports: Vec<Import>,
+    /// For every part of the source, the `use` that leads to it.
+    ways: Vec<Option<Span>>,
     resolved: Resolved,
-    /// Whether the text could be read in full.
+    /// Whether its syntax has no fault.
     is_read: bool,
 }
 
+/// Adds to a source, as parts, all files that it uses, as [`gather`](super::gather) does; also those of a `use` that is being
+/// written and at fault behind the file's name.
+#[must_use]
+pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
+    complete(load::load(source, library).source, library)
+}
+
+/// Adds the files of each `use` that is at fault.
+fn complete(mut source: Source, library: &mut Library<'_>) -> Source {
+    let files = import::imports(&source.name, &code_tokens(text(&source))).into_iter().filter_map(|import| import.file);
+    let files: Vec<String> = files.take(FILE_LIMIT).collect();
+    for name in files {
+        let is_known = (0..source.count()).any(|part| source.part_name(part) == name);
+        if !is_known && let Ok(text) = load::text_of(&source, &name, library) {
+            source.add(name, Ok(&text));
+        }
+    }
+    source
+}
+
+/// The text of the first part.
+fn text(source: &Source) -> &str {
+    source.slice(source.part_span(0))
+}
+
 impl Index {
-    /// Reads a text. Where it cannot be compiled, types come from what was known of it `before`.
+    /// Reads a text. Of the files that it uses only the standard library and parts of the source are known. Where the compiler cannot
+    /// tell types, they come from what was known of the text `before`.
     #[must_use]
     pub fn new(source: &Source, before: Option<&Self>) -> Self {
-        let tokens = code_tokens(&source.text);
-        let mut symbols = declare::declare(&source.text, &tokens).finish(&source.text);
-        let file = parse::parse(source).ok();
-        if let Some(file) = &file {
-            let types = lower::types(file);
-            for symbol in &mut symbols {
-                symbol.r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied());
-            }
-        } else if let Some(before) = before {
-            let known = before.types();
-            for index in 0..symbols.len() {
-                let r#type = known.get(&identity(&symbols, &symbols[index])).copied();
-                symbols[index].r#type = symbols[index].r#type.or(r#type);
-            }
+        let refuse = &mut |_: &str| Err(String::new());
+        let loaded = load::load(source, refuse);
+        let (is_read, ways) = (loaded.is_read(), loaded.ways());
+        let (source, files) = loaded.known();
+        let source = complete(source, refuse);
+        let text = text(&source);
+        let tokens = code_tokens(text);
+        let mut symbols = declare::declare(text, &tokens, declare::is_balanced(&tokens)).finish(text);
+        let own = symbols.len();
+        let imports = import::imports(&source.name, &tokens);
+        for import in &imports {
+            import::bring(&source, import, &mut symbols);
         }
-        let resolved = resolve::resolve(&tokens, &symbols);
-        Self { source: source.clone(), symbols, resolved, is_read: file.is_some() }
+        let types = files.as_ref().map(lower::types).unwrap_or_default();
+        let known = before.map(Self::types).unwrap_or_default();
+        for index in 0..symbols.len() {
+            let symbol = &symbols[index];
+            let of_before = || known.get(&identity(&symbols, symbol)).copied().filter(|_| symbol.kind.is_value());
+            symbols[index].r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied()).or_else(of_before);
+        }
+        let resolved = resolve::resolve(&source, &tokens, &symbols, &imports);
+        Self { symbols, own, imports, ways, resolved, is_read, source }
+    }
+
+    /// The text, and those of all files that it uses as parts.
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        &self.source
     }
 
     /// The names that the text gives, in their order. [`Symbol::owner`] is a place in this list.
     #[must_use]
     pub fn symbols(&self) -> &[Symbol] {
-        &self.symbols
+        &self.symbols[..self.own]
     }
 
-    /// Where the name at a byte is given.
+    /// The `use` in the text that leads to a part of the source, be it through other files.
+    #[must_use]
+    pub fn way_to(&self, part: usize) -> Option<Span> {
+        self.ways.get(part).copied().flatten()
+    }
+
+    /// The file that gives a symbol, if it is another.
+    fn file_of(&self, symbol: &Symbol) -> Option<&str> {
+        let part = self.source.part_at(symbol.span.start);
+        (part > 0).then(|| self.source.part_name(part))
+    }
+
+    /// Where the name at a byte is given, maybe in another part of the [source](Self::source); the beginning of the file that is
+    /// named there.
     #[must_use]
     pub fn definition(&self, at: usize) -> Option<Span> {
-        self.symbol_at(at).map(|(_, index)| self.symbols[index].span)
+        match self.use_at(at)?.meaning {
+            Meaning::Symbol(index, _) => Some(self.symbols[index].span),
+            Meaning::File(part) => {
+                let start = self.source.part_span(part).start;
+                Some(Span::new(start, start))
+            }
+            _ => None,
+        }
     }
 
-    /// Every place of what the name at a byte stands for, in their order; none if it stands for nothing that the text gives.
+    /// Every place in the text of what the name at a byte stands for, in their order; none if it is no name that files give.
     #[must_use]
     pub fn references(&self, at: usize) -> Vec<(Span, Role)> {
         let Some((_, wanted)) = self.symbol_at(at) else { return Vec::new() };

@@ -30,6 +30,22 @@ pub enum RenameError {
     /// The new name is a word of the language, or of a function.
     #[error("`{0}` has a meaning of its own in the language; choose another name")]
     Reserved(String),
+    /// Another file gives the name.
+    #[error("`{name}` is given in `{file}` and keeps its name here; rename it there")]
+    Foreign {
+        /// The name.
+        name: String,
+        /// The file.
+        file: String,
+    },
+    /// A file that is used brings the new name.
+    #[error("the name `{name}` is brought from `{file}`; choose another name")]
+    Brought {
+        /// The new name.
+        name: String,
+        /// The file.
+        file: String,
+    },
     /// The new name is taken.
     #[error("the name `{name}` is given in line {line} already; choose another name")]
     Taken {
@@ -65,6 +81,9 @@ impl Index {
         }
         let others = self.symbols.iter().enumerate().filter(|&(other, _)| other != index);
         if let Some((_, other)) = others.into_iter().find(|(_, other)| other.name == name && meet(symbol, other)) {
+            if let Some(file) = self.file_of(other) {
+                return Err(RenameError::Brought { name: name.to_owned(), file: file.to_owned() });
+            }
             let line = self.source.line_column(other.span.start).line;
             return Err(RenameError::Taken { name: name.to_owned(), line });
         }
@@ -75,8 +94,13 @@ impl Index {
         let known = self.use_at(at).ok_or(RenameError::NoName)?;
         let text = self.source.slice(known.span).to_owned();
         match known.meaning {
+            Meaning::Symbol(index, _) if index >= self.own => {
+                let file = self.file_of(&self.symbols[index]).unwrap_or_default().to_owned();
+                Err(RenameError::Foreign { name: text, file })
+            }
             Meaning::Symbol(index, _) if self.is_read => Ok((known.span, index)),
             Meaning::Symbol(..) => Err(RenameError::Unreadable),
+            Meaning::File(_) => Err(RenameError::NoName),
             Meaning::Unknown => Err(RenameError::Unknown(text)),
             _ => Err(RenameError::BuiltIn(text)),
         }

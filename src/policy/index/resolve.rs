@@ -2,41 +2,68 @@
 
 use std::collections::HashMap;
 
-use crate::diagnostic::Span;
-use crate::policy::builtins;
+use crate::diagnostic::{Source, Span};
+use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::format::{Token, TokenKind};
-use crate::policy::types::Type;
+use crate::policy::types::{Type, dimension};
 use crate::units::parse_unit;
 
 use super::declare::place;
+use super::import::Import;
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
-use super::words::word;
+use super::type_name::type_name;
+use super::words::{Place, Word, word};
 
 /// The words of a text with their meanings, in their order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Resolved {
     pub(super) uses: Vec<Use>,
-    /// The type of what stands before each `.`, where it is known, by the byte of the `.`.
-    pub(super) owners: HashMap<usize, Type>,
+    /// What stands before each `.`, where it is known, by the byte of the `.`.
+    pub(super) owners: HashMap<usize, Owner>,
 }
 
-/// Finds the meaning of every word among `tokens`, among which there are no comments.
-pub(super) fn resolve(tokens: &[Token<'_>], symbols: &[Symbol]) -> Resolved {
+/// What stands before a `.`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Owner {
+    /// A value of this type.
+    Value(Type),
+    /// This symbol, a state.
+    State(usize),
+}
+
+/// Finds the meaning of every word among `tokens`, those of the first part of a source without its comments. `imports` are the
+/// uses of files among them.
+pub(super) fn resolve(source: &Source, tokens: &[Token<'_>], symbols: &[Symbol], imports: &[Import]) -> Resolved {
     let mut names = Names::new(symbols);
     let mut resolved = Resolved::default();
-    // The type of the operand that ends with the token before, and of what each open parenthesis is called on.
-    let (mut operand, mut calls): (Option<Type>, Vec<Option<Type>>) = (None, Vec::new());
+    // The operand that ends with the token before, and what each open parenthesis is called on.
+    let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
+    // Where the name of a type ends that is being read.
+    let mut type_end = 0;
     for (index, token) in tokens.iter().enumerate() {
-        let before = index.checked_sub(1).map(|before| tokens[before]);
-        let is_before = |mark: &str| before.is_some_and(|before| before.text == mark);
         names.advance(token.start);
+        let last = imports.partition_point(|import| import.tokens.start < index).checked_sub(1);
+        if last.is_some_and(|last| imports[last].tokens.contains(&index)) {
+            continue;
+        }
+        let before = index.checked_sub(1).map(|before| tokens[before]);
+        let is_before = |text: &str| before.is_some_and(|before| before.text == text);
+        let is_word = matches!(token.kind, TokenKind::Name | TokenKind::Keyword);
         let meaning = match token.kind {
-            // A member, or a state within another: `-> Outer(w).Inner`.
-            TokenKind::Name if is_before(".") => member(operand, token.text)
-                .or_else(|| names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads))),
-            TokenKind::Name | TokenKind::Keyword if is_before(":") || is_before("of") => {
-                type_at(tokens, index).map(Meaning::Type)
+            _ if is_word && is_before(":") => {
+                let named = type_name(tokens, index);
+                type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
+                named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type)
             }
+            TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
+            TokenKind::Name if is_before("mark") => {
+                word(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Word(word.text))
+            }
+            // A member, or a state within another: `-> Outer(w).Inner`.
+            TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
+                Owner::Value(owner) => member(owner, token.text),
+                Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
+            }),
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(place(*token), token.text, role)
@@ -58,32 +85,45 @@ pub(super) fn resolve(tokens: &[Token<'_>], symbols: &[Symbol]) -> Resolved {
                 None
             }
             (TokenKind::Mark, ")", _) => calls.pop().flatten(),
-            (TokenKind::Keyword, "body", _) => Some(Type::Body),
-            (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type,
-            (_, _, Some(Meaning::Member(_, member))) => Some(member.r#type),
+            (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
+            (TokenKind::Name, "run", Some(Meaning::Word(_))) => Some(Owner::Value(Type::Run)),
+            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
+                Some(Owner::State(symbol))
+            }
+            (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type.map(Owner::Value),
+            (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
             _ => None,
         };
-        let is_name = matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit);
-        if is_name {
+        if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: place(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
     }
+    resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, import)));
+    resolved.uses.sort_by_key(|known| known.span.start);
     resolved
 }
 
-fn member(owner: Option<Type>, name: &str) -> Option<Meaning> {
-    let owner = owner?;
-    let member = builtins::members(owner).iter().find(|member| member.name == name)?;
-    Some(Meaning::Member(owner, *member))
+/// The meanings of what stands in a `use`.
+fn of_import(source: &Source, symbols: &[Symbol], import: &Import) -> Vec<Use> {
+    let part = import.part(source);
+    let brought = |name: &str| {
+        let is_meant = |symbol: &Symbol| symbol.name == name && Some(source.part_at(symbol.span.start)) == part;
+        symbols.iter().position(is_meant).map(|index| Meaning::Symbol(index, Role::Reads))
+    };
+    let file = Use { span: import.from, meaning: part.map_or(Meaning::Unknown, Meaning::File) };
+    let names = import.names.iter().flatten();
+    let names = names.map(|&span| Use { span, meaning: brought(source.slice(span)).unwrap_or(Meaning::Unknown) });
+    std::iter::once(file).chain(names).collect()
 }
 
-/// The type that the token names, with the `of` behind it.
-fn type_at(tokens: &[Token<'_>], index: usize) -> Option<Type> {
-    let base = tokens.get(index)?.text;
-    match tokens.get(index + 1..index + 3) {
-        Some([of, dimension]) if of.text == "of" => Type::named(base, Some(dimension.text)),
-        _ => Type::named(base, None),
-    }
+/// Whether a word has its meaning behind `mark` alone.
+fn is_mark(word: &Word) -> bool {
+    word.places == [Place::Mark]
+}
+
+fn member(owner: Type, name: &str) -> Option<Meaning> {
+    let member = builtins::members(owner).iter().find(|member| member.name == name)?;
+    Some(Meaning::Member(owner, *member))
 }
 
 /// The names that are known at a place that moves through the text.
@@ -129,9 +169,9 @@ impl<'s> Names<'s> {
                 return Some(Meaning::Symbol(index, role));
             }
         }
-        match builtins::function(name) {
-            Some((function, usage)) => Some(Meaning::Function(function, usage)),
-            None => word(name).map(|word| Meaning::Word(word.text)),
+        match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
+            Some(function) => Some(Meaning::Function(function)),
+            None => word(name).filter(|word| !is_mark(word)).map(|word| Meaning::Word(word.text)),
         }
     }
 

@@ -1,14 +1,14 @@
 //! Names that a policy gives, and where they are used.
 
 use crate::diagnostic::Span;
-use crate::policy::builtins::{Function, Member};
+use crate::policy::builtins::Member;
 use crate::policy::types::Type;
 use crate::units::Dimension;
 
 /// What a name that a policy gives stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SymbolKind {
-    /// The machine itself.
+    /// The machine or the library itself.
     Machine,
     /// A whisker of the rig.
     Whisker,
@@ -47,7 +47,7 @@ pub struct Symbol {
     pub name: String,
     /// What it stands for.
     pub kind: SymbolKind,
-    /// Where it is given.
+    /// Where it is given, maybe in another part of the source.
     pub span: Span,
     /// All that gives it its meaning: an item, a statement, an argument with its type.
     pub whole: Span,
@@ -75,10 +75,13 @@ pub enum Role {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
     Symbol(usize, Role),
-    Function(Function, &'static str),
+    /// A function of the language, by its place in the table.
+    Function(usize),
     Member(Type, Member),
     Type(Type),
     Unit(Dimension),
+    /// A file that is used, by its part of the source.
+    File(usize),
     /// A word of the language.
     Word(&'static str),
     Unknown,

@@ -9,14 +9,20 @@ pub(super) enum Place {
     Item,
     /// Between the braces of a state.
     State,
+    /// Between the braces of a test.
+    Test,
     /// Between any braces.
     Statement,
     /// Within a statement.
     Inside,
     /// Where a value is due.
     Value,
+    /// Where a value of a whole run is due.
+    Run,
     /// Where the name of a state is due.
     Target,
+    /// Behind `mark`.
+    Mark,
 }
 
 /// A word of the language.
@@ -32,8 +38,8 @@ pub(super) struct Word {
 impl Word {
     /// Whether a statement, a transition or an item begins with it.
     pub(super) fn begins_statement(&self) -> bool {
-        use Place::{File, Item, State, Statement};
-        self.places.iter().any(|place| [File, Item, State, Statement].contains(place))
+        use Place::{File, Item, State, Statement, Test};
+        self.places.iter().any(|place| [File, Item, State, Statement, Test].contains(place))
     }
 
     /// How it is used: the snippet without its marks.
@@ -59,14 +65,24 @@ const fn entry(text: &'static str, places: &'static [Place], snippet: &'static s
 const FILE: &[Place] = &[Place::File];
 const ITEM: &[Place] = &[Place::Item];
 const STATE: &[Place] = &[Place::State];
+const ITEM_OR_STATE: &[Place] = &[Place::Item, Place::State];
 const STATEMENT: &[Place] = &[Place::State, Place::Statement];
 const INSIDE: &[Place] = &[Place::Inside];
 const VALUE: &[Place] = &[Place::Value];
+const TRUTH: &[Place] = &[Place::Value, Place::Run];
 const TARGET: &[Place] = &[Place::Target];
+const MARK: &[Place] = &[Place::Mark];
 
 /// Every word of the language that is no function.
-pub(super) const WORDS: [Word; 37] = [
+pub(super) const WORDS: [Word; 47] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
+    entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
+    entry(
+        "use",
+        ITEM,
+        "use ${1:std.swipe}",
+        "Makes laws and derived values of another file known: all, or those in parentheses behind it.",
+    ),
     entry("whisker", ITEM, "whisker ${1:name}", "Binds whiskers of the rig by name."),
     entry(
         "param",
@@ -74,14 +90,36 @@ pub(super) const WORDS: [Word; 37] = [
         "param ${1:name} = ${2:50 mm/s} in ${3:1} .. ${4:200 mm/s}",
         "A number that a run may set within the range.",
     ),
-    entry("initial", ITEM, "initial ${1:State}", "The state that a run starts in, one without arguments."),
+    entry(
+        "initial",
+        ITEM_OR_STATE,
+        "initial ${1:State}",
+        "The state that a run starts in, one without arguments; within a state, the one in it that it begins in.",
+    ),
     entry("law", ITEM, "law ${1:name}(${2:w: whisker}) {\n  ${0}\n}", "Statements under a name, for `do`."),
-    entry("state", ITEM, "state ${1:Name} {\n  ${0}\n}", "A state: its statements and its transitions."),
+    entry(
+        "state",
+        ITEM_OR_STATE,
+        "state ${1:Name} {\n  ${0}\n}",
+        "A state: its statements, its transitions, and the states in it.",
+    ),
     entry(
         "always",
         ITEM,
         "always when ${1:condition} -> ${2:Target}",
         "A transition of every state, tried before those of the state itself.",
+    ),
+    entry(
+        "failsafe",
+        ITEM_OR_STATE,
+        "failsafe -> ${1:Target}",
+        "Where to go when a state cannot go on: its command is not finite, or a tick wants too many transitions.",
+    ),
+    entry(
+        "test",
+        ITEM,
+        "test \"${1:title}\" in \"${2:scenario.yaml}\" {\n  expect ${0}\n}",
+        "A run of the policy in a scenario, and what must be true of it.",
     ),
     entry(
         "let",
@@ -109,7 +147,13 @@ pub(super) const WORDS: [Word; 37] = [
     ),
     entry("entry", STATE, "entry {\n  ${0}\n}", "Statements for when the state is entered, after its memory is set."),
     entry("exit", STATE, "exit {\n  ${0}\n}", "Statements for when the state is left."),
-    entry("set", STATEMENT, "set ${1:name} = ${2:value}", "Changes the memory of the state."),
+    entry(
+        "set",
+        &[Place::State, Place::Statement, Place::Test],
+        "set ${1:name} = ${2:value}",
+        "Changes the memory of the state; in a test, gives a parameter its value for the run.",
+    ),
+    entry("expect", &[Place::Test], "expect ${1:run.completed}", "What must be true at the end of the run."),
     entry("if", STATEMENT, "if ${1:condition} {\n  ${0}\n}", "Runs the first block whose condition holds."),
     entry("do", STATEMENT, "do ${1:law}(${2:w})", "Runs a law's statements."),
     entry(
@@ -117,6 +161,12 @@ pub(super) const WORDS: [Word; 37] = [
         STATEMENT,
         "record ${1:w}",
         "Takes the tip of a whisker that touches as a point of the measured contour.",
+    ),
+    entry(
+        "mark",
+        STATEMENT,
+        "mark ${1:lost} ${2:w}",
+        "Notes for the score that a whisker has lost the object's edge, or has found contact again.",
     ),
     entry(
         "steer",
@@ -128,7 +178,12 @@ pub(super) const WORDS: [Word; 37] = [
     entry("stop", STATEMENT, "stop", "Stands still."),
     entry("else", INSIDE, "else {\n  ${0}\n}", "What is run when no condition before it holds."),
     entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
-    entry("in", INSIDE, "in ${1:low} .. ${2:high}", "The range within which a run may set the parameter."),
+    entry(
+        "in",
+        INSIDE,
+        "in ${1:low} .. ${2:high}",
+        "The range within which a run may set the parameter; of a test, the scenario's file.",
+    ),
     entry("of", INSIDE, "of ${1:length}", "The dimension of a vector's parts."),
     entry("along", INSIDE, "along ${1:direction}", "The direction of the motion, a vector of any length."),
     entry("at", INSIDE, "at ${1:speed}", "The speed of the motion."),
@@ -137,11 +192,15 @@ pub(super) const WORDS: [Word; 37] = [
     entry("and", INSIDE, "and", "Holds where both sides do."),
     entry("or", INSIDE, "or", "Holds where one side does, or both do."),
     entry("->", INSIDE, "-> ${1:Target}", "Leads to a state."),
-    entry("not", VALUE, "not", "Holds where the comparison behind it does not."),
-    entry("true", VALUE, "true", "Always holds."),
-    entry("false", VALUE, "false", "Never holds."),
+    entry("not", TRUTH, "not", "Holds where the comparison behind it does not."),
+    entry("true", TRUTH, "true", "Always holds."),
+    entry("false", TRUTH, "false", "Never holds."),
     entry("body", VALUE, "body", "The platform."),
     entry("time", VALUE, "time", "The time since the start of the run."),
+    entry("run", &[Place::Run], "run", "The whole run, of which a test expects something."),
+    entry("resume", TARGET, "resume ${1:State}", "Enters a state, and in it the one that was active last."),
+    entry("lost", MARK, "lost", "The whisker has lost the object's edge."),
+    entry("found", MARK, "found", "The whisker has found contact again."),
     entry("Failure", TARGET, "Failure(\"${1:reason}\")", "Ends the run as failed; the platform stands still."),
 ];
 
