@@ -15,6 +15,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::compile;
 
 const THESIS: &str = include_str!("../policies/thesis.fsm");
+const BANG: &str = include_str!("../policies/bang.fsm");
 
 fn labels(answer: &Value) -> Vec<&str> {
     answer["result"].as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap()).collect()
@@ -73,7 +74,7 @@ fn a_session_from_the_first_word_to_the_last() {
     assert_eq!(program(&renamed), expected);
 
     // A layout of its own.
-    let wide = THESIS.replace(" = ", "   =").replace("{\n", "{\n\n\n");
+    let wide = BANG.replace(" = ", "   =").replace("{\n", "{\n\n\n");
     editor.rewrite(&wide);
     let options = json!({"textDocument": {"uri": URI}, "options": {"tabSize": 8, "insertSpaces": false}});
     let formatting = editor.ask("textDocument/formatting", options);
@@ -182,7 +183,7 @@ fn what_nothing_uses_is_faded_and_what_is_misspelt_can_be_mended() {
     let unused = &editor.diagnostics["diagnostics"][0];
     assert_eq!((&unused["code"], &unused["severity"], &unused["tags"]), (&json!("P0504"), &json!(2), &json!([1])));
 
-    let broken = THESIS.replace("do swipe(w)", "do swpie(w)").replacen("r0.touching", "r0.tuoching", 1);
+    let broken = THESIS.replace("do swipe(w,", "do swpie(w,").replacen("r0.touching", "r0.tuoching", 1);
     editor.rewrite(&broken);
     let mut mended = broken.clone();
     for misspelt in ["tuoching", "swpie"] {
@@ -198,7 +199,7 @@ fn what_nothing_uses_is_faded_and_what_is_misspelt_can_be_mended() {
         mended = edited(&mended, edit);
     }
     assert_eq!(mended.matches("r0.touching").count(), THESIS.matches("r0.touching").count());
-    assert!(mended.contains("do swipe(w)"));
+    assert!(mended.contains("do swipe(w,"));
 }
 
 #[test]
@@ -238,7 +239,7 @@ fn a_completion_takes_the_place_of_what_is_typed_and_has_fields_to_fill_in() {
 #[test]
 fn references_highlights_and_the_outline_show_all_places() {
     let mut editor = Editor::open(THESIS);
-    let at = position(THESIS, "limit", 0);
+    let at = position(THESIS, "limit  =", 0);
     let all = editor.ask_at("references", &at, json!({"context": {"includeDeclaration": true}}));
     let used = editor.ask_at("references", &at, json!({"context": {"includeDeclaration": false}}));
     assert_eq!((all["result"].as_array().unwrap().len(), used["result"].as_array().unwrap().len()), (3, 2));
@@ -252,10 +253,91 @@ fn references_highlights_and_the_outline_show_all_places() {
     let symbols = editor.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": URI}}));
     let symbols = symbols["result"].as_array().unwrap();
     let named: Vec<&Value> = symbols.iter().map(|symbol| &symbol["name"]).collect();
-    assert_eq!(named, ["r0", "l0", "speed", "target", "limit", "lost", "swipe", "Exploring", "Swiping"]);
-    let swipe = covered(THESIS, &symbols[6]["range"]);
-    assert!(swipe.starts_with("law swipe(w: whisker) {") && swipe.ends_with("    hold\n  }\n}"), "{swipe}");
-    assert_eq!(symbols[6]["detail"], "law swipe(w: whisker)");
+    assert_eq!(named, ["r0", "l0", "speed", "target", "limit", "lost", "Exploring", "Swiping"]);
+    let swiping = covered(THESIS, &symbols[7]["range"]);
+    assert!(swiping.starts_with("state Swiping(w: whisker) {") && swiping.ends_with("object\")\n}"), "{swiping}");
+    assert_eq!(symbols[7]["detail"], "state Swiping(w: whisker)");
+}
+
+#[test]
+fn states_in_states_are_a_tree_in_the_outline() {
+    let text = include_str!("fixtures/charts/nested.fsm");
+    let mut editor = Editor::open(text);
+    let symbols = editor.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": URI}}));
+    let mut indented = String::new();
+    fn write(into: &mut String, depth: usize, symbols: &Value) {
+        for symbol in symbols.as_array().into_iter().flatten().filter(|symbol| symbol["kind"] == 5) {
+            *into += &format!("{}{}\n", " ".repeat(depth), symbol["name"].as_str().unwrap());
+            write(into, depth + 1, &symbol["children"]);
+        }
+    }
+    write(&mut indented, 0, &symbols["result"]);
+    let mut expected = String::new();
+    for line in text.lines().filter(|line| line.trim_start().starts_with("state ")) {
+        // Every level is two blanks.
+        let depth = (line.len() - line.trim_start().len()) / 2;
+        let name = line.trim_start()[6..].split(|letter: char| !letter.is_alphanumeric()).next().unwrap();
+        expected += &format!("{}{name}\n", " ".repeat(depth));
+    }
+    assert_eq!(indented, expected);
+}
+
+#[test]
+fn used_files_are_read_from_the_editor_or_else_from_where_they_lie() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("lsp use");
+    std::fs::create_dir_all(folder.join("laws")).unwrap();
+    let corner = "library corner\n\n# Stops.\nlaw wait(w: whisker) { stop }\n";
+    std::fs::write(folder.join("laws/corner.fsm"), corner).unwrap();
+    let root = format!("file://{}", folder.display().to_string().replace(' ', "%20"));
+    let (main_uri, corner_uri) = (format!("{root}/main.fsm"), format!("{root}/laws/corner.fsm"));
+    let text = "machine m\nuse \"laws/corner.fsm\"\nuse std.guards (lost)\nwhisker r0\ninitial S\nstate S {\n  do wait(r0)\n  \
+                when lost(r0) -> Failure(\"lost\")\n}\n";
+    let mut editor = Editor::open(THESIS);
+    let open = |editor: &mut Editor, uri: &str, text: &str| {
+        let item = json!({"uri": uri, "languageId": "fsm", "version": 0, "text": text});
+        editor.tell("textDocument/didOpen", json!({"textDocument": item}));
+        editor.hear();
+    };
+    open(&mut editor, &main_uri, text);
+    assert_eq!(editor.diagnostics, json!({"uri": main_uri, "version": 0, "diagnostics": []}));
+    let at = |method: &str, part: &str| {
+        (
+            format!("textDocument/{method}"),
+            json!({"textDocument": {"uri": main_uri}, "position": position(text, part, 0), "newName": "x"}),
+        )
+    };
+    let ask = |editor: &mut Editor, method: &str, part: &str| {
+        let (method, parameters) = at(method, part);
+        editor.ask(&method, parameters)
+    };
+    let definition = ask(&mut editor, "definition", "wait(r0");
+    assert_eq!(definition["result"]["uri"], corner_uri);
+    assert_eq!(covered(corner, &definition["result"]["range"]), "wait");
+    assert_eq!(ask(&mut editor, "definition", "\"laws")["result"]["uri"], corner_uri);
+    assert_eq!(ask(&mut editor, "definition", "lost(r0")["result"], Value::Null);
+    let hover = ask(&mut editor, "hover", "lost(r0");
+    assert!(hover["result"]["contents"]["value"].as_str().unwrap().contains("let lost(w: whisker)"), "{hover}");
+    let refused = ask(&mut editor, "rename", "wait(r0");
+    assert!(refused["error"]["message"].as_str().unwrap().contains("keeps its name"), "{refused}");
+
+    // The library is opened, with a fault; then it is closed, and counts as it lies on the disk.
+    let faulty = corner.replace("stop", "steer body along w.base at 3 mm turning 0 deg/s");
+    open(&mut editor, &corner_uri, &faulty);
+    assert_eq!(editor.diagnostics["uri"], corner_uri);
+    assert_eq!(covered(&faulty, &editor.diagnostics["diagnostics"][0]["range"]), "3 mm");
+    editor.hear();
+    assert_eq!(editor.diagnostics["uri"], main_uri);
+    let fault = &editor.diagnostics["diagnostics"][0];
+    assert_eq!(covered(text, &fault["range"]).trim_matches('"'), "laws/corner.fsm");
+    assert!(fault["message"].as_str().unwrap().contains("in line 4 of"), "{fault}");
+    assert_eq!(fault["relatedInformation"][0]["location"]["uri"], corner_uri);
+    assert_eq!(covered(&faulty, &fault["relatedInformation"][0]["location"]["range"]), "3 mm");
+    editor.tell("textDocument/didClose", json!({"textDocument": {"uri": corner_uri}}));
+    editor.hear();
+    assert_eq!(editor.diagnostics, json!({"uri": corner_uri, "diagnostics": []}));
+    editor.hear();
+    assert_eq!(editor.diagnostics, json!({"uri": main_uri, "version": 0, "diagnostics": []}));
+    assert_eq!(editor.leave().code(), Some(0));
 }
 
 /// An edit of a text: from where, how much, what instead.

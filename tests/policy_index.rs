@@ -6,20 +6,35 @@ use std::path::Path;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Source, Span};
 use vibrissa::machine::Program;
-use vibrissa::policy::compile;
-use vibrissa::policy::index::{Index, RenameError, Symbol, SymbolKind};
+use vibrissa::policy::index::{Candidate, CandidateKind, Index, RenameError, Symbol, SymbolKind, gather};
+use vibrissa::policy::{Checked, check};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const THESIS: &str = include_str!("../policies/thesis.fsm");
+const SWIPE: &str = include_str!("../policies/std/swipe.fsm");
 
 fn index(text: &str) -> Index {
     Index::new(&Source::new("test.fsm", text), None)
 }
 
-/// Every policy of the project that compiles, with its name.
+/// A source with the files of the fixtures that it uses.
+fn gathered(text: &str) -> Source {
+    let file = |path: &str| {
+        let path = Path::new(ROOT).join("tests/fixtures/policies/use").join(path);
+        std::fs::read_to_string(path).map_err(|_| "there is none".to_owned())
+    };
+    gather(&Source::new("test.fsm", text), &mut { file })
+}
+
+/// Every policy and library of the project that has no fault, with its name.
 fn policies() -> Vec<(String, String)> {
-    let folders =
-        ["policies", "tests/fixtures/policies/warn", "tests/fixtures/policies/format", "tests/fixtures/charts"];
+    let folders = [
+        "policies",
+        "policies/std",
+        "tests/fixtures/policies/warn",
+        "tests/fixtures/policies/format",
+        "tests/fixtures/charts",
+    ];
     let files = folders.iter().flat_map(|folder| std::fs::read_dir(Path::new(ROOT).join(folder)).unwrap());
     let texts = files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|is| is == "fsm"));
     let mut texts: Vec<(String, String)> =
@@ -34,7 +49,9 @@ fn policies() -> Vec<(String, String)> {
         };
         texts.push((format!("example {number} of the page"), text));
     }
-    texts.retain(|(name, text)| compile(&Source::new(name.as_str(), text.as_str())).is_ok());
+    texts.push(("with another file".to_owned(), USING.to_owned()));
+    texts.push(("marks".to_owned(), MARKING.to_owned()));
+    texts.retain(|(_, text)| check(&gathered(text)).is_ok());
     texts.sort();
     texts
 }
@@ -47,6 +64,43 @@ fn replaced(text: &str, places: &[Span], name: &str) -> String {
     }
     text
 }
+
+const USING: &str = r#"machine m
+
+use "laws/corner.fsm" (wait, sharp)
+use std.guards
+
+whisker r0
+
+let blunt = 2 * sharp
+
+initial Waiting
+
+state Waiting {
+  do wait(r0)
+  when lost(r0) and angle(r0.base) > blunt -> Failure("it is lost")
+}
+"#;
+
+const MARKING: &str = r#"machine m
+
+whisker r0
+
+param lost = 100 ms in 0 .. 1 s
+
+initial Waiting
+
+state Waiting {
+  mark lost r0
+  mark found r0
+  when not r0.touching for lost -> Failure("it is lost")
+}
+
+test "lost" in "lost.yaml" {
+  set lost = 200 ms
+  expect run.failed and run.visits(Waiting) == 1
+}
+"#;
 
 /// A program without the names that its policy gives to things.
 fn nameless(mut program: Program) -> String {
@@ -61,25 +115,33 @@ fn nameless(mut program: Program) -> String {
 fn whatever_is_renamed_the_machine_stays_the_same() {
     let mut renamed = 0;
     for (name, text) in policies() {
-        let before = compile(&Source::new(name.as_str(), text.as_str())).unwrap();
-        let index = index(&text);
+        let before = check(&gathered(&text)).unwrap();
+        let index = Index::new(&gathered(&text), None);
         for symbol in index.symbols() {
             let places = index.rename(symbol.span.start, "fresh_name").unwrap();
             assert!(places.contains(&symbol.span));
             let after = replaced(&text, &places, "fresh_name");
-            let program = compile(&Source::new("renamed.fsm", after.as_str()))
+            let after = check(&gathered(&after))
                 .unwrap_or_else(|faults| panic!("{name}, {}: {faults:?}\n{after}", symbol.name));
-            assert_eq!(nameless(program), nameless(before.clone()), "{name}, {}", symbol.name);
+            match (after, &before) {
+                (Checked::Machine(after), Checked::Machine(before)) => {
+                    let [after, before] = [after.artifact.program, before.artifact.program.clone()].map(nameless);
+                    assert_eq!(after, before, "{name}, {}", symbol.name);
+                }
+                (after, before) => {
+                    assert!(matches!((after, before), (Checked::Library { .. }, Checked::Library { .. })))
+                }
+            }
             renamed += 1;
         }
     }
-    assert!(renamed > 150, "{renamed}");
+    assert!(renamed > 250, "{renamed}");
 }
 
 #[test]
 fn every_place_of_a_name_leads_to_where_it_is_given_and_is_explained() {
     for (name, text) in policies() {
-        let index = index(&text);
+        let index = Index::new(&gathered(&text), None);
         for symbol in index.symbols() {
             let places = index.references(symbol.span.start);
             for (place, _) in places {
@@ -95,7 +157,7 @@ fn every_place_of_a_name_leads_to_where_it_is_given_and_is_explained() {
 #[test]
 fn every_word_of_a_policy_that_compiles_is_explained() {
     for (name, text) in policies() {
-        let index = index(&text);
+        let index = Index::new(&gathered(&text), None);
         let mut at = 0;
         // Comments and texts have no meaning.
         let code: String = text.lines().map(|line| line.split('#').next().unwrap().to_owned() + "\n").collect();
@@ -119,9 +181,13 @@ fn every_word_of_a_policy_that_compiles_is_explained() {
 
 /// The labels of what can be written at the `§` of a text.
 fn labels(text: &str) -> Vec<String> {
+    candidates(text).into_iter().map(|candidate| candidate.label).collect()
+}
+
+/// What can be written at the `§` of a text.
+fn candidates(text: &str) -> Vec<Candidate> {
     let at = text.find('\u{a7}').unwrap();
-    let candidates = index(&text.replace('\u{a7}', "")).candidates(at).1;
-    candidates.into_iter().map(|candidate| candidate.label).collect()
+    Index::new(&gathered(&text.replace('\u{a7}', "")), None).candidates(at).1
 }
 
 /// A policy with `inside` in the second of its states, and no end.
@@ -135,8 +201,20 @@ fn writing(inside: &str) -> String {
 
 #[test]
 fn behind_a_point_come_the_members_of_what_stands_before_it() {
-    let members =
-        ["deflection", "touching", "yaw", "side", "sense", "length", "tip", "tip_base", "base", "tip_at", "contour"];
+    let members = [
+        "deflection",
+        "touching",
+        "yaw",
+        "side",
+        "sense",
+        "length",
+        "tip",
+        "tip_base",
+        "tip_spread",
+        "base",
+        "tip_at",
+        "contour",
+    ];
     for place in [
         "w.\u{a7}",
         "w.ti\u{a7}p",
@@ -147,7 +225,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         assert_eq!(labels(&writing(place)), members, "{place}");
     }
     for place in ["let x = w.contour.\u{a7}", "steer body along r0.contour.\u{a7} at speed"] {
-        assert_eq!(labels(&writing(place)), ["ready", "tangent", "end", "curvature"], "{place}");
+        assert_eq!(labels(&writing(place)), ["ready", "tangent", "normal", "end", "point", "curvature"], "{place}");
     }
     assert_eq!(labels(&writing("let x = body.\u{a7}")), ["yaw", "position"]);
     for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}", "let x = w.tip.\u{a7}"] {
@@ -173,7 +251,9 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
     for (place, yes, no) in [
         ("\u{a7}", "when", "param"),
         ("hold\n  \u{a7}", "steer", "law"),
-        ("hold\n  st\u{a7}", "steer", "state"),
+        ("hold\n  st\u{a7}", "steer", "param"),
+        ("hold\n  st\u{a7}", "state", "always"),
+        ("hold\n  \u{a7}", "failsafe", "use"),
         ("if true {\n \u{a7}", "record", "when"),
         ("entry {\n \u{a7}", "set", "when"),
         ("}\n\n\u{a7}", "param", "when"),
@@ -191,7 +271,8 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
         assert!(has(place, yes), "{place}: {:?}", labels(&writing(place)));
         assert!(!has(place, no), "{place}: {:?}", labels(&writing(place)));
     }
-    assert_eq!(labels("\u{a7}"), ["machine"]);
+    assert_eq!(labels("\u{a7}"), ["machine", "library"]);
+    assert_eq!(labels("library l\n\u{a7}"), ["use", "law", "let"]);
 }
 
 #[test]
@@ -241,21 +322,28 @@ fn where_anything_may_be_written_nothing_is_offered() {
 
 #[test]
 fn a_text_with_a_fault_is_known_but_for_the_fault() {
-    let good = index(THESIS);
-    let broken = THESIS.replace("let tangent = w.contour.tangent", "let tangent = w.contour.");
-    let before = Index::new(&Source::new("thesis.fsm", broken.as_str()), Some(&good));
+    let good = index(SWIPE);
+    let broken = SWIPE.replace("let tangent = w.contour.tangent", "let tangent = w.contour.");
+    let before = Index::new(&Source::new("swipe.fsm", broken.as_str()), Some(&good));
     let names = |index: &Index| index.symbols().iter().map(|symbol| symbol.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&before), names(&good));
-    let at = broken.find("do swipe").unwrap() + 3;
-    assert_eq!(
-        before.definition(at),
-        Some(Span::new(broken.find("swipe(w").unwrap(), broken.find("swipe(w").unwrap() + 5))
-    );
-    // Types of before are remembered.
+    let at = broken.find("do swipe_tilted").unwrap() + 3;
+    let given = broken.find("swipe_tilted(w: ").unwrap();
+    assert_eq!(before.definition(at), Some(Span::new(given, given + "swipe_tilted".len())));
+    // What the fault leaves has its types; for the rest, types of before are remembered.
     let pull = broken.find("pull * unit").unwrap();
-    assert!(before.hover(pull).unwrap().text.contains("a plain number"));
-    assert!(!index(&broken).hover(pull).unwrap().text.contains("a plain number"));
+    assert!(index(&broken).hover(pull).unwrap().text.contains("a plain number"));
+    let tangent = broken.find("tangent at speed").unwrap();
+    assert!(before.hover(tangent).unwrap().text.contains("a vector of plain numbers"));
+    assert!(!index(&broken).hover(tangent).unwrap().text.contains("a vector of plain numbers"));
     assert_eq!(before.rename(at, "other"), Err(RenameError::Unreadable));
+    // A fault of meaning hides no place of a name.
+    let wrong = SWIPE.replace("0 deg)", "0 mm)");
+    assert!(check(&Source::new("a", wrong.as_str())).is_err());
+    assert_eq!(
+        index(&wrong).rename(wrong.find("swipe_tilted(w: ").unwrap(), "other").map(|places| places.len()),
+        Ok(2)
+    );
 }
 
 #[test]
@@ -274,12 +362,20 @@ fn a_state_within_another_is_found_by_its_path_and_knows_what_the_other_knows() 
 fn what_cannot_be_renamed_says_why() {
     let index = index(THESIS);
     let rename = |part: &str, name: &str| index.rename(THESIS.find(part).unwrap(), name).unwrap_err();
-    assert_eq!(rename("clamp", "x"), RenameError::BuiltIn("clamp".to_owned()));
+    let in_swipe = |part: &str, name: &str| self::index(SWIPE).rename(SWIPE.find(part).unwrap(), name).unwrap_err();
+    assert_eq!(in_swipe("clamp", "x"), RenameError::BuiltIn("clamp".to_owned()));
     assert_eq!(rename("touching", "x"), RenameError::BuiltIn("touching".to_owned()));
     assert_eq!(rename("# The", "x"), RenameError::NoName);
-    assert_eq!(rename("lost ", "limit"), RenameError::Taken { name: "limit".to_owned(), line: 12 });
-    assert_eq!(rename("lost ", "tangent"), RenameError::Taken { name: "tangent".to_owned(), line: 19 });
-    assert_eq!(rename("tangent = w", "lost"), RenameError::Taken { name: "lost".to_owned(), line: 13 });
+    assert_eq!(rename("std.guards", "x"), RenameError::NoName);
+    assert_eq!(rename("lost ", "limit"), RenameError::Taken { name: "limit".to_owned(), line: 15 });
+    let line = |part: &str| SWIPE[..SWIPE.find(part).unwrap()].matches('\n').count() + 1;
+    let taken = |name: &str, line| RenameError::Taken { name: name.to_owned(), line };
+    assert_eq!(in_swipe("tilt: angle", "tangent"), taken("tangent", line("let tangent")));
+    assert_eq!(in_swipe("tangent = w", "tilt"), taken("tilt", line("tilt: angle")));
+    let (name, file) = ("at_limit".to_owned(), "std.guards".to_owned());
+    assert_eq!(rename("at_limit(r0", "x"), RenameError::Foreign { name: name.clone(), file: file.clone() });
+    assert_eq!(rename("at_limit, ", "x"), RenameError::Foreign { name: name.clone(), file: file.clone() });
+    assert_eq!(rename("lost ", "at_limit"), RenameError::Brought { name, file });
     assert_eq!(rename("lost ", "state"), RenameError::Reserved("state".to_owned()));
     assert_eq!(rename("lost ", "Failure"), RenameError::Reserved("Failure".to_owned()));
     for name in ["", "1a", "a b", "\u{e4}", "a-b"] {
@@ -289,19 +385,179 @@ fn what_cannot_be_renamed_says_why() {
 
 #[test]
 fn a_hover_says_type_unit_range_and_description() {
-    let hover = |part: &str| index(THESIS).hover(THESIS.find(part).unwrap()).unwrap().text;
+    let of = |text: &str, part: &str| index(text).hover(text.find(part).unwrap()).unwrap().text;
     assert_eq!(
-        hover("target * sign"),
+        of(THESIS, "target, speed"),
         "```fsm\nparam target = 300 urad in 50 .. 800 urad\n```\n\nan angle, in deg, rad, mrad, urad\n\nbase angle at which the tip \
          is known best"
     );
-    assert_eq!(hover("tangent = w"), "```fsm\nlet tangent = w.contour.tangent\n```\n\na vector of plain numbers");
-    assert_eq!(hover("swipe(w: "), "```fsm\nlaw swipe(w: whisker)\n```");
-    assert_eq!(hover("w.contour"), "```fsm\nw: whisker\n```\n\na whisker");
-    assert!(hover("clamp(").starts_with("```fsm\nclamp(x, low, high)\n```\n\nA number"));
-    assert!(hover("contour.ready").starts_with("```fsm\nwhisker.contour\n```\n\na contour\n\n"));
-    assert_eq!(hover("mm/s "), "```fsm\nmm/s\n```\n\na unit of a speed: 0.001 m/s");
-    assert!(hover("hold").starts_with("```fsm\nhold\n```"));
+    assert_eq!(of(SWIPE, "tangent = w"), "```fsm\nlet tangent = w.contour.tangent\n```\n\na vector of plain numbers");
+    let law = "```fsm\nlaw swipe(w: whisker, target: angle, speed: speed)\n```\n\nAlgorithm 3.";
+    assert!(of(SWIPE, "swipe(w: ").starts_with(law));
+    assert!(of(THESIS, "swipe(w, ").starts_with(law) && of(THESIS, "swipe(w, ").ends_with("from `std.swipe`"));
+    assert!(
+        of(THESIS, "std.swipe").contains("algorithms 1 to 3") && of(THESIS, "std.swipe").contains("law swipe_tilted(")
+    );
+    assert_eq!(of(SWIPE, "w.contour"), "```fsm\nw: whisker\n```\n\na whisker");
+    assert_eq!(
+        of(SWIPE, "clamp("),
+        "```fsm\nclamp(x, low, high)\n```\n\n`min(max(x, low), high)`\n\nIt takes three numbers of one dimension: what to clamp, the \
+         least, the greatest."
+    );
+    assert!(of(SWIPE, "contour.ready").starts_with("```fsm\nwhisker.contour\n```\n\na contour\n\nwhat `record`"));
+    assert!(of(SWIPE, "tip_at(").starts_with("```fsm\nwhisker.tip_at(deflection)\n```"));
+    assert!(
+        of(SWIPE, "tangent\n").starts_with("```fsm\ncontour.tangent\ncontour.tangent(distance behind the end)\n```")
+    );
+    assert!(of(THESIS, "visits(").starts_with("```fsm\nrun.visits(State)\n```"));
+    assert_eq!(of(THESIS, "mm/s "), "```fsm\nmm/s\n```\n\na unit of a speed: 0.001 m/s");
+    assert!(of(SWIPE, "hold\n").starts_with("```fsm\nhold\n```"));
+    let products = "library l\nlet x(a: angular_speed / length, b: vector of length / time) = a * |b|";
+    assert!(of(products, "a: ").starts_with("```fsm\na: angular_speed / length\n```\n\n"));
+    assert!(of(products, "time)").ends_with("a time, in s, ms, us"), "{}", of(products, "time)"));
+}
+
+#[test]
+fn every_built_in_is_explained_by_the_words_of_the_reference_page() {
+    let page = include_str!("../docs/reference.md").replace('`', "");
+    let inside = candidates("library l\nlaw l(w: whisker) { let x = \u{a7}");
+    let members = candidates("library l\nlaw l(w: whisker) { let x = w.\u{a7}");
+    let functions = inside.into_iter().filter(|candidate| candidate.kind == CandidateKind::Function);
+    let mut explained = 0;
+    for candidate in members.into_iter().chain(functions) {
+        assert!(page.contains(&candidate.meaning.replace('`', "")), "{candidate:?}");
+        assert!(!candidate.meaning.is_empty());
+        explained += 1;
+    }
+    assert_eq!(explained, 12 + 24);
+}
+
+#[test]
+fn names_of_other_files_lead_there_and_are_explained() {
+    let index = Index::new(&gathered(USING), None);
+    let at = |part: &str| USING.find(part).unwrap();
+    let source = index.source();
+    for part in ["wait(r0", "wait, sharp"] {
+        let place = index.definition(at(part)).unwrap();
+        assert_eq!(source.part_name(source.part_at(place.start)), "laws/corner.fsm");
+        assert_eq!(source.slice(place), "wait");
+        let hover = index.hover(at(part)).unwrap().text;
+        assert_eq!(hover, "```fsm\nlaw wait(w: whisker)\n```\n\nStops, and says nothing.\n\nfrom `laws/corner.fsm`");
+        assert_eq!(index.references(at(part)).len(), 2);
+    }
+    let corner = source.part_at(index.definition(at("wait(r0")).unwrap().start);
+    assert_eq!(
+        index.definition(at("\"laws")),
+        Some(Span::new(source.part_span(corner).start, source.part_span(corner).start))
+    );
+    assert!(index.hover(at("sharp\n")).unwrap().text.contains("an angle"));
+    assert!(index.hover(at("blunt =")).unwrap().text.contains("an angle"));
+    // The file that the used one uses.
+    let signs = (1..source.count()).find(|&part| source.part_name(part) == "laws/signs.fsm").unwrap();
+    assert_eq!(index.way_to(signs).map(|way| source.slice(way).trim_matches('"')), Some("laws/corner.fsm"));
+    assert_eq!(index.way_to(0), None);
+    let refused = index.rename(at("wait(r0"), "x").unwrap_err();
+    assert_eq!(refused.to_string(), "`wait` is given in `laws/corner.fsm` and keeps its name here; rename it there");
+    assert!(matches!(index.rename(at("blunt ="), "is_near"), Err(RenameError::Brought { .. })));
+}
+
+#[test]
+fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
+    let modules = ["guards", "retrieval", "swipe", "tunnel"];
+    assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
+    assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
+    assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);
+    for list in ["(\u{a7}", "(\u{a7})", "(swipe, \u{a7})\nwhisker r0\n", "(sw\u{a7}"] {
+        assert_eq!(labels(&format!("machine m\nuse std.swipe {list}")), ["swipe", "swipe_tilted"], "{list}");
+        assert_eq!(labels(&format!("machine m\nuse \"laws/corner.fsm\" {list}")), ["sharp", "wait"], "{list}");
+    }
+    let has = |text: &str, name: &str| labels(text).contains(&name.to_owned());
+    let using = |inside: &str| USING.replace("  do wait(r0)\n", inside);
+    assert!(has(&using("do \u{a7}"), "wait") && !has(&using("do \u{a7}"), "sharp"));
+    assert!(has(&using("let x = \u{a7}\n"), "sharp") && has(&using("let x = \u{a7}\n"), "is_near"));
+    // What the used file uses itself is not known.
+    assert!(!has(&using("let x = \u{a7}\n"), "bent"));
+}
+
+/// A policy with states in states, with `first` in the first of the outermost and `outer` in the second.
+fn nested(first: &str, outer: &str) -> String {
+    format!(
+        "machine m\nwhisker r0\nparam speed = 50 mm/s\ninitial A\nstate A {{\n  {first}\n}}\nstate Outer(w: whisker) {{\n  var n = 0\n  \
+         let known = 1 mm\n  {outer}\n  state First {{ stop }}\nstate Second(x: length) {{\n initial Deep\n state Deep {{ stop }}\n }}\n}}\n"
+    )
+}
+
+#[test]
+fn a_target_in_another_state_is_written_with_the_way_there() {
+    let written = |text: String| -> Vec<(String, String)> {
+        candidates(&text).into_iter().map(|candidate| (candidate.label, candidate.snippet)).collect()
+    };
+    let owned = |pairs: &[(&str, &str)]| -> Vec<(String, String)> {
+        pairs.iter().map(|&(label, snippet)| (label.to_owned(), snippet.to_owned())).collect()
+    };
+    let ends = [("resume", "resume ${1:State}"), ("Failure", "Failure(\"${1:reason}\")")];
+    let from_outside = [
+        ("A", "A"),
+        ("Outer", "Outer(${1:w})"),
+        ("First", "Outer(${1:w}).First"),
+        ("Second", "Outer(${1:w}).Second(${2:x})"),
+        ("Deep", "Outer(${1:w}).Second(${2:x}).Deep"),
+    ];
+    for place in ["when true -> \u{a7}", "failsafe -> \u{a7}", "after 5 s -> Fi\u{a7}"] {
+        assert_eq!(written(nested(place, "")), owned(&[&from_outside[..], &ends].concat()), "{place}");
+    }
+    let from_inside = [("A", "A"), ("Outer", "Outer(${1:w})"), ("First", "First"), ("Second", "Second(${1:x})")];
+    let from_inside = [&from_inside[..], &[("Deep", "Second(${1:x}).Deep")], &ends].concat();
+    assert_eq!(written(nested("", "when true -> \u{a7}")), owned(&from_inside));
+    assert_eq!(labels(&nested("when true -> Outer(r0).\u{a7}", "")), ["First", "Second"]);
+    assert_eq!(labels(&nested("when true -> Outer(r0).Second(1 mm).\u{a7}", "")), ["Deep"]);
+    assert_eq!(labels(&nested("when true -> resume \u{a7}", "")), ["Outer", "Second"]);
+    assert_eq!(labels(&nested("failsafe \u{a7}", "")), ["->"]);
+    assert_eq!(labels(&nested("", "initial \u{a7}")), ["First", "Second"]);
+    assert_eq!(labels(&nested("}\ninitial \u{a7}\nstate B {", "")), ["A", "B"]);
+}
+
+#[test]
+fn a_state_in_another_knows_its_arguments_and_memory_but_not_what_its_statements_name() {
+    let has = |inside: &str, name: &str| {
+        let text = nested("", &format!("state Third {{\n {inside} }}"));
+        labels(&text).contains(&name.to_owned())
+    };
+    for name in ["w", "n"] {
+        assert!(has("let y = \u{a7}", name), "{name}");
+    }
+    assert!(has("set \u{a7}", "n") && !has("let y = \u{a7}", "known"));
+    assert!(labels(&nested("", "if \u{a7}")).contains(&"known".to_owned()));
+}
+
+#[test]
+fn a_mark_is_no_name_and_takes_lost_or_found() {
+    assert_eq!(labels(&nested("mark \u{a7}", "")), ["lost", "found"]);
+    assert!(labels(&nested("mark lost \u{a7}", "")).contains(&"r0".to_owned()));
+    let index = index(MARKING);
+    let at = |part: &str| MARKING.find(part).unwrap();
+    assert_eq!(index.definition(at("mark lost") + 5), None);
+    assert!(index.hover(at("mark lost") + 5).unwrap().text.contains("the object's edge"));
+    assert_eq!(index.references(at("lost =")).len(), 3);
+    assert!(matches!(index.rename(at("mark found") + 5, "x"), Err(RenameError::BuiltIn(_))));
+}
+
+#[test]
+fn a_test_is_completed_by_parameters_and_by_what_is_known_of_a_run() {
+    let test = |inside: &str| labels(&format!("{}test \"t\" in \"s.yaml\" {{\n  {inside}\n}}\n", nested("", "")));
+    assert_eq!(test("\u{a7}"), ["set", "expect"]);
+    assert_eq!(test("set speed = 10 mm/s\n  ex\u{a7}"), ["set", "expect"]);
+    assert_eq!(test("set \u{a7}"), ["speed"]);
+    assert_eq!(test("set speed = \u{a7}"), [""; 0]);
+    assert!(test("expect run.\u{a7}").contains(&"error_mean".to_owned()));
+    assert_eq!(test("expect run.visits(\u{a7}"), ["A", "Outer", "First", "Second", "Deep"]);
+    let values = test("expect \u{a7}");
+    let has = |name: &str| values.contains(&name.to_owned());
+    assert!(has("run") && has("speed") && has("not") && has("abs"));
+    assert!(!has("r0") && !has("body") && !has("time") && !has("A"));
+    assert!(test("expect run.completed \u{a7}").contains(&"and".to_owned()));
+    assert_eq!(labels("machine m\ntest \"t\" \u{a7}"), ["in"]);
+    assert_eq!(labels(&nested("let x = run.\u{a7}", "")), [""; 0]);
 }
 
 #[test]

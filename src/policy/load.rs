@@ -143,7 +143,9 @@ impl Loaded {
         misfits.extend(self.cycle(&uses));
         misfits.extend(self.files.iter().flatten().filter_map(misplaced));
         let fit = misfits.is_empty();
-        misfits.into_iter().for_each(|fault| self.recovery.report(fault));
+        for fault in misfits {
+            self.recovery.report(fault);
+        }
         let links: Option<Vec<Vec<usize>>> = self
             .links
             .iter()

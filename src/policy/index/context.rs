@@ -222,8 +222,7 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("set") if level == Level::Test => &[],
         Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],
         Some("test") if !has("in") => return Expected::Only("in"),
-        Some("test") if !has("}") => return Expected::Nothing,
-        Some("law" | "state") if !has("}") => return Expected::Nothing,
+        Some("law" | "state" | "test") if !has("}") => return Expected::Nothing,
         _ => &[],
     };
     Expected::More(level, words)

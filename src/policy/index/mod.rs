@@ -110,7 +110,7 @@ impl Index {
             symbols[index].r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied()).or_else(of_before);
         }
         let resolved = resolve::resolve(&source, &tokens, &symbols, &imports);
-        Self { symbols, own, imports, ways, resolved, is_read, source }
+        Self { source, symbols, own, imports, ways, resolved, is_read }
     }
 
     /// The text, and those of all files that it uses as parts.
