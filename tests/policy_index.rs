@@ -618,6 +618,9 @@ fn large_texts_are_indexed_without_end_to_memory_or_stack() {
         "{",
         "let a = a\n",
         "state S {",
+        "state S {}",
+        "use std.swipe (swipe, ",
+        "use std.retrieval\n",
         "whisker a, ",
         "law l(a: vector of length, ",
         "{let a = a}",
@@ -627,5 +630,7 @@ fn large_texts_are_indexed_without_end_to_memory_or_stack() {
         let text = unit.repeat(250_000 / unit.len());
         let index = index(&text);
         let _ = (index.hover(9), index.candidates(text.len()));
+        let unfinished = self::index(&format!("{text} when true -> "));
+        let _ = unfinished.candidates(unfinished.source().text.len());
     }
 }

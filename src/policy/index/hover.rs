@@ -11,6 +11,9 @@ use super::import::{heading, offered};
 use super::symbol::{Meaning, Symbol, SymbolKind};
 use super::words::word;
 
+/// The most bytes of a line that is searched for a comment: looking at all names of a text takes bounded time.
+const LINE_LIMIT: usize = 4096;
+
 /// What is said of a word.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hover {
@@ -69,7 +72,9 @@ impl Index {
     #[must_use]
     pub fn description(&self, symbol: &Symbol) -> String {
         // A comment beside an argument is one of what it belongs to.
-        let is_described = symbol.kind != SymbolKind::Argument;
+        let behind = self.source.slice(Span::new(symbol.span.start, symbol.span.start + LINE_LIMIT + 1));
+        let is_line = behind.len() <= LINE_LIMIT || behind.contains('\n');
+        let is_described = symbol.kind != SymbolKind::Argument && is_line;
         is_described.then(|| description(&self.source, symbol.span)).flatten().unwrap_or_default()
     }
 }

@@ -78,14 +78,14 @@ fn named(token: Token<'_>) -> Name {
     Name { text: token.text.to_owned(), span: place(token) }
 }
 
-/// Adds to `symbols`, which are those of the first part of a source, the ones that a `use` in it brings.
-pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>) {
+/// Adds to `symbols`, of which the first part of a source gives the first `own`, the ones that a `use` in it brings.
+pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
     for symbol in offered(source, part) {
         let is_chosen =
             import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
-        if is_chosen && symbols.iter().all(|known| known.span != symbol.span) {
+        if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
             symbols.push(Symbol { visible: everywhere, ..symbol });
         }
     }

@@ -99,8 +99,8 @@ impl Index {
         let mut symbols = declare::declare(text, &tokens, declare::is_balanced(&tokens)).finish(text);
         let own = symbols.len();
         let imports = import::imports(&source.name, &tokens);
-        for import in &imports {
-            import::bring(&source, import, &mut symbols);
+        for import in imports.iter().take(FILE_LIMIT) {
+            import::bring(&source, import, &mut symbols, own);
         }
         let types = files.as_ref().map(lower::types).unwrap_or_default();
         let known = before.map(Self::types).unwrap_or_default();
@@ -109,7 +109,7 @@ impl Index {
             let of_before = || known.get(&identity(&symbols, symbol)).copied().filter(|_| symbol.kind.is_value());
             symbols[index].r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied()).or_else(of_before);
         }
-        let resolved = resolve::resolve(&source, &tokens, &symbols, &imports);
+        let resolved = resolve::resolve(&source, &tokens, &symbols, own, &imports);
         Self { source, symbols, own, imports, ways, resolved, is_read }
     }
 

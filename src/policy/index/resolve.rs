@@ -32,8 +32,14 @@ pub(super) enum Owner {
 }
 
 /// Finds the meaning of every word among `tokens`, those of the first part of a source without its comments. `imports` are the
-/// uses of files among them.
-pub(super) fn resolve(source: &Source, tokens: &[Token<'_>], symbols: &[Symbol], imports: &[Import]) -> Resolved {
+/// uses of files among them; the symbols behind the first `own` are those that they bring.
+pub(super) fn resolve(
+    source: &Source,
+    tokens: &[Token<'_>],
+    symbols: &[Symbol],
+    own: usize,
+    imports: &[Import],
+) -> Resolved {
     let mut names = Names::new(symbols);
     let mut resolved = Resolved::default();
     // The operand that ends with the token before, and what each open parenthesis is called on.
@@ -98,17 +104,17 @@ pub(super) fn resolve(source: &Source, tokens: &[Token<'_>], symbols: &[Symbol],
             resolved.uses.push(Use { span: place(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
     }
-    resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, import)));
+    resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, own, import)));
     resolved.uses.sort_by_key(|known| known.span.start);
     resolved
 }
 
 /// The meanings of what stands in a `use`.
-fn of_import(source: &Source, symbols: &[Symbol], import: &Import) -> Vec<Use> {
+fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -> Vec<Use> {
     let part = import.part(source);
     let brought = |name: &str| {
         let is_meant = |symbol: &Symbol| symbol.name == name && Some(source.part_at(symbol.span.start)) == part;
-        symbols.iter().position(is_meant).map(|index| Meaning::Symbol(index, Role::Reads))
+        symbols[own..].iter().position(is_meant).map(|index| Meaning::Symbol(own + index, Role::Reads))
     };
     let file = Use { span: import.from, meaning: part.map_or(Meaning::Unknown, Meaning::File) };
     let names = import.names.iter().flatten();

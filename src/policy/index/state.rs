@@ -1,5 +1,9 @@
 //! States that can be written at a place.
 
+use std::collections::HashSet;
+
+use crate::machine::NESTING_LIMIT;
+
 use super::Index;
 use super::candidate::{Candidate, of_word};
 use super::context::Context;
@@ -9,14 +13,15 @@ use super::words::{Place, words_of};
 impl Index {
     /// What can stand behind `->`.
     pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
-        let can_resume = self.states().any(|state| self.has_inner(state));
+        let can_resume = !self.nesting().is_empty();
         let words = words_of(Place::Target).filter(|word| can_resume || word.text != "resume");
         self.states().map(|state| self.target(state, context)).chain(words.map(of_word)).collect()
     }
 
     /// What can stand behind `resume`.
     pub(super) fn resumable(&self, context: &Context) -> Vec<Candidate> {
-        self.states().filter(|&state| self.has_inner(state)).map(|state| self.target(state, context)).collect()
+        let nesting = self.nesting();
+        self.states().filter(|state| nesting.contains(state)).map(|state| self.target(state, context)).collect()
     }
 
     /// What can stand behind `initial`: in a state those that lie directly in it, outside those that a run can start in.
@@ -67,8 +72,9 @@ impl Index {
         (0..self.own).filter(|&index| self.symbols[index].kind == SymbolKind::State)
     }
 
-    fn has_inner(&self, outer: usize) -> bool {
-        self.states().any(|state| self.symbols[state].owner == Some(outer))
+    /// The states that have others in them.
+    fn nesting(&self) -> HashSet<usize> {
+        self.states().filter_map(|state| self.symbols[state].owner).collect()
     }
 
     /// The state that a place is in, the innermost.
@@ -76,8 +82,8 @@ impl Index {
         self.states().find(|&state| Some(self.symbols[state].span) == context.state)
     }
 
-    /// A state and those that it lies in, the innermost first.
+    /// A state and those that it lies in, the innermost first; no more than a policy can have.
     fn outward(&self, state: usize) -> impl Iterator<Item = usize> {
-        std::iter::successors(Some(state), |&state| self.symbols.get(state)?.owner)
+        std::iter::successors(Some(state), |&state| self.symbols.get(state)?.owner).take(NESTING_LIMIT)
     }
 }
