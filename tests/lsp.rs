@@ -264,22 +264,23 @@ fn states_in_states_are_a_tree_in_the_outline() {
     let text = include_str!("fixtures/charts/nested.fsm");
     let mut editor = Editor::open(text);
     let symbols = editor.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": URI}}));
-    let mut indented = String::new();
-    fn write(into: &mut String, depth: usize, symbols: &Value) {
-        for symbol in symbols.as_array().into_iter().flatten().filter(|symbol| symbol["kind"] == 5) {
-            *into += &format!("{}{}\n", " ".repeat(depth), symbol["name"].as_str().unwrap());
-            write(into, depth + 1, &symbol["children"]);
-        }
-    }
-    write(&mut indented, 0, &symbols["result"]);
-    let mut expected = String::new();
-    for line in text.lines().filter(|line| line.trim_start().starts_with("state ")) {
+    let mut found = Vec::new();
+    states(&mut found, 0, &symbols["result"]);
+    let written = text.lines().filter_map(|line| Some((line, line.trim_start().strip_prefix("state ")?)));
+    let written = written.map(|(line, state)| {
         // Every level is two blanks.
         let depth = (line.len() - line.trim_start().len()) / 2;
-        let name = line.trim_start()[6..].split(|letter: char| !letter.is_alphanumeric()).next().unwrap();
-        expected += &format!("{}{name}\n", " ".repeat(depth));
+        (depth, state.split(|letter: char| !letter.is_alphanumeric()).next().unwrap().to_owned())
+    });
+    assert_eq!(found, written.collect::<Vec<_>>());
+}
+
+/// The states among symbols of an outline and in them, with how deep each lies.
+fn states(found: &mut Vec<(usize, String)>, depth: usize, symbols: &Value) {
+    for symbol in symbols.as_array().into_iter().flatten().filter(|symbol| symbol["kind"] == 5) {
+        found.push((depth, symbol["name"].as_str().unwrap().to_owned()));
+        states(found, depth + 1, &symbol["children"]);
     }
-    assert_eq!(indented, expected);
 }
 
 #[test]

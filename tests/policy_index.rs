@@ -129,7 +129,7 @@ fn whatever_is_renamed_the_machine_stays_the_same() {
                     assert_eq!(after, before, "{name}, {}", symbol.name);
                 }
                 (after, before) => {
-                    assert!(matches!((after, before), (Checked::Library { .. }, Checked::Library { .. })))
+                    assert!(matches!((after, before), (Checked::Library { .. }, Checked::Library { .. })));
                 }
             }
             renamed += 1;
