@@ -2,6 +2,8 @@
 
 pub mod cli;
 pub mod diagnostic;
+#[cfg(feature = "lsp")]
+pub mod editor;
 pub mod geometry;
 pub mod machine;
 pub mod motion;

@@ -46,7 +46,7 @@ fn directory(name: &str) -> PathBuf {
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "compile", "graph", "test", "fmt", "mjcf"] {
+    for command in ["run", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -531,4 +531,12 @@ fn the_policies_pass_their_own_tests() {
     let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("policies/thesis.fsm: ") && stdout(&output).contains("policies/bang.fsm: "));
+}
+
+#[cfg(not(feature = "lsp"))]
+#[test]
+fn a_build_without_the_language_server_says_how_to_get_it() {
+    let output = vibrissa(&["lsp"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--features lsp"), "{}", stderr(&output));
 }

@@ -32,6 +32,8 @@ pub(super) enum Command {
     Test(TestArguments),
     /// Lay out policies, in place
     Fmt(FmtArguments),
+    /// Serve an editor in which policies are written, over standard input and output
+    Lsp,
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
 }

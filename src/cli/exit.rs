@@ -70,6 +70,12 @@ pub(super) enum Failure {
     Solid { scenario: PathBuf, cause: SolidError },
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
+    #[cfg(feature = "lsp")]
+    #[error("the editor is gone: {0}")]
+    Editor(std::io::Error),
+    #[cfg(not(feature = "lsp"))]
+    #[error("this build has no language server; build it with one: cargo build --release --features lsp")]
+    NoLsp,
     #[error("{}: {cause}", policy.display())]
     Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]

@@ -96,7 +96,7 @@ pub(super) fn library_files(source: &Source) -> impl Iterator<Item = PathBuf> {
 }
 
 /// The text of a file that a policy uses.
-fn library(path: &str) -> Result<String, String> {
+pub(super) fn library(path: &str) -> Result<String, String> {
     let path = Path::new(path);
     // A pipe might never end, or never begin.
     if path.metadata().is_ok_and(|about| !about.is_file()) {

@@ -8,6 +8,7 @@ mod fmt;
 mod graph;
 mod input;
 mod job;
+mod lsp;
 mod mjcf;
 mod output;
 mod run;
@@ -30,6 +31,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Test(arguments) => test::test(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
+        Command::Lsp => lsp::lsp(),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

@@ -7,7 +7,7 @@ use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
 /// The most files that a policy may consist of.
-const FILE_LIMIT: usize = 64;
+pub(super) const FILE_LIMIT: usize = 64;
 /// The most bytes that all of them may have.
 const TEXT_LIMIT: usize = 1 << 20;
 
@@ -55,6 +55,13 @@ pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
     loaded
 }
 
+/// The text of the file called `name`, if a policy with these texts can have it too.
+pub(super) fn text_of(source: &Source, name: &str, library: &mut Library<'_>) -> Result<String, String> {
+    let text = standard(name).map_or_else(|| library(name), |text| Ok(text.to_owned()))?;
+    let fits = source.text.len() + text.len() < TEXT_LIMIT;
+    if fits { Ok(text) } else { Err("with it, the policy would have more than 1 MiB of text".to_owned()) }
+}
+
 impl Loaded {
     fn report(&mut self, fault: Diagnostic) {
         self.recovery.report(fault);
@@ -73,12 +80,7 @@ impl Loaded {
                 self.report(Diagnostic::error("P0602", message, used.span, "one too many").hint("join some of them"));
                 return None;
             }
-            let text = standard(&name).map_or_else(|| library(&name), |text| Ok(text.to_owned()));
-            let full = "with it, the policy would have more than 1 MiB of text";
-            let fits = |text: String| {
-                if self.source.text.len() + text.len() < TEXT_LIMIT { Ok(text) } else { Err(full.to_owned()) }
-            };
-            let text = text.and_then(fits);
+            let text = text_of(&self.source, &name, library);
             self.source.add(&name, text.as_deref().map_err(Clone::clone));
             Some(self.source.count() - 1)
         })?;
@@ -89,6 +91,37 @@ impl Loaded {
             return None;
         }
         Some(index)
+    }
+
+    /// Whether the syntax of the first file has no fault.
+    pub(super) fn is_read(&self) -> bool {
+        !self.recovery.has_syntax_fault(self.source.part_span(0))
+    }
+
+    /// For every file, the `use` in the first file that leads to it, be it through others; none for the first.
+    pub(super) fn ways(&self) -> Vec<Option<Span>> {
+        let mut ways = vec![None; self.files.len()];
+        let uses = self.files.first().into_iter().flatten().flat_map(|file| &file.uses);
+        let links = self.links.first().into_iter().flatten().copied().zip(uses.map(|used| used.span));
+        // In the order of their distance: what the first file uses itself comes first.
+        let mut found: Vec<(usize, Span)> = links.filter_map(|(link, way)| Some((link?, way))).collect();
+        let mut next = 0;
+        while let Some(&(file, way)) = found.get(next) {
+            next += 1;
+            if file > 0 && ways.get(file) == Some(&None) {
+                ways[file] = Some(way);
+                found.extend(self.links.get(file).into_iter().flatten().flatten().map(|&link| (link, way)));
+            }
+        }
+        ways
+    }
+
+    /// All texts; and the files if they fit together, or else the first alone.
+    pub(super) fn known(self) -> (Source, Option<Files>) {
+        let first = self.files.first().cloned().flatten();
+        let (source, files, _) = self.files();
+        let alone = || Some(Files { main: first?, libraries: Vec::new(), links: Vec::new() });
+        (source, files.or_else(alone))
     }
 
     /// All texts; the files, if they fit together; and what was left out of them.
@@ -110,7 +143,9 @@ impl Loaded {
         misfits.extend(self.cycle(&uses));
         misfits.extend(self.files.iter().flatten().filter_map(misplaced));
         let fit = misfits.is_empty();
-        misfits.into_iter().for_each(|fault| self.recovery.report(fault));
+        for fault in misfits {
+            self.recovery.report(fault);
+        }
         let links: Option<Vec<Vec<usize>>> = self
             .links
             .iter()

@@ -15,6 +15,7 @@ mod description;
 mod format;
 mod grammar;
 mod hint;
+pub mod index;
 mod load;
 mod lower;
 mod pair;

@@ -98,6 +98,13 @@ impl Recovery {
         self.faults.is_empty()
     }
 
+    /// Whether something in a part of the texts was left out.
+    pub(super) fn has_syntax_fault(&self, within: Span) -> bool {
+        let is_syntax = |code: &str| code.starts_with("P01");
+        let is_within = |fault: &Diagnostic| (within.start..=within.end).contains(&fault.primary.span.start);
+        self.faults.iter().any(|fault| is_syntax(fault.code) && is_within(fault))
+    }
+
     /// All faults in the order of their places: these, and those of meaning that are not but their consequences.
     pub(super) fn join(mut self, source: &Source, mut faults: Vec<Diagnostic>) -> Vec<Diagnostic> {
         faults.retain(|fault| !self.explains(source, fault));

@@ -61,15 +61,22 @@ const CHECKS: [Check; 10] = [
         &["test", "--package", "vibrissa", "--no-default-features"],
     ),
     Check { title: "set-up", work: Work::Setup },
-    check("lints", &["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]),
+    check(
+        "lints",
+        &["clippy", "--workspace", "--features", "vibrissa/lsp", "--all-targets", "--", "--deny", "warnings"],
+    ),
     check(
         "lints of the core",
         &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
     ),
-    check("tests", &["test", "--workspace"]),
-    check_in(&[("RUSTDOCFLAGS", "--deny=warnings")], "documentation", &["doc", "--package", "vibrissa", "--no-deps"]),
+    check("tests", &["test", "--workspace", "--features", "vibrissa/lsp"]),
+    check_in(
+        &[("RUSTDOCFLAGS", "--deny=warnings")],
+        "documentation",
+        &["doc", "--package", "vibrissa", "--features", "lsp", "--no-deps"],
+    ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
-    check("benches, each run once", &["test", "--package", "vibrissa", "--benches"]),
+    check("benches, each run once", &["test", "--package", "vibrissa", "--features", "lsp", "--benches"]),
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 

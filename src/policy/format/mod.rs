@@ -13,6 +13,8 @@ mod statement;
 mod structure;
 mod token;
 
+pub(super) use token::{Kind as TokenKind, Token, tokens};
+
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::grammar;

@@ -7,7 +7,7 @@ const LONG_MARKS: [&str; 6] = ["->", "<=", ">=", "==", "!=", ".."];
 
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(in crate::policy) enum Kind {
     /// A name.
     Name,
     /// A word of the language.
@@ -25,25 +25,25 @@ pub(super) enum Kind {
 
 /// A token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Token<'t> {
-    pub(super) kind: Kind,
-    pub(super) text: &'t str,
+pub(in crate::policy) struct Token<'t> {
+    pub(in crate::policy) kind: Kind,
+    pub(in crate::policy) text: &'t str,
     /// Its first byte in the text.
-    pub(super) start: usize,
+    pub(in crate::policy) start: usize,
     /// Whether something blank stands between it and the token before.
-    pub(super) apart: bool,
+    pub(in crate::policy) apart: bool,
     /// How many lines end between it and the token before.
-    pub(super) line_ends: usize,
+    pub(in crate::policy) line_ends: usize,
 }
 
 impl Token<'_> {
-    pub(super) fn is(&self, mark: &str) -> bool {
+    pub(in crate::policy) fn is(&self, mark: &str) -> bool {
         self.kind == Kind::Mark && self.text == mark
     }
 }
 
 /// The tokens of any text, whether it is a policy or not.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token<'_>> = Vec::new();
     let mut at = 0;
     loop {

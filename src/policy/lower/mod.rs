@@ -30,6 +30,8 @@ use hierarchy::Hierarchy;
 use names::Names;
 use scope::{Meaning, Scope};
 
+pub(super) use scope::is_reserved;
+
 /// A program, and what else is known of it once it is written.
 pub(super) struct Lowered {
     pub(super) program: Program,
@@ -37,6 +39,9 @@ pub(super) struct Lowered {
     /// What each state is entered with: names, types and places.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
 }
+
+/// The types of what names stand for, by the place at which each is given its meaning.
+pub(super) type Types = HashMap<Span, Type>;
 
 /// Checks laws and derived values, those of a library by itself.
 pub(super) fn check(files: &Files) -> Result<(), Vec<Diagnostic>> {
@@ -71,6 +76,17 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     }
 }
 
+/// The types of the names in all files, as far as their faults let them be known.
+pub(super) fn types(files: &Files) -> Types {
+    let mut compiler = Compiler::new();
+    if files.main.is_library {
+        structure::items(&mut compiler, files);
+    } else {
+        structure::machine(&mut compiler, files);
+    }
+    compiler.types
+}
+
 /// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
 /// exhaust the stack.
 const DEPTH_LIMIT: usize = 250;
@@ -94,6 +110,8 @@ struct Compiler<'f> {
     files: Vec<Names<'f>>,
     /// The number of the file that is being written.
     here: usize,
+    /// What is known of the types of names.
+    types: Types,
     states: HashMap<&'f str, StateEntry>,
     hierarchy: Hierarchy<'f>,
     /// Where laws and derived values are named whose own check failed.
@@ -125,6 +143,7 @@ impl<'f> Compiler<'f> {
             diagnostics: Vec::new(),
             files: Vec::new(),
             here: 0,
+            types: Types::new(),
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
             broken: HashSet::new(),

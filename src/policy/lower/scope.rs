@@ -57,6 +57,7 @@ impl<'f> Compiler<'f> {
             Some(before) => self.report(taken(name, before)),
             None => {}
         }
+        self.types.extend(meaning.map(|value| (name.span, value.r#type)));
         scope.insert(name, meaning);
     }
 
@@ -108,7 +109,7 @@ pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Dia
 }
 
 /// Whether a name has a meaning of its own in the language.
-pub(super) fn is_reserved(name: &str) -> bool {
+pub(in crate::policy) fn is_reserved(name: &str) -> bool {
     builtins::function(name).is_some() || ["time", "run", super::structure::FAILURE].contains(&name)
 }
 

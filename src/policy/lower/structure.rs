@@ -118,7 +118,8 @@ impl<'f> Compiler<'f> {
     fn check_derived(&mut self, file: &'f File) {
         for derived in &file.derived {
             self.check(&derived.name, &derived.arguments, |compiler, scope| {
-                compiler.expression(scope, &derived.value);
+                let value = compiler.expression(scope, &derived.value);
+                compiler.types.extend(value.map(|value| (derived.name.span, value.r#type)));
             });
         }
     }

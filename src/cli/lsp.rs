@@ -1,0 +1,20 @@
+//! `vibrissa lsp`
+
+use super::exit::{Exit, Failure};
+
+/// Serves an editor. The protocol asks for exit status 1 where the editor did not say that it is done.
+#[cfg(feature = "lsp")]
+pub(super) fn lsp() -> Result<Exit, Failure> {
+    use crate::editor::{Ended, serve};
+
+    let (input, output) = (std::io::stdin(), std::io::stdout());
+    match serve(&mut input.lock(), &mut output.lock(), &super::input::library).map_err(Failure::Editor)? {
+        Ended::Orderly => Ok(Exit::Done),
+        Ended::Abrupt => Ok(Exit::Unexpected),
+    }
+}
+
+#[cfg(not(feature = "lsp"))]
+pub(super) fn lsp() -> Result<Exit, Failure> {
+    Err(Failure::NoLsp)
+}

@@ -1,0 +1,67 @@
+//! Faults and warnings of a policy, for the editor.
+
+use std::fmt::Write;
+
+use gen_lsp_types::{
+    Code, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, PublishDiagnosticsParams, Uri,
+};
+
+use crate::diagnostic::{self, Severity};
+
+use super::capabilities::Client;
+use super::document::Document;
+
+/// Warnings of what nothing uses, which editors show faded.
+const UNUSED: [&str; 4] = ["P0504", "P0505", "P0506", "P0507"];
+
+/// All that is wrong with a document.
+pub(super) fn diagnostics(uri: &Uri, document: &Document, client: Client) -> PublishDiagnosticsParams {
+    let faults = document.faults.iter().filter_map(|fault| diagnostic(document, fault, client));
+    PublishDiagnosticsParams { uri: uri.clone(), version: Some(document.version), diagnostics: faults.collect() }
+}
+
+/// One fault. What a terminal shows below the message stands in it, a line each. A fault of another file is told where the document
+/// uses that; none, if it does so no more.
+pub(super) fn diagnostic(document: &Document, fault: &diagnostic::Diagnostic, client: Client) -> Option<Diagnostic> {
+    let source = document.index.source();
+    let part = source.part_at(fault.primary.span.start);
+    let place = if part == 0 { fault.primary.span } else { document.index.way_to(part)? };
+    let mut message = fault.message.clone();
+    // Writing to a string cannot fail.
+    if !fault.primary.text.is_empty() {
+        let _ = write!(message, ": {}", fault.primary.text);
+    }
+    if part > 0 {
+        let line = source.line_column(fault.primary.span.start).line;
+        let _ = write!(message, "\nin line {line} of `{}`", source.part_name(part));
+    }
+    let itself = (part > 0).then_some(&fault.primary);
+    let mut others = Vec::new();
+    for label in itself.into_iter().chain(&fault.secondary) {
+        match document.location(label.span).filter(|_| client.related) {
+            Some(location) => others.push(DiagnosticRelatedInformation { location, message: label.text.clone() }),
+            None if Some(label) == itself => {}
+            None => {
+                let (line, part) = (source.line_column(label.span.start).line, source.part_at(label.span.start));
+                let file = if part == 0 { String::new() } else { format!(" of `{}`", source.part_name(part)) };
+                let _ = write!(message, "\nline {line}{file}: {}", label.text);
+            }
+        }
+    }
+    for hint in &fault.hints {
+        let _ = write!(message, "\nhelp: {hint}");
+    }
+    Some(Diagnostic {
+        range: document.range(place),
+        severity: Some(match fault.severity {
+            Severity::Error => DiagnosticSeverity::Error,
+            Severity::Warning => DiagnosticSeverity::Warning,
+        }),
+        code: Some(Code::String(fault.code.to_owned())),
+        source: Some("vibrissa".to_owned()),
+        message: message.into(),
+        tags: UNUSED.contains(&fault.code).then(|| vec![DiagnosticTag::Unnecessary]),
+        related_information: (!others.is_empty()).then_some(others),
+        ..Default::default()
+    })
+}

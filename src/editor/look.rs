@@ -1,0 +1,89 @@
+//! What a place means, and where that is elsewhere.
+
+use gen_lsp_types::json_rpc::Error;
+use gen_lsp_types::{
+    Definition, DefinitionParams, DefinitionResponse, DocumentHighlight, DocumentHighlightKind,
+    DocumentHighlightParams, DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, Hover, HoverParams,
+    Location, MarkupContent, MarkupKind, ReferenceParams, SymbolKind as LspSymbolKind,
+};
+
+use crate::policy::index::{Role, SymbolKind};
+
+use super::document::Document;
+use super::server::Server;
+
+impl Server<'_> {
+    pub(super) fn hover(&self, asked: &HoverParams) -> Result<Option<Hover>, Error> {
+        let (document, at) = self.place(&asked.text_document_position_params)?;
+        Ok(document.index.hover(at).map(|hover| Hover {
+            contents: MarkupContent { kind: MarkupKind::Markdown, value: hover.text }.into(),
+            range: Some(document.range(hover.span)),
+        }))
+    }
+
+    pub(super) fn definition(&self, asked: &DefinitionParams) -> Result<Option<DefinitionResponse>, Error> {
+        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let found = document.index.definition(at).and_then(|place| document.location(place));
+        Ok(found.map(|found| DefinitionResponse::Definition(Definition::Location(found))))
+    }
+
+    pub(super) fn references(&self, asked: &ReferenceParams) -> Result<Option<Vec<Location>>, Error> {
+        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let places = document.index.references(at).into_iter();
+        let used = places.filter(|&(_, role)| role != Role::Declares).map(|(span, _)| span);
+        let declared = document.index.definition(at).filter(|_| asked.context.include_declaration);
+        Ok(Some(declared.into_iter().chain(used).filter_map(|span| document.location(span)).collect()))
+    }
+
+    pub(super) fn highlights(&self, asked: &DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>, Error> {
+        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let highlight = |(span, role)| DocumentHighlight {
+            range: document.range(span),
+            kind: Some(match role {
+                Role::Declares | Role::Writes => DocumentHighlightKind::Write,
+                Role::Reads => DocumentHighlightKind::Read,
+            }),
+        };
+        Ok(Some(document.index.references(at).into_iter().map(highlight).collect()))
+    }
+
+    pub(super) fn symbols(&self, asked: &DocumentSymbolParams) -> Result<Option<DocumentSymbolResponse>, Error> {
+        let document = self.document(&asked.text_document.uri)?;
+        Ok(Some(DocumentSymbolResponse::DocumentSymbolList(outline(document))))
+    }
+}
+
+/// The items of a policy with what they declare. What is declared stands behind what it is declared in.
+fn outline(document: &Document) -> Vec<DocumentSymbol> {
+    let symbols = document.index.symbols();
+    let mut inside: Vec<Vec<DocumentSymbol>> = symbols.iter().map(|_| Vec::new()).collect();
+    let mut items = Vec::new();
+    for (index, symbol) in symbols.iter().enumerate().rev() {
+        let Some(kind) = outline_kind(symbol.kind) else { continue };
+        let mut children = std::mem::take(&mut inside[index]);
+        children.reverse();
+        let (range, selection) = (document.range(symbol.whole), document.range(symbol.span));
+        let detail = Some(document.index.head(symbol));
+        let outlined =
+            DocumentSymbol::new(symbol.name.clone(), detail, kind, None, None, range, selection, Some(children));
+        match symbol.owner.and_then(|owner| inside.get_mut(owner)) {
+            Some(siblings) => siblings.push(outlined),
+            None => items.push(outlined),
+        }
+    }
+    items.reverse();
+    items
+}
+
+/// The protocol's nearest kind; `None` for what is no part of an outline.
+fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
+    Some(match kind {
+        SymbolKind::Whisker => LspSymbolKind::Field,
+        SymbolKind::Parameter => LspSymbolKind::Constant,
+        SymbolKind::Derived => LspSymbolKind::Variable,
+        SymbolKind::Law => LspSymbolKind::Function,
+        SymbolKind::State => LspSymbolKind::Class,
+        SymbolKind::Memory => LspSymbolKind::Property,
+        SymbolKind::Machine | SymbolKind::Argument | SymbolKind::Local => return None,
+    })
+}

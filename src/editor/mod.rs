@@ -1,0 +1,18 @@
+//! The language server of policies: what editors ask over the Language Server Protocol, answered from `policy`.
+//!
+//! Only the protocol is here: its messages, its life, its places in lines and UTF-16. What is known of a text, `policy` knows.
+//! One message is answered after the other, so that an answer always belongs to the text that the editor had when it asked.
+
+mod answer;
+mod capabilities;
+mod change;
+mod complete;
+mod diagnose;
+mod document;
+mod look;
+mod position;
+mod server;
+mod uri;
+mod wire;
+
+pub use server::{Ended, Library, serve};

@@ -1,0 +1,188 @@
+//! The life of the server, and the documents that are open.
+
+use std::collections::HashMap;
+use std::io::{self, BufRead, Write};
+
+use gen_lsp_types::json_rpc::{Error, Id, RequestObject, ResponseObject};
+use gen_lsp_types::{
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, ErrorCodes, InitializeRequest,
+    LspNotificationMethod as Method, PublishDiagnosticsNotification, PublishDiagnosticsParams, ShutdownRequest,
+    TextDocumentPositionParams, Uri,
+};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::capabilities::{Client, initialized};
+use super::diagnose::diagnostics;
+use super::document::Document;
+use super::uri;
+use super::wire::{self, Incoming, error};
+
+/// How a server ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// As the protocol has it: told to shut down, then to exit.
+    Orderly,
+    /// Told to exit without being told to shut down, or left by the editor.
+    Abrupt,
+}
+
+/// Where a server is in its life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Uninitialized,
+    Running,
+    ShutDown,
+}
+
+/// Gives the text of a file that no editor has open by its path, or says why it cannot.
+pub type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
+
+/// A server.
+pub(super) struct Server<'l> {
+    phase: Phase,
+    pub(super) client: Client,
+    documents: HashMap<Uri, Document>,
+    library: &'l Library<'l>,
+}
+
+/// Serves an editor until it says that it is done or its end of `input` is closed. Files that policies use and that are not open are
+/// those of `library`.
+///
+/// # Errors
+/// Reading or writing failed: the editor is gone.
+pub fn serve(input: &mut dyn BufRead, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
+    let (phase, client) = (Phase::Uninitialized, Client::default());
+    let mut server = Server { phase, client, documents: HashMap::new(), library };
+    loop {
+        match wire::read(input)? {
+            Incoming::Message(message) => {
+                let (method, id, parameters) = message.into_parts();
+                let parameters = parameters.unwrap_or_default();
+                match id {
+                    Some(id) => wire::write(output, &server.request(id, &method, parameters))?,
+                    None if Method::from(method.as_str()) == Method::Exit => {
+                        let is_orderly = server.phase == Phase::ShutDown;
+                        return Ok(if is_orderly { Ended::Orderly } else { Ended::Abrupt });
+                    }
+                    None if server.phase == Phase::Running => {
+                        let changed = server.notification(&method, parameters);
+                        for news in changed.iter().flat_map(|changed| server.news(changed)) {
+                            wire::write(output, &news)?;
+                        }
+                    }
+                    None => {}
+                }
+            }
+            Incoming::Faulty(id, error) => wire::write(output, &ResponseObject::from_error(id, error))?,
+            Incoming::Nothing => {}
+            Incoming::End => return Ok(Ended::Abrupt),
+        }
+    }
+}
+
+impl Server<'_> {
+    fn request(&mut self, id: Id, method: &str, parameters: Value) -> ResponseObject {
+        let refuse = |id, code, message: &str| ResponseObject::from_error(id, error(code, message));
+        match (self.phase, method) {
+            (Phase::Uninitialized, "initialize") => {
+                self.client = Client::new(&parameters);
+                self.phase = Phase::Running;
+                ResponseObject::from_success::<InitializeRequest>(id, initialized(self.client))
+            }
+            (Phase::Uninitialized, _) => refuse(id, ErrorCodes::ServerNotInitialized, "send `initialize` first"),
+            (Phase::Running, "initialize") => refuse(id, ErrorCodes::InvalidRequest, "the server is initialized"),
+            (Phase::Running, "shutdown") => {
+                self.phase = Phase::ShutDown;
+                ResponseObject::from_success::<ShutdownRequest>(id, ())
+            }
+            (Phase::Running, _) => self.answer(id, method, parameters),
+            (Phase::ShutDown, _) => refuse(id, ErrorCodes::InvalidRequest, "the server is shut down"),
+        }
+    }
+
+    /// Takes note of what the editor says, and gives the document that has another text now. What cannot be understood is passed
+    /// over: nobody waits for an answer.
+    fn notification(&mut self, method: &str, parameters: Value) -> Option<Uri> {
+        match Method::from(method) {
+            Method::TextDocumentDidOpen => {
+                let opened = read::<DidOpenTextDocumentParams>(parameters)?.text_document;
+                let (uri, encoding) = (opened.uri, self.client.encoding);
+                let library = &mut |path: &str| self.text(path);
+                let document = Document::new(uri.clone(), opened.version, opened.text, encoding, library);
+                self.documents.insert(uri.clone(), document);
+                Some(uri)
+            }
+            Method::TextDocumentDidChange => {
+                let changed: DidChangeTextDocumentParams = read(parameters)?;
+                let uri = changed.text_document.text_document_identifier.uri;
+                let document = self.documents.get_mut(&uri)?;
+                document.change(changed.text_document.version, changed.content_changes);
+                self.look(&uri);
+                Some(uri)
+            }
+            Method::TextDocumentDidClose => {
+                let uri = read::<DidCloseTextDocumentParams>(parameters)?.text_document.uri;
+                self.documents.remove(&uri)?;
+                Some(uri)
+            }
+            _ => None,
+        }
+    }
+
+    /// What there is to say now that a document has another text, or is closed: of itself, and of those that use it.
+    fn news(&mut self, changed: &Uri) -> Vec<RequestObject> {
+        let none = || PublishDiagnosticsParams { uri: changed.clone(), version: None, diagnostics: Vec::new() };
+        let own = self.documents.get(changed).map(|document| diagnostics(changed, document, self.client));
+        let mut news = vec![publish(own.unwrap_or_else(none))];
+        let path = uri::path(changed);
+        let uses = |document: &Document| path.as_deref().is_some_and(|path| document.uses(path));
+        let users = self.documents.iter().filter(|(uri, document)| *uri != changed && uses(document));
+        let mut users: Vec<Uri> = users.map(|(uri, _)| uri.clone()).collect();
+        users.sort_by(|a, b| a.as_ref().cmp(b.as_ref()));
+        for user in users {
+            self.look(&user);
+            news.extend(self.documents.get(&user).map(|document| publish(diagnostics(&user, document, self.client))));
+        }
+        news
+    }
+
+    /// Looks at a document anew.
+    fn look(&mut self, uri: &Uri) {
+        if let Some((uri, mut document)) = self.documents.remove_entry(uri) {
+            document.look(&mut |path: &str| self.text(path));
+            self.documents.insert(uri, document);
+        }
+    }
+
+    /// The text of a file that a document uses: as it is in the editor, if it is open there.
+    fn text(&self, path: &str) -> Result<String, String> {
+        let open = self.documents.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
+        match open {
+            Some((_, document)) => Ok(document.source.text.clone()),
+            None if uri::of_path(path).is_none() => {
+                Err("save this file first: a path leads from where it is".to_owned())
+            }
+            None => (self.library)(path),
+        }
+    }
+
+    pub(super) fn document(&self, uri: &Uri) -> Result<&Document, Error> {
+        let unknown = || error(ErrorCodes::InvalidParams, format!("`{uri}` is not open"));
+        self.documents.get(uri).ok_or_else(unknown)
+    }
+
+    /// The document and the byte of a place in it.
+    pub(super) fn place(&self, place: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
+        let document = self.document(&place.text_document.uri)?;
+        Ok((document, document.byte(place.position)))
+    }
+}
+
+fn read<T: DeserializeOwned>(parameters: Value) -> Option<T> {
+    serde_json::from_value(parameters).ok()
+}
+
+fn publish(news: PublishDiagnosticsParams) -> RequestObject {
+    RequestObject::from_notification::<PublishDiagnosticsNotification>(news)
+}

@@ -1,0 +1,272 @@
+//! What can be written at a place.
+
+use crate::diagnostic::Span;
+use crate::policy::ast::{Name, TypeName};
+use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
+use crate::policy::standard::{MODULES, ROOT};
+use crate::policy::types::{DIMENSIONS, Type};
+use crate::units::{Dimension, units_of};
+
+use super::context::{Context, Expected, Level, context};
+use super::import::{heading, offered};
+use super::resolve::Owner;
+use super::symbol::{Symbol, SymbolKind};
+use super::words::{Place, Word, word, words_of};
+use super::{Index, text};
+
+/// What a candidate is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CandidateKind {
+    /// A word of the language.
+    Word,
+    /// A function of the language.
+    Function,
+    /// A member of a whisker, a contour or the body.
+    Member,
+    /// A type.
+    Type,
+    /// A unit.
+    Unit,
+    /// A module of the standard library.
+    Module,
+    /// A name that the policy gives.
+    Symbol(SymbolKind),
+}
+
+/// Something that can be written at a place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Candidate {
+    /// The word itself.
+    pub label: String,
+    /// What it is.
+    pub kind: CandidateKind,
+    /// Its type, or how it is used.
+    pub detail: String,
+    /// What it means; may be empty.
+    pub meaning: String,
+    /// What to write, with `${1:…}` for what is to be filled in; the word itself if there is nothing.
+    pub snippet: String,
+}
+
+/// Words that begin an item of a library.
+const IN_LIBRARIES: [&str; 3] = ["use", "let", "law"];
+/// Dimensions of which a policy is likely to write numbers.
+const WRITTEN: [Dimension; 10] = [
+    Dimension::LENGTH,
+    Dimension::ANGLE,
+    Dimension::TIME,
+    Dimension::SPEED,
+    Dimension::ANGULAR_SPEED,
+    Dimension::FREQUENCY,
+    Dimension::ACCELERATION,
+    Dimension::ANGULAR_ACCELERATION,
+    Dimension::FORCE,
+    Dimension::MOMENT,
+];
+
+impl Index {
+    /// What can be written at a byte, and the part of a word that it takes the place of.
+    #[must_use]
+    pub fn candidates(&self, at: usize) -> (Span, Vec<Candidate>) {
+        let text = text(&self.source);
+        let context = context(text, text.floor_char_boundary(at));
+        (context.typed, self.expected(&context))
+    }
+
+    fn expected(&self, context: &Context) -> Vec<Candidate> {
+        let of_kind = |kinds: &'static [SymbolKind]| {
+            self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol))
+        };
+        match context.expected {
+            Expected::Nothing => Vec::new(),
+            Expected::Member(dot) => match self.resolved.owners.get(&dot) {
+                Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
+                Some(&Owner::Value(owner)) => members(owner).collect(),
+                Some(&Owner::State(outer)) => self.inner_states(outer),
+                None => Vec::new(),
+            },
+            Expected::Target => self.targets(context),
+            Expected::Initial => self.beginnings(context),
+            Expected::Resumed => self.resumable(context),
+            Expected::State => {
+                let states = self.known(context).filter(|symbol| symbol.kind == SymbolKind::State);
+                states.map(|state| Candidate { snippet: state.name.clone(), ..self.symbol(state) }).collect()
+            }
+            Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
+            Expected::Mark => words_of(Place::Mark).map(of_word).collect(),
+            Expected::File => modules(&format!("{ROOT}.")).collect(),
+            Expected::Module => modules("").collect(),
+            Expected::Chosen => self.offered(context),
+            Expected::Value if context.level == Level::Test => self.values_of_a_run(context),
+            Expected::Law => of_kind(&[SymbolKind::Law]).collect(),
+            Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
+            Expected::Type => {
+                ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions()).collect()
+            }
+            Expected::Dimension => dimensions().collect(),
+            Expected::Unit => units().collect(),
+            Expected::Value => self.values(context),
+            Expected::Machine => words_of(Place::File).map(of_word).collect(),
+            Expected::Only(text) => word(text).map(of_word).into_iter().collect(),
+            Expected::Statement(level) => self.statements(level).collect(),
+            Expected::More(level, words) => {
+                words.iter().filter_map(|text| word(text)).map(of_word).chain(self.statements(level)).collect()
+            }
+        }
+    }
+
+    /// The symbols that are known at a place.
+    pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
+        let at = context.typed.start;
+        self.symbols.iter().filter(move |symbol| {
+            (symbol.visible.start..=symbol.visible.end).contains(&at)
+                && context.statement != Some(symbol.whole.start)
+                && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
+        })
+    }
+
+    /// Whether a value that a statement names is known at a place behind it: transitions do not know what their state's statements
+    /// name, nor do the states in it.
+    fn is_known_local(&self, local: &Symbol, context: &Context) -> bool {
+        let owner = local.owner.and_then(|owner| self.symbols.get(owner));
+        let is_beyond = owner.is_some_and(|owner| owner.kind == SymbolKind::State && Some(owner.span) != context.state);
+        !context.in_transition && !is_beyond
+    }
+
+    fn values(&self, context: &Context) -> Vec<Candidate> {
+        let named = self.known(context).filter(|symbol| symbol.kind.is_value()).map(|symbol| self.symbol(symbol));
+        named.chain(words_of(Place::Value).map(of_word)).chain(functions()).collect()
+    }
+
+    /// What an expectation of a test can read.
+    fn values_of_a_run(&self, context: &Context) -> Vec<Candidate> {
+        let kinds = [SymbolKind::Parameter, SymbolKind::Derived];
+        let named = self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol));
+        words_of(Place::Run).map(of_word).chain(named).chain(functions()).collect()
+    }
+
+    /// What the file of the `use` that is being written offers.
+    fn offered(&self, context: &Context) -> Vec<Candidate> {
+        let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
+        let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
+        let candidate = |symbol: &Symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) };
+        offered(&self.source, part).iter().map(candidate).collect()
+    }
+
+    /// What begins a statement in such braces, or an item.
+    fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
+        let place = match level {
+            Level::Outside => Place::Item,
+            Level::State => Place::State,
+            Level::Test => Place::Test,
+            Level::Block => Place::Statement,
+        };
+        let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
+        let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
+        let fits = move |word: &&Word| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
+        words_of(place).filter(fits).map(of_word)
+    }
+
+    pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
+        let detail = symbol.r#type.map_or_else(|| self.head(symbol), |r#type| r#type.to_string());
+        let usage = format!("{}({})", symbol.name, symbol.arguments.join(", "));
+        let snippet = if symbol.arguments.is_empty() && symbol.kind != SymbolKind::Law {
+            symbol.name.clone()
+        } else {
+            call_snippet(&usage)
+        };
+        let kind = CandidateKind::Symbol(symbol.kind);
+        Candidate { label: symbol.name.clone(), kind, detail, meaning: self.description(symbol), snippet }
+    }
+}
+
+pub(super) fn of_word(word: &'static Word) -> Candidate {
+    Candidate {
+        label: word.text.to_owned(),
+        kind: CandidateKind::Word,
+        detail: String::new(),
+        meaning: word.meaning.to_owned(),
+        snippet: word.snippet.to_owned(),
+    }
+}
+
+fn members(owner: Type) -> impl Iterator<Item = Candidate> {
+    builtins::members(owner).iter().map(move |member| {
+        let value = match (member.source, member.at) {
+            (MemberSource::At, Some(at)) => Some(at.takes().0),
+            (MemberSource::Visits | MemberSource::TimeIn, _) => Some("State"),
+            _ => None,
+        };
+        Candidate {
+            label: member.name.to_owned(),
+            kind: CandidateKind::Member,
+            detail: member.r#type.to_string(),
+            meaning: member.meaning.to_owned(),
+            snippet: value.map_or_else(|| member.name.to_owned(), |value| format!("{}(${{1:{value}}})", member.name)),
+        }
+    })
+}
+
+fn functions() -> impl Iterator<Item = Candidate> {
+    FUNCTIONS.iter().map(|&(name, _, usage, meaning)| Candidate {
+        label: name.to_owned(),
+        kind: CandidateKind::Function,
+        detail: usage.to_owned(),
+        meaning: meaning.to_owned(),
+        snippet: call_snippet(usage),
+    })
+}
+
+/// The modules of the standard library, behind what is written of their names.
+fn modules(prefix: &str) -> impl Iterator<Item = Candidate> {
+    MODULES.iter().map(move |(module, text)| {
+        let label = format!("{prefix}{module}");
+        Candidate {
+            kind: CandidateKind::Module,
+            detail: format!("use {ROOT}.{module}"),
+            meaning: heading(text),
+            snippet: label.clone(),
+            label,
+        }
+    })
+}
+
+fn of_type(name: &str) -> Candidate {
+    let base = Name { text: name.to_owned(), span: Span::default() };
+    let r#type = Type::named(&TypeName { base, of: None, factors: Vec::new() });
+    Candidate {
+        label: name.to_owned(),
+        kind: CandidateKind::Type,
+        detail: r#type.map(|r#type| r#type.to_string()).unwrap_or_default(),
+        meaning: String::new(),
+        snippet: name.to_owned(),
+    }
+}
+
+fn dimensions() -> impl Iterator<Item = Candidate> {
+    DIMENSIONS.iter().map(|&(name, _)| of_type(name))
+}
+
+fn units() -> impl Iterator<Item = Candidate> {
+    WRITTEN.into_iter().flat_map(|dimension| {
+        units_of(dimension).into_iter().map(move |unit| {
+            // In a policy a unit has no blanks in it.
+            let unit = unit.replace(' ', "*");
+            Candidate {
+                label: unit.clone(),
+                kind: CandidateKind::Unit,
+                detail: dimension.phrase(),
+                meaning: String::new(),
+                snippet: unit,
+            }
+        })
+    })
+}
+
+/// A call with its values to be filled in: `turn(from, to)` as `turn(${1:from}, ${2:to})`.
+fn call_snippet(usage: &str) -> String {
+    let Some((name, values)) = usage.split_once('(') else { return usage.to_owned() };
+    let values = values.trim_end_matches(')').split(", ").filter(|value| !value.is_empty()).enumerate();
+    let values: Vec<String> = values.map(|(index, value)| format!("${{{}:{value}}}", index + 1)).collect();
+    format!("{name}({})", values.join(", "))
+}

@@ -1,0 +1,263 @@
+//! What a policy's text declares: from tokens to symbols.
+//!
+//! It reads tokens, not the syntax tree, so that a text with faults has symbols too: those of everything but the fault. Which
+//! braces hold what follows from the word that begins a statement. Where braces are not closed, a word that can stand outside of
+//! all braces ends them when it begins its line without a blank before it.
+
+use crate::diagnostic::Span;
+use crate::policy::format::{Token, TokenKind};
+use crate::policy::types::Type;
+use crate::units::{Dimension, parse_unit};
+
+use super::symbol::{Symbol, SymbolKind};
+use super::type_name::type_name;
+use super::words::{Place, word};
+
+/// What stands between two braces, or outside of all.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Frame<'t> {
+    /// The word that begins the statement before the opening brace; none outside of all braces.
+    pub(super) head: Option<&'t str>,
+    /// The token that begins the statement being read.
+    pub(super) statement: Option<usize>,
+    /// The symbol whose braces these are, if it is one's.
+    pub(super) owner: Option<usize>,
+    /// What the statement being read has declared.
+    pending: Vec<usize>,
+    /// What is known until the closing brace.
+    inside: Vec<usize>,
+}
+
+/// A text read up to its end.
+#[derive(Debug, Clone)]
+pub(super) struct Declared<'t> {
+    /// In the order of their names in the text.
+    pub(super) symbols: Vec<Symbol>,
+    /// The braces that are open at the end, the innermost last. Never empty.
+    pub(super) frames: Vec<Frame<'t>>,
+    /// Whether every brace can be trusted to have its other.
+    is_balanced: bool,
+    /// The end of the token read last.
+    end: usize,
+}
+
+/// Whether every brace among tokens has its other.
+pub(super) fn is_balanced(tokens: &[Token<'_>]) -> bool {
+    let mut depth = 0_usize;
+    for token in tokens.iter().filter(|token| token.kind == TokenKind::Mark) {
+        match token.text {
+            "{" => depth += 1,
+            "}" if depth == 0 => return false,
+            "}" => depth -= 1,
+            _ => {}
+        }
+    }
+    depth == 0
+}
+
+/// Reads what `tokens`, among which there are no comments, declare. They may be the beginning of a text whose braces are balanced.
+pub(super) fn declare<'t>(text: &str, tokens: &[Token<'t>], is_balanced: bool) -> Declared<'t> {
+    let mut declared = Declared { symbols: Vec::new(), frames: vec![Frame::default()], is_balanced, end: 0 };
+    for (index, token) in tokens.iter().enumerate() {
+        match token.kind {
+            TokenKind::Keyword => declared.word(text, tokens, index),
+            TokenKind::Mark if token.text == "{" => declared.open(tokens),
+            TokenKind::Mark if token.text == "}" && declared.frames.len() > 1 => {
+                declared.close(token.start);
+                declared.end = token.start + 1;
+                continue;
+            }
+            _ => {}
+        }
+        declared.end = token.start + token.text.len();
+    }
+    declared
+}
+
+impl<'t> Declared<'t> {
+    /// The symbols of a whole text, at whose end everything open ends.
+    pub(super) fn finish(mut self, text: &str) -> Vec<Symbol> {
+        while self.frames.len() > 1 {
+            self.close(text.len());
+            self.end = text.len();
+        }
+        self.finish_statement();
+        for symbol in self.symbols.iter_mut().filter(|symbol| symbol.kind.is_item()) {
+            symbol.visible = Span::new(0, text.len());
+        }
+        self.symbols
+    }
+
+    fn frame(&mut self) -> Option<&mut Frame<'t>> {
+        self.frames.last_mut()
+    }
+
+    fn word(&mut self, text: &str, tokens: &[Token<'t>], index: usize) {
+        let token = tokens[index];
+        let before = index.checked_sub(1).map(|before| tokens[before]);
+        let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
+        let Some(known) = word(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
+        // `always when` and `else if` are one statement.
+        if before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
+            return;
+        }
+        if !self.is_balanced && known.places.contains(&Place::Item) && begins_line_unindented(text, token.start) {
+            while self.frames.len() > 1 {
+                self.close(self.end);
+            }
+        }
+        self.finish_statement();
+        let outside = self.frames.len() == 1;
+        if let Some(frame) = self.frame() {
+            frame.statement = Some(index);
+        }
+        let kind = match token.text {
+            "machine" | "library" => SymbolKind::Machine,
+            "param" => SymbolKind::Parameter,
+            "law" => SymbolKind::Law,
+            "state" => SymbolKind::State,
+            "var" => SymbolKind::Memory,
+            "whisker" => SymbolKind::Whisker,
+            "let" if outside => SymbolKind::Derived,
+            "let" => SymbolKind::Local,
+            _ => return,
+        };
+        let mut name = index + 1;
+        while tokens.get(name).is_some_and(|token| token.kind == TokenKind::Name) {
+            let declared = self.declare(tokens, name, token.start, kind);
+            match kind {
+                SymbolKind::Law | SymbolKind::State | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
+                SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
+                _ => {}
+            }
+            // `whisker a, b`
+            if kind != SymbolKind::Whisker || !tokens.get(name + 1).is_some_and(|token| token.is(",")) {
+                break;
+            }
+            name += 2;
+        }
+    }
+
+    fn declare(&mut self, tokens: &[Token<'t>], name: usize, start: usize, kind: SymbolKind) -> usize {
+        let token = tokens[name];
+        let span = place(token);
+        let is_whisker = kind == SymbolKind::Whisker;
+        let index = self.symbols.len();
+        let owner = self.frames.iter().rev().find_map(|frame| frame.owner);
+        self.symbols.push(Symbol {
+            name: token.text.to_owned(),
+            kind,
+            span,
+            whole: Span::new(start, span.end),
+            arguments: Vec::new(),
+            owner,
+            visible: span,
+            r#type: is_whisker.then_some(Type::Whisker),
+        });
+        if let Some(frame) = self.frame() {
+            frame.pending.push(index);
+            if !kind.is_item() {
+                frame.inside.push(index);
+            }
+        }
+        index
+    }
+
+    /// Reads `(name: type, …)`.
+    fn arguments(&mut self, tokens: &[Token<'t>], open: usize, owner: usize) {
+        if !tokens.get(open).is_some_and(|token| token.is("(")) {
+            return;
+        }
+        let mut at = open + 1;
+        while let Some(name) = tokens.get(at).filter(|token| token.kind == TokenKind::Name) {
+            let span = place(*name);
+            let (mut end, mut r#type) = (at, None);
+            if tokens.get(at + 1).is_some_and(|token| token.is(":"))
+                && let Some((name, last)) = type_name(tokens, at + 2)
+            {
+                (end, r#type) = (last, Type::named(&name));
+            }
+            let whole = span.to(place(tokens[end]));
+            self.symbols[owner].arguments.push(name.text.to_owned());
+            let index = self.symbols.len();
+            self.symbols.push(Symbol {
+                name: name.text.to_owned(),
+                kind: SymbolKind::Argument,
+                span,
+                whole,
+                arguments: Vec::new(),
+                owner: Some(owner),
+                visible: span,
+                r#type,
+            });
+            if let Some(frame) = self.frame() {
+                frame.pending.push(index);
+            }
+            at = end + 1;
+            if !tokens.get(at).is_some_and(|token| token.is(",")) {
+                break;
+            }
+            at += 1;
+        }
+    }
+
+    fn open(&mut self, tokens: &[Token<'t>]) {
+        let Some(frame) = self.frame() else { return };
+        let head = frame.statement.and_then(|statement| tokens.get(statement)).map(|token| token.text);
+        let owner = frame.pending.first().copied();
+        self.frames.push(Frame { head, owner, ..Frame::default() });
+    }
+
+    /// Ends the innermost braces, whose contents end at `end`.
+    fn close(&mut self, end: usize) {
+        self.finish_statement();
+        let Some(frame) = self.frames.pop() else { return };
+        for index in frame.inside {
+            self.symbols[index].visible.end = end;
+        }
+    }
+
+    /// Ends the statement being read behind the token read last.
+    fn finish_statement(&mut self) {
+        let end = self.end;
+        let start = self.frames.last().and_then(|frame| frame.owner).map(|owner| self.symbols[owner].span.end);
+        let Some(frame) = self.frames.last_mut() else { return };
+        frame.statement = None;
+        for index in std::mem::take(&mut frame.pending) {
+            let symbol = &mut self.symbols[index];
+            match symbol.kind {
+                SymbolKind::Argument => symbol.visible = Span::new(symbol.whole.end, end),
+                SymbolKind::Memory => {
+                    // The transitions and statements above it know it too.
+                    symbol.visible = Span::new(start.unwrap_or(symbol.span.start), end);
+                    symbol.whole.end = end;
+                }
+                // What stands outside of its braces has none to end it.
+                SymbolKind::Local => {
+                    symbol.visible = Span::new(end, end);
+                    symbol.whole.end = end;
+                }
+                SymbolKind::Whisker => symbol.whole.end = symbol.span.end,
+                _ => symbol.whole.end = end,
+            }
+        }
+    }
+}
+
+pub(super) fn place(token: Token<'_>) -> Span {
+    Span::new(token.start, token.start + token.text.len())
+}
+
+fn begins_line_unindented(text: &str, start: usize) -> bool {
+    start == 0 || text.as_bytes().get(start - 1) == Some(&b'\n')
+}
+
+/// The type of the parameter that `tokens` begin with the name of.
+fn parameter_type(tokens: &[Token<'_>]) -> Option<Type> {
+    let value = tokens.get(1..)?.iter().take(3).position(|token| token.kind == TokenKind::Number)? + 1;
+    let dimension = match tokens.get(value + 1) {
+        Some(unit) if unit.kind == TokenKind::Unit => parse_unit(&unit.text.replace('*', " ")).ok()?.dimension(),
+        _ => Dimension::NUMBER,
+    };
+    Some(Type::Scalar(dimension))
+}

@@ -1,0 +1,129 @@
+//! What is said of a word when a person points at it.
+
+use crate::diagnostic::Span;
+use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
+use crate::policy::description::description;
+use crate::policy::types::Type;
+use crate::units::{Dimension, format_si, parse_unit, units_of};
+
+use super::Index;
+use super::import::{heading, offered};
+use super::symbol::{Meaning, Symbol, SymbolKind};
+use super::words::word;
+
+/// The most bytes of a line that is searched for a comment: looking at all names of a text takes bounded time.
+const LINE_LIMIT: usize = 4096;
+
+/// What is said of a word.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hover {
+    /// The word.
+    pub span: Span,
+    /// What is said, in Markdown.
+    pub text: String,
+}
+
+impl Index {
+    /// What is to be said of the word at a byte.
+    #[must_use]
+    pub fn hover(&self, at: usize) -> Option<Hover> {
+        let known = self.use_at(at)?;
+        let text = match known.meaning {
+            Meaning::Symbol(index, _) => self.explain(&self.symbols[index]),
+            Meaning::Function(function) => {
+                let (_, function, usage, meaning) = FUNCTIONS.get(function)?;
+                paragraphs(&[code(usage), (*meaning).to_owned(), format!("It takes {}.", function.takes())])
+            }
+            Meaning::Member(owner, member) => {
+                let head = code(&usages(owner, &member).join("\n"));
+                paragraphs(&[head, type_line(member.r#type), member.meaning.to_owned()])
+            }
+            Meaning::File(part) => self.explain_file(part),
+            Meaning::Type(r#type) => paragraphs(&[code(self.source.slice(known.span)), type_line(r#type)]),
+            Meaning::Unit(dimension) => {
+                let unit = self.source.slice(known.span);
+                paragraphs(&[code(unit), unit_line(unit, dimension)])
+            }
+            Meaning::Word(text) => {
+                let word = word(text)?;
+                paragraphs(&[code(&word.usage()), word.meaning.to_owned()])
+            }
+            Meaning::Unknown => return None,
+        };
+        Some(Hover { span: known.span, text })
+    }
+
+    fn explain(&self, symbol: &Symbol) -> String {
+        let types = symbol.r#type.map(type_line).unwrap_or_default();
+        let file = self.file_of(symbol).map(|file| format!("from `{file}`")).unwrap_or_default();
+        paragraphs(&[code(&self.head(symbol)), types, self.description(symbol), file])
+    }
+
+    /// What a file gives.
+    fn explain_file(&self, part: usize) -> String {
+        let offered = offered(&self.source, part);
+        let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
+        let name = self.source.part_name(part);
+        let about = heading(self.source.slice(self.source.part_span(part)));
+        paragraphs(&[format!("`{name}`"), about, code(&heads.join("\n"))])
+    }
+
+    /// What the comments beside a symbol say of it.
+    #[must_use]
+    pub fn description(&self, symbol: &Symbol) -> String {
+        // A comment beside an argument is one of what it belongs to.
+        let behind = self.source.slice(Span::new(symbol.span.start, symbol.span.start + LINE_LIMIT + 1));
+        let is_line = behind.len() <= LINE_LIMIT || behind.contains('\n');
+        let is_described = symbol.kind != SymbolKind::Argument && is_line;
+        is_described.then(|| description(&self.source, symbol.span)).flatten().unwrap_or_default()
+    }
+}
+
+fn paragraphs(parts: &[String]) -> String {
+    let parts: Vec<&str> = parts.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
+    parts.join("\n\n")
+}
+
+fn code(text: &str) -> String {
+    format!("```fsm\n{text}\n```")
+}
+
+/// The type, and the units that it is written in.
+fn type_line(r#type: Type) -> String {
+    match r#type {
+        Type::Scalar(dimension) if dimension != Dimension::NUMBER => {
+            format!("{}, in {}", r#type, units_of(dimension).join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+fn unit_line(unit: &str, dimension: Dimension) -> String {
+    let size = parse_unit(&unit.replace('*', " ")).map_or(f64::NAN, |unit| unit.to_si(1.0));
+    let si = dimension.si_unit();
+    if si == unit {
+        format!("the SI unit of {}", dimension.phrase())
+    } else {
+        format!("a unit of {}: {} {si}", dimension.phrase(), format_si(size, Dimension::NUMBER))
+    }
+}
+
+/// How a member can be written.
+fn usages(owner: Type, member: &Member) -> Vec<String> {
+    let plain = format!("{}.{}", owner_name(owner), member.name);
+    let with_value = member.at.map(|at| format!("{plain}({})", at.takes().0));
+    match member.source {
+        MemberSource::At => with_value.into_iter().collect(),
+        MemberSource::Visits | MemberSource::TimeIn => vec![format!("{plain}(State)")],
+        _ => std::iter::once(plain).chain(with_value).collect(),
+    }
+}
+
+fn owner_name(owner: Type) -> &'static str {
+    match owner {
+        Type::Whisker => "whisker",
+        Type::Contour => "contour",
+        Type::Run => "run",
+        _ => "body",
+    }
+}

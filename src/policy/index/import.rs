@@ -1,0 +1,108 @@
+//! Files that a text uses, and the names that they bring.
+//!
+//! They are read from tokens like all else, so that what a file brings is known while its `use` is being written.
+
+use std::ops::Range;
+
+use crate::diagnostic::{Source, Span};
+use crate::policy::ast::{From, Name, Use};
+use crate::policy::format::{Token, TokenKind};
+use crate::policy::path;
+
+use super::code_tokens;
+use super::declare::{declare, place};
+use super::symbol::{Symbol, SymbolKind};
+
+/// A `use`, as far as it can be read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Import {
+    /// Its tokens, from the word `use` on.
+    pub(super) tokens: Range<usize>,
+    /// Where it begins.
+    pub(super) start: usize,
+    /// Where the file is named.
+    pub(super) from: Span,
+    /// The name of the file, if it can be one.
+    pub(super) file: Option<String>,
+    /// The names that it brings; all of the file, if `None`.
+    pub(super) names: Option<Vec<Span>>,
+}
+
+impl Import {
+    /// The part of a source that is the file.
+    pub(super) fn part(&self, source: &Source) -> Option<usize> {
+        let name = self.file.as_deref()?;
+        (1..source.count()).find(|&part| source.part_name(part) == name && source.absence(part).is_none())
+    }
+}
+
+/// Every `use` among the tokens of the file called `name`.
+pub(super) fn imports(name: &str, tokens: &[Token<'_>]) -> Vec<Import> {
+    let words = tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Keyword && token.text == "use");
+    words.filter_map(|(index, _)| import(name, tokens, index)).collect()
+}
+
+fn import(using: &str, tokens: &[Token<'_>], word: usize) -> Option<Import> {
+    let first = tokens.get(word + 1)?;
+    let mut next = word + 2;
+    let from = match first.kind {
+        TokenKind::Text => From::Path(first.text.trim_matches('"').to_owned()),
+        TokenKind::Name => {
+            let mut names = vec![named(*first)];
+            while let Some([dot, part]) = tokens.get(next..next + 2)
+                && dot.is(".")
+                && part.kind == TokenKind::Name
+            {
+                names.push(named(*part));
+                next += 2;
+            }
+            From::Module(names)
+        }
+        _ => return None,
+    };
+    let span = place(*first).to(place(tokens[next - 1]));
+    let mut names = None;
+    if tokens.get(next).is_some_and(|token| token.is("(")) {
+        let listed = tokens[next + 1..].iter().take_while(|token| token.kind == TokenKind::Name || token.is(","));
+        let listed: Vec<Token<'_>> = listed.copied().collect();
+        next += 1 + listed.len();
+        next += usize::from(tokens.get(next).is_some_and(|token| token.is(")")));
+        names = Some(listed.into_iter().filter(|token| token.kind == TokenKind::Name).map(place).collect());
+    }
+    let used = Use { from, span, names: None };
+    let file = path::resolve(using, &used).ok();
+    Some(Import { tokens: word..next, start: tokens[word].start, from: span, file, names })
+}
+
+fn named(token: Token<'_>) -> Name {
+    Name { text: token.text.to_owned(), span: place(token) }
+}
+
+/// Adds to `symbols`, of which the first part of a source gives the first `own`, the ones that a `use` in it brings.
+pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
+    let Some(part) = import.part(source) else { return };
+    let everywhere = source.part_span(0);
+    for symbol in offered(source, part) {
+        let is_chosen =
+            import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
+        if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
+            symbols.push(Symbol { visible: everywhere, ..symbol });
+        }
+    }
+}
+
+/// What the file that is a part of a source gives to others: its laws and derived values.
+pub(super) fn offered(source: &Source, part: usize) -> Vec<Symbol> {
+    let span = source.part_span(part);
+    let text = source.slice(span);
+    let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();
+    let own = symbols.filter(|symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived));
+    let moved = |place: Span| Span::new(span.start + place.start, span.start + place.end);
+    own.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
+}
+
+/// What the comment with which a file begins says of it.
+pub(super) fn heading(text: &str) -> String {
+    let lines = text.lines().map_while(|line| line.strip_prefix('#')).map(str::trim);
+    lines.collect::<Vec<_>>().join(" ")
+}

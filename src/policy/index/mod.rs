@@ -1,0 +1,218 @@
+//! What is known of every place in a policy's text: for editors, which ask while it is being written.
+//!
+//! [`Index::new`] reads any text, with faults or without. `declare` finds the names that it gives and where they are known, `import`
+//! those that other files bring, `resolve` what each word means; all work on tokens, so that a fault hides nothing but itself. Only
+//! types of derived and local values come from the compiler, and where it cannot tell, from the index before.
+
+mod candidate;
+mod context;
+mod declare;
+mod hover;
+mod import;
+mod rename;
+mod resolve;
+mod state;
+mod symbol;
+mod type_name;
+mod words;
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Source, Span};
+
+use super::format::{Token, TokenKind, tokens};
+use super::load::{self, FILE_LIMIT, Library};
+use super::lower;
+use super::types::Type;
+
+use import::Import;
+use resolve::Resolved;
+use symbol::{Meaning, Use};
+
+pub use candidate::{Candidate, CandidateKind};
+pub use hover::Hover;
+pub use rename::RenameError;
+pub use symbol::{Role, Symbol, SymbolKind};
+
+/// What is known of a policy's text.
+///
+/// ```
+/// use vibrissa::{diagnostic::Source, policy::index::Index};
+/// let source = Source::new("still.fsm", "machine still  initial Still  state Still { stop }");
+/// let index = Index::new(&source, None);
+/// let used = source.text.find("Still").unwrap();
+/// assert_eq!(source.slice(index.definition(used).unwrap()), "Still");
+/// assert_eq!(index.references(used).len(), 2);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Index {
+    source: Source,
+    /// Those of the text itself, and behind them those that other files bring.
+    symbols: Vec<Symbol>,
+    /// How many of them are the text's own.
+    own: usize,
+    imports: Vec<Import>,
+    /// For every part of the source, the `use` that leads to it.
+    ways: Vec<Option<Span>>,
+    resolved: Resolved,
+    /// Whether its syntax has no fault.
+    is_read: bool,
+}
+
+/// Adds to a source, as parts, all files that it uses, as [`gather`](super::gather) does; also those of a `use` that is being
+/// written and at fault behind the file's name.
+#[must_use]
+pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
+    complete(load::load(source, library).source, library)
+}
+
+/// Adds the files of each `use` that is at fault.
+fn complete(mut source: Source, library: &mut Library<'_>) -> Source {
+    let files = import::imports(&source.name, &code_tokens(text(&source))).into_iter().filter_map(|import| import.file);
+    let files: Vec<String> = files.take(FILE_LIMIT).collect();
+    for name in files {
+        let is_known = (0..source.count()).any(|part| source.part_name(part) == name);
+        if !is_known && let Ok(text) = load::text_of(&source, &name, library) {
+            source.add(name, Ok(&text));
+        }
+    }
+    source
+}
+
+/// The text of the first part.
+fn text(source: &Source) -> &str {
+    source.slice(source.part_span(0))
+}
+
+impl Index {
+    /// Reads a text. Of the files that it uses only the standard library and parts of the source are known. Where the compiler cannot
+    /// tell types, they come from what was known of the text `before`.
+    #[must_use]
+    pub fn new(source: &Source, before: Option<&Self>) -> Self {
+        let refuse = &mut |_: &str| Err(String::new());
+        let loaded = load::load(source, refuse);
+        let (is_read, ways) = (loaded.is_read(), loaded.ways());
+        let (source, files) = loaded.known();
+        let source = complete(source, refuse);
+        let text = text(&source);
+        let tokens = code_tokens(text);
+        let mut symbols = declare::declare(text, &tokens, declare::is_balanced(&tokens)).finish(text);
+        let own = symbols.len();
+        let imports = import::imports(&source.name, &tokens);
+        for import in imports.iter().take(FILE_LIMIT) {
+            import::bring(&source, import, &mut symbols, own);
+        }
+        let types = files.as_ref().map(lower::types).unwrap_or_default();
+        let known = before.map(Self::types).unwrap_or_default();
+        for index in 0..symbols.len() {
+            let symbol = &symbols[index];
+            let of_before = || known.get(&identity(&symbols, symbol)).copied().filter(|_| symbol.kind.is_value());
+            symbols[index].r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied()).or_else(of_before);
+        }
+        let resolved = resolve::resolve(&source, &tokens, &symbols, own, &imports);
+        Self { source, symbols, own, imports, ways, resolved, is_read }
+    }
+
+    /// The text, and those of all files that it uses as parts.
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The names that the text gives, in their order. [`Symbol::owner`] is a place in this list.
+    #[must_use]
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.symbols[..self.own]
+    }
+
+    /// The `use` in the text that leads to a part of the source, be it through other files.
+    #[must_use]
+    pub fn way_to(&self, part: usize) -> Option<Span> {
+        self.ways.get(part).copied().flatten()
+    }
+
+    /// The file that gives a symbol, if it is another.
+    fn file_of(&self, symbol: &Symbol) -> Option<&str> {
+        let part = self.source.part_at(symbol.span.start);
+        (part > 0).then(|| self.source.part_name(part))
+    }
+
+    /// Where the name at a byte is given, maybe in another part of the [source](Self::source); the beginning of the file that is
+    /// named there.
+    #[must_use]
+    pub fn definition(&self, at: usize) -> Option<Span> {
+        match self.use_at(at)?.meaning {
+            Meaning::Symbol(index, _) => Some(self.symbols[index].span),
+            Meaning::File(part) => {
+                let start = self.source.part_span(part).start;
+                Some(Span::new(start, start))
+            }
+            _ => None,
+        }
+    }
+
+    /// Every place in the text of what the name at a byte stands for, in their order; none if it is no name that files give.
+    #[must_use]
+    pub fn references(&self, at: usize) -> Vec<(Span, Role)> {
+        let Some((_, wanted)) = self.symbol_at(at) else { return Vec::new() };
+        let places = self.resolved.uses.iter().filter_map(|known| match known.meaning {
+            Meaning::Symbol(index, role) if index == wanted => Some((known.span, role)),
+            _ => None,
+        });
+        places.collect()
+    }
+
+    /// How a symbol is written, without its braces and on one line: `law swipe(w: whisker)`.
+    #[must_use]
+    pub fn head(&self, symbol: &Symbol) -> String {
+        let whole = self.source.slice(symbol.whole);
+        let until = match symbol.kind {
+            SymbolKind::Whisker => return format!("whisker {}", symbol.name),
+            SymbolKind::Law | SymbolKind::State => whole.find('{').unwrap_or(whole.len()),
+            _ => whole.len(),
+        };
+        let mut words = String::new();
+        for line in whole[..until].lines() {
+            let code = line.split_once('#').map_or(line, |(code, _)| code);
+            for word in code.split_whitespace() {
+                words += if words.is_empty() { "" } else { " " };
+                words += word;
+            }
+        }
+        words
+    }
+
+    /// The word at a byte; the one that ends there, if none begins.
+    fn use_at(&self, at: usize) -> Option<Use> {
+        let uses = &self.resolved.uses;
+        let behind = uses.partition_point(|known| known.span.start <= at);
+        let before = behind.checked_sub(1).and_then(|index| uses.get(index))?;
+        (at <= before.span.end).then_some(*before)
+    }
+
+    /// The name at a byte and what it stands for, if the text gives it.
+    fn symbol_at(&self, at: usize) -> Option<(Span, usize)> {
+        let known = self.use_at(at)?;
+        match known.meaning {
+            Meaning::Symbol(index, _) => Some((known.span, index)),
+            _ => None,
+        }
+    }
+
+    fn types(&self) -> HashMap<Identity<'_>, Type> {
+        let typed = self.symbols.iter().filter_map(|symbol| symbol.r#type.map(|r#type| (symbol, r#type)));
+        typed.map(|(symbol, r#type)| (identity(&self.symbols, symbol), r#type)).collect()
+    }
+}
+
+/// By what a symbol is known again when the text has changed: its name, and that of what it stands in.
+type Identity<'s> = (&'s str, Option<&'s str>);
+
+fn identity<'s>(symbols: &'s [Symbol], symbol: &'s Symbol) -> Identity<'s> {
+    (&symbol.name, symbol.owner.and_then(|owner| symbols.get(owner)).map(|owner| owner.name.as_str()))
+}
+
+/// The tokens of a text without its comments.
+fn code_tokens(text: &str) -> Vec<Token<'_>> {
+    tokens(text).into_iter().filter(|token| token.kind != TokenKind::Comment).collect()
+}

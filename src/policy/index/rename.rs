@@ -1,0 +1,115 @@
+//! Giving something another name.
+
+use thiserror::Error;
+
+use crate::diagnostic::Span;
+use crate::policy::grammar::is_keyword;
+use crate::policy::lower::is_reserved;
+
+use super::Index;
+use super::symbol::{Meaning, Symbol, SymbolKind};
+
+/// Why something cannot be given another name.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum RenameError {
+    /// There is no name at the place.
+    #[error("there is no name here; point at the name of a state, a law, a value or a whisker")]
+    NoName,
+    /// The text could not be read.
+    #[error("the policy has a fault of syntax, so that not every place of a name is known; mend that first")]
+    Unreadable,
+    /// It belongs to the language.
+    #[error("`{0}` belongs to the language and keeps its name")]
+    BuiltIn(String),
+    /// Nothing is called so.
+    #[error("nothing is called `{0}`; mend that first")]
+    Unknown(String),
+    /// The new name is none.
+    #[error("`{0}` cannot be a name; a name has letters from a to z, digits and `_`, and does not begin with a digit")]
+    Malformed(String),
+    /// The new name is a word of the language, or of a function.
+    #[error("`{0}` has a meaning of its own in the language; choose another name")]
+    Reserved(String),
+    /// Another file gives the name.
+    #[error("`{name}` is given in `{file}` and keeps its name here; rename it there")]
+    Foreign {
+        /// The name.
+        name: String,
+        /// The file.
+        file: String,
+    },
+    /// A file that is used brings the new name.
+    #[error("the name `{name}` is brought from `{file}`; choose another name")]
+    Brought {
+        /// The new name.
+        name: String,
+        /// The file.
+        file: String,
+    },
+    /// The new name is taken.
+    #[error("the name `{name}` is given in line {line} already; choose another name")]
+    Taken {
+        /// The new name.
+        name: String,
+        /// The line, from 1.
+        line: usize,
+    },
+}
+
+impl Index {
+    /// The name at a byte, if it can be changed.
+    ///
+    /// # Errors
+    /// What is there keeps its name, or is not known well enough.
+    pub fn renamable(&self, at: usize) -> Result<Span, RenameError> {
+        self.to_rename(at).map(|(span, _)| span)
+    }
+
+    /// The places at which `name` must be written for what the name at a byte stands for to be called so.
+    ///
+    /// # Errors
+    /// The name cannot be changed, or not to this one.
+    pub fn rename(&self, at: usize, name: &str) -> Result<Vec<Span>, RenameError> {
+        let (_, index) = self.to_rename(at)?;
+        let symbol = &self.symbols[index];
+        let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        if name.is_empty() || !name.chars().all(is_part) || name.starts_with(|first: char| first.is_ascii_digit()) {
+            return Err(RenameError::Malformed(name.to_owned()));
+        }
+        if is_keyword(name) || is_reserved(name) {
+            return Err(RenameError::Reserved(name.to_owned()));
+        }
+        let others = self.symbols.iter().enumerate().filter(|&(other, _)| other != index);
+        if let Some((_, other)) = others.into_iter().find(|(_, other)| other.name == name && meet(symbol, other)) {
+            if let Some(file) = self.file_of(other) {
+                return Err(RenameError::Brought { name: name.to_owned(), file: file.to_owned() });
+            }
+            let line = self.source.line_column(other.span.start).line;
+            return Err(RenameError::Taken { name: name.to_owned(), line });
+        }
+        Ok(self.references(at).into_iter().map(|(span, _)| span).collect())
+    }
+
+    fn to_rename(&self, at: usize) -> Result<(Span, usize), RenameError> {
+        let known = self.use_at(at).ok_or(RenameError::NoName)?;
+        let text = self.source.slice(known.span).to_owned();
+        match known.meaning {
+            Meaning::Symbol(index, _) if index >= self.own => {
+                let file = self.file_of(&self.symbols[index]).unwrap_or_default().to_owned();
+                Err(RenameError::Foreign { name: text, file })
+            }
+            Meaning::Symbol(index, _) if self.is_read => Ok((known.span, index)),
+            Meaning::Symbol(..) => Err(RenameError::Unreadable),
+            Meaning::File(_) => Err(RenameError::NoName),
+            Meaning::Unknown => Err(RenameError::Unknown(text)),
+            _ => Err(RenameError::BuiltIn(text)),
+        }
+    }
+}
+
+/// Whether there is a place at which both are known, so that they cannot have one name. The machine's name is a thing apart.
+fn meet(a: &Symbol, b: &Symbol) -> bool {
+    let (a_reach, b_reach) = (a.visible.to(a.span), b.visible.to(b.span));
+    let apart = a_reach.end <= b_reach.start || b_reach.end <= a_reach.start;
+    !apart && a.kind != SymbolKind::Machine && b.kind != SymbolKind::Machine
+}

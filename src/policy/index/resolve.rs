@@ -1,0 +1,187 @@
+//! What the words of a text mean, given what it declares.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Source, Span};
+use crate::policy::builtins::{self, FUNCTIONS};
+use crate::policy::format::{Token, TokenKind};
+use crate::policy::types::{Type, dimension};
+use crate::units::parse_unit;
+
+use super::declare::place;
+use super::import::Import;
+use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
+use super::type_name::type_name;
+use super::words::{Place, Word, word};
+
+/// The words of a text with their meanings, in their order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Resolved {
+    pub(super) uses: Vec<Use>,
+    /// What stands before each `.`, where it is known, by the byte of the `.`.
+    pub(super) owners: HashMap<usize, Owner>,
+}
+
+/// What stands before a `.`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Owner {
+    /// A value of this type.
+    Value(Type),
+    /// This symbol, a state.
+    State(usize),
+}
+
+/// Finds the meaning of every word among `tokens`, those of the first part of a source without its comments. `imports` are the
+/// uses of files among them; the symbols behind the first `own` are those that they bring.
+pub(super) fn resolve(
+    source: &Source,
+    tokens: &[Token<'_>],
+    symbols: &[Symbol],
+    own: usize,
+    imports: &[Import],
+) -> Resolved {
+    let mut names = Names::new(symbols);
+    let mut resolved = Resolved::default();
+    // The operand that ends with the token before, and what each open parenthesis is called on.
+    let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
+    // Where the name of a type ends that is being read.
+    let mut type_end = 0;
+    for (index, token) in tokens.iter().enumerate() {
+        names.advance(token.start);
+        let last = imports.partition_point(|import| import.tokens.start < index).checked_sub(1);
+        if last.is_some_and(|last| imports[last].tokens.contains(&index)) {
+            continue;
+        }
+        let before = index.checked_sub(1).map(|before| tokens[before]);
+        let is_before = |text: &str| before.is_some_and(|before| before.text == text);
+        let is_word = matches!(token.kind, TokenKind::Name | TokenKind::Keyword);
+        let meaning = match token.kind {
+            _ if is_word && is_before(":") => {
+                let named = type_name(tokens, index);
+                type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
+                named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type)
+            }
+            TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
+            TokenKind::Name if is_before("mark") => {
+                word(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Word(word.text))
+            }
+            // A member, or a state within another: `-> Outer(w).Inner`.
+            TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
+                Owner::Value(owner) => member(owner, token.text),
+                Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
+            }),
+            TokenKind::Name => {
+                let role = if is_before("set") { Role::Writes } else { Role::Reads };
+                names.meaning(place(*token), token.text, role)
+            }
+            TokenKind::Keyword => word(token.text).map(|word| Meaning::Word(word.text)),
+            TokenKind::Unit => {
+                parse_unit(&token.text.replace('*', " ")).ok().map(|unit| Meaning::Unit(unit.dimension()))
+            }
+            _ => None,
+        };
+        operand = match (token.kind, token.text, meaning) {
+            (TokenKind::Mark, ".", _) => {
+                resolved.owners.extend(operand.map(|owner| (token.start, owner)));
+                operand
+            }
+            (TokenKind::Mark, "(", _) => {
+                let is_call = before.is_some_and(|before| before.kind == TokenKind::Name);
+                calls.push(operand.filter(|_| is_call));
+                None
+            }
+            (TokenKind::Mark, ")", _) => calls.pop().flatten(),
+            (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
+            (TokenKind::Name, "run", Some(Meaning::Word(_))) => Some(Owner::Value(Type::Run)),
+            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
+                Some(Owner::State(symbol))
+            }
+            (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type.map(Owner::Value),
+            (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
+            _ => None,
+        };
+        if is_word || token.kind == TokenKind::Unit {
+            resolved.uses.push(Use { span: place(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
+        }
+    }
+    resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, own, import)));
+    resolved.uses.sort_by_key(|known| known.span.start);
+    resolved
+}
+
+/// The meanings of what stands in a `use`.
+fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -> Vec<Use> {
+    let part = import.part(source);
+    let brought = |name: &str| {
+        let is_meant = |symbol: &Symbol| symbol.name == name && Some(source.part_at(symbol.span.start)) == part;
+        symbols[own..].iter().position(is_meant).map(|index| Meaning::Symbol(own + index, Role::Reads))
+    };
+    let file = Use { span: import.from, meaning: part.map_or(Meaning::Unknown, Meaning::File) };
+    let names = import.names.iter().flatten();
+    let names = names.map(|&span| Use { span, meaning: brought(source.slice(span)).unwrap_or(Meaning::Unknown) });
+    std::iter::once(file).chain(names).collect()
+}
+
+/// Whether a word has its meaning behind `mark` alone.
+fn is_mark(word: &Word) -> bool {
+    word.places == [Place::Mark]
+}
+
+fn member(owner: Type, name: &str) -> Option<Meaning> {
+    let member = builtins::members(owner).iter().find(|member| member.name == name)?;
+    Some(Meaning::Member(owner, *member))
+}
+
+/// The names that are known at a place that moves through the text.
+struct Names<'s> {
+    symbols: &'s [Symbol],
+    declared: HashMap<Span, usize>,
+    /// Symbols in the order in which they come to be known, and how many of them are.
+    order: Vec<usize>,
+    begun: usize,
+    /// For every name the symbols that it stands for, the innermost last; some may be known no longer.
+    known: HashMap<&'s str, Vec<usize>>,
+}
+
+impl<'s> Names<'s> {
+    fn new(symbols: &'s [Symbol]) -> Self {
+        // Nothing can refer to the machine.
+        let mut order: Vec<usize> =
+            (0..symbols.len()).filter(|&index| symbols[index].kind != SymbolKind::Machine).collect();
+        order.sort_by_key(|&index| symbols[index].visible.start);
+        let declared = symbols.iter().enumerate().map(|(index, symbol)| (symbol.span, index)).collect();
+        Self { symbols, declared, order, begun: 0, known: HashMap::new() }
+    }
+
+    fn advance(&mut self, at: usize) {
+        while let Some(&index) = self.order.get(self.begun)
+            && self.symbols[index].visible.start <= at
+        {
+            self.known.entry(&self.symbols[index].name).or_default().push(index);
+            self.begun += 1;
+        }
+    }
+
+    fn meaning(&mut self, span: Span, name: &str, role: Role) -> Option<Meaning> {
+        if let Some(&declared) = self.declared.get(&span) {
+            return Some(Meaning::Symbol(declared, Role::Declares));
+        }
+        if let Some(known) = self.known.get_mut(name) {
+            // Braces are nested, so that what came to be known last ceases to be known first.
+            while known.last().is_some_and(|&index| self.symbols[index].visible.end <= span.start) {
+                known.pop();
+            }
+            if let Some(&index) = known.last() {
+                return Some(Meaning::Symbol(index, role));
+            }
+        }
+        match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
+            Some(function) => Some(Meaning::Function(function)),
+            None => word(name).filter(|word| !is_mark(word)).map(|word| Meaning::Word(word.text)),
+        }
+    }
+
+    fn state(&self, name: &str) -> Option<usize> {
+        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == SymbolKind::State)
+    }
+}

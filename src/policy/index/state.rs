@@ -1,0 +1,89 @@
+//! States that can be written at a place.
+
+use std::collections::HashSet;
+
+use crate::machine::NESTING_LIMIT;
+
+use super::Index;
+use super::candidate::{Candidate, of_word};
+use super::context::Context;
+use super::symbol::SymbolKind;
+use super::words::{Place, words_of};
+
+impl Index {
+    /// What can stand behind `->`.
+    pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
+        let can_resume = !self.nesting().is_empty();
+        let words = words_of(Place::Target).filter(|word| can_resume || word.text != "resume");
+        self.states().map(|state| self.target(state, context)).chain(words.map(of_word)).collect()
+    }
+
+    /// What can stand behind `resume`.
+    pub(super) fn resumable(&self, context: &Context) -> Vec<Candidate> {
+        let nesting = self.nesting();
+        self.states().filter(|state| nesting.contains(state)).map(|state| self.target(state, context)).collect()
+    }
+
+    /// What can stand behind `initial`: in a state those that lie directly in it, outside those that a run can start in.
+    pub(super) fn beginnings(&self, context: &Context) -> Vec<Candidate> {
+        let around = self.state_around(context);
+        let states = self.states().filter(|&state| {
+            let symbol = &self.symbols[state];
+            symbol.owner == around && (around.is_some() || symbol.arguments.is_empty())
+        });
+        states.map(|state| self.symbol(&self.symbols[state])).collect()
+    }
+
+    /// What can stand behind the `.` behind a state: those in it, if no state between takes values.
+    pub(super) fn inner_states(&self, outer: usize) -> Vec<Candidate> {
+        let is_near = |state: usize| {
+            let mut between = self.outward(state).skip(1).skip_while(|&on_way| {
+                on_way != outer && self.symbols.get(on_way).is_some_and(|on_way| on_way.arguments.is_empty())
+            });
+            between.next() == Some(outer)
+        };
+        self.states().filter(|&state| is_near(state)).map(|state| self.symbol(&self.symbols[state])).collect()
+    }
+
+    /// A state as a target: behind those outer ones that are entered on the way and take values.
+    fn target(&self, target: usize, context: &Context) -> Candidate {
+        let around = self.state_around(context);
+        let stays = |outer: usize| {
+            outer != target && around.is_some_and(|around| self.outward(around).any(|active| active == outer))
+        };
+        let mut way: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
+        way.reverse();
+        way.retain(|&state| state == target || !self.symbols[state].arguments.is_empty());
+        let mut fields = 0;
+        let steps = way.into_iter().map(|state| {
+            let state = &self.symbols[state];
+            let values = state.arguments.iter().map(|argument| {
+                fields += 1;
+                format!("${{{fields}:{argument}}}")
+            });
+            let values = values.collect::<Vec<_>>().join(", ");
+            if values.is_empty() { state.name.clone() } else { format!("{}({values})", state.name) }
+        });
+        let snippet = steps.collect::<Vec<_>>().join(".");
+        Candidate { snippet, ..self.symbol(&self.symbols[target]) }
+    }
+
+    fn states(&self) -> impl Iterator<Item = usize> {
+        (0..self.own).filter(|&index| self.symbols[index].kind == SymbolKind::State)
+    }
+
+    /// The states that have others in them.
+    fn nesting(&self) -> HashSet<usize> {
+        self.states().filter_map(|state| self.symbols[state].owner).collect()
+    }
+
+    /// The state that a place is in, the innermost.
+    fn state_around(&self, context: &Context) -> Option<usize> {
+        self.states().find(|&state| Some(self.symbols[state].span) == context.state)
+    }
+
+    /// A state and those that it lies in, the innermost first; no more than a policy can have.
+    fn outward(&self, state: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(state), |&state| self.symbols.get(state)?.owner).take(NESTING_LIMIT)
+    }
+}

@@ -1,0 +1,239 @@
+//! The words of the language: where each may stand, how it is used, what it does.
+
+/// Where a word may stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// First in a file.
+    File,
+    /// Outside of all braces.
+    Item,
+    /// Between the braces of a state.
+    State,
+    /// Between the braces of a test.
+    Test,
+    /// Between any braces.
+    Statement,
+    /// Within a statement.
+    Inside,
+    /// Where a value is due.
+    Value,
+    /// Where a value of a whole run is due.
+    Run,
+    /// Where the name of a state is due.
+    Target,
+    /// Behind `mark`.
+    Mark,
+}
+
+/// A word of the language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Word {
+    pub(super) text: &'static str,
+    pub(super) places: &'static [Place],
+    /// What to write, with `${1:…}` for what is to be filled in.
+    pub(super) snippet: &'static str,
+    pub(super) meaning: &'static str,
+}
+
+impl Word {
+    /// Whether a statement, a transition or an item begins with it.
+    pub(super) fn begins_statement(&self) -> bool {
+        use Place::{File, Item, State, Statement, Test};
+        self.places.iter().any(|place| [File, Item, State, Statement, Test].contains(place))
+    }
+
+    /// How it is used: the snippet without its marks.
+    pub(super) fn usage(&self) -> String {
+        let mut usage = String::new();
+        for (index, part) in self.snippet.split("${").enumerate() {
+            match part.split_once('}').filter(|_| index > 0) {
+                Some((field, rest)) => {
+                    usage += field.split_once(':').map_or("\u{2026}", |(_, name)| name);
+                    usage += rest;
+                }
+                None => usage += part,
+            }
+        }
+        usage
+    }
+}
+
+const fn entry(text: &'static str, places: &'static [Place], snippet: &'static str, meaning: &'static str) -> Word {
+    Word { text, places, snippet, meaning }
+}
+
+const FILE: &[Place] = &[Place::File];
+const ITEM: &[Place] = &[Place::Item];
+const STATE: &[Place] = &[Place::State];
+const ITEM_OR_STATE: &[Place] = &[Place::Item, Place::State];
+const STATEMENT: &[Place] = &[Place::State, Place::Statement];
+const INSIDE: &[Place] = &[Place::Inside];
+const VALUE: &[Place] = &[Place::Value];
+const TRUTH: &[Place] = &[Place::Value, Place::Run];
+const TARGET: &[Place] = &[Place::Target];
+const MARK: &[Place] = &[Place::Mark];
+
+/// Every word of the language that is no function.
+pub(super) const WORDS: [Word; 47] = [
+    entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
+    entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
+    entry(
+        "use",
+        ITEM,
+        "use ${1:std.swipe}",
+        "Makes laws and derived values of another file known: all, or those in parentheses behind it.",
+    ),
+    entry("whisker", ITEM, "whisker ${1:name}", "Binds whiskers of the rig by name."),
+    entry(
+        "param",
+        ITEM,
+        "param ${1:name} = ${2:50 mm/s} in ${3:1} .. ${4:200 mm/s}",
+        "A number that a run may set within the range.",
+    ),
+    entry(
+        "initial",
+        ITEM_OR_STATE,
+        "initial ${1:State}",
+        "The state that a run starts in, one without arguments; within a state, the one in it that it begins in.",
+    ),
+    entry("law", ITEM, "law ${1:name}(${2:w: whisker}) {\n  ${0}\n}", "Statements under a name, for `do`."),
+    entry(
+        "state",
+        ITEM_OR_STATE,
+        "state ${1:Name} {\n  ${0}\n}",
+        "A state: its statements, its transitions, and the states in it.",
+    ),
+    entry(
+        "always",
+        ITEM,
+        "always when ${1:condition} -> ${2:Target}",
+        "A transition of every state, tried before those of the state itself.",
+    ),
+    entry(
+        "failsafe",
+        ITEM_OR_STATE,
+        "failsafe -> ${1:Target}",
+        "Where to go when a state cannot go on: its command is not finite, or a tick wants too many transitions.",
+    ),
+    entry(
+        "test",
+        ITEM,
+        "test \"${1:title}\" in \"${2:scenario.yaml}\" {\n  expect ${0}\n}",
+        "A run of the policy in a scenario, and what must be true of it.",
+    ),
+    entry(
+        "let",
+        &[Place::Item, Place::State, Place::Statement],
+        "let ${1:name} = ${2:value}",
+        "Names a value. Outside of braces it is computed anew wherever it is used, and may have arguments.",
+    ),
+    entry(
+        "when",
+        STATE,
+        "when ${1:condition} -> ${2:Target}",
+        "A transition that is due when the condition holds; with `for`, when it has held at every tick for that time.",
+    ),
+    entry(
+        "after",
+        STATE,
+        "after ${1:5 s} -> ${2:Target}",
+        "A transition that is due when the state has been active for that time.",
+    ),
+    entry(
+        "var",
+        STATE,
+        "var ${1:name} = ${2:value}",
+        "Keeps a value from tick to tick: it is set when the state is entered, and by `set`.",
+    ),
+    entry("entry", STATE, "entry {\n  ${0}\n}", "Statements for when the state is entered, after its memory is set."),
+    entry("exit", STATE, "exit {\n  ${0}\n}", "Statements for when the state is left."),
+    entry(
+        "set",
+        &[Place::State, Place::Statement, Place::Test],
+        "set ${1:name} = ${2:value}",
+        "Changes the memory of the state; in a test, gives a parameter its value for the run.",
+    ),
+    entry("expect", &[Place::Test], "expect ${1:run.completed}", "What must be true at the end of the run."),
+    entry("if", STATEMENT, "if ${1:condition} {\n  ${0}\n}", "Runs the first block whose condition holds."),
+    entry("do", STATEMENT, "do ${1:law}(${2:w})", "Runs a law's statements."),
+    entry(
+        "record",
+        STATEMENT,
+        "record ${1:w}",
+        "Takes the tip of a whisker that touches as a point of the measured contour.",
+    ),
+    entry(
+        "mark",
+        STATEMENT,
+        "mark ${1:lost} ${2:w}",
+        "Notes for the score that a whisker has lost the object's edge, or has found contact again.",
+    ),
+    entry(
+        "steer",
+        STATEMENT,
+        "steer ${1:body} along ${2:direction} at ${3:speed} facing ${4:angle}",
+        "Moves the body, or the base of a whisker, in a direction of the world at a speed, and turns the body.",
+    ),
+    entry("hold", STATEMENT, "hold", "Keeps the last command."),
+    entry("stop", STATEMENT, "stop", "Stands still."),
+    entry("else", INSIDE, "else {\n  ${0}\n}", "What is run when no condition before it holds."),
+    entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
+    entry(
+        "in",
+        INSIDE,
+        "in ${1:low} .. ${2:high}",
+        "The range within which a run may set the parameter; of a test, the scenario's file.",
+    ),
+    entry("of", INSIDE, "of ${1:length}", "The dimension of a vector's parts."),
+    entry("along", INSIDE, "along ${1:direction}", "The direction of the motion, a vector of any length."),
+    entry("at", INSIDE, "at ${1:speed}", "The speed of the motion."),
+    entry("facing", INSIDE, "facing ${1:angle}", "The heading to which the body turns, the shorter way."),
+    entry("turning", INSIDE, "turning ${1:0 deg/s}", "The rate at which the body turns, counter-clockwise positive."),
+    entry("and", INSIDE, "and", "Holds where both sides do."),
+    entry("or", INSIDE, "or", "Holds where one side does, or both do."),
+    entry("->", INSIDE, "-> ${1:Target}", "Leads to a state."),
+    entry("not", TRUTH, "not", "Holds where the comparison behind it does not."),
+    entry("true", TRUTH, "true", "Always holds."),
+    entry("false", TRUTH, "false", "Never holds."),
+    entry("body", VALUE, "body", "The platform."),
+    entry("time", VALUE, "time", "The time since the start of the run."),
+    entry("run", &[Place::Run], "run", "The whole run, of which a test expects something."),
+    entry("resume", TARGET, "resume ${1:State}", "Enters a state, and in it the one that was active last."),
+    entry("lost", MARK, "lost", "The whisker has lost the object's edge."),
+    entry("found", MARK, "found", "The whisker has found contact again."),
+    entry("Failure", TARGET, "Failure(\"${1:reason}\")", "Ends the run as failed; the platform stands still."),
+];
+
+/// The word of the language that is written `text`.
+pub(super) fn word(text: &str) -> Option<&'static Word> {
+    WORDS.iter().find(|word| word.text == text)
+}
+
+/// The words that may stand in a place.
+pub(super) fn words_of(place: Place) -> impl Iterator<Item = &'static Word> {
+    WORDS.iter().filter(move |word| word.places.contains(&place))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_of_the_grammar_is_explained() {
+        let grammar = include_str!("../../../grammar/fsm.pest");
+        let keywords = grammar.split_once("\nkeyword = @{").and_then(|(_, rest)| rest.split_once("!word_part"));
+        let keywords: Vec<&str> = keywords.map_or(Vec::new(), |(list, _)| list.split('"').skip(1).step_by(2).collect());
+        assert!(keywords.len() >= 30);
+        for keyword in keywords {
+            assert!(word(keyword).is_some_and(|word| !word.meaning.is_empty()), "{keyword}");
+        }
+    }
+
+    #[test]
+    fn the_usage_of_a_word_is_its_snippet_in_plain_text() {
+        let usage = |text| word(text).map(Word::usage);
+        assert_eq!(usage("do").as_deref(), Some("do law(w)"));
+        assert_eq!(usage("hold").as_deref(), Some("hold"));
+        assert_eq!(usage("if").as_deref(), Some("if condition {\n  \u{2026}\n}"));
+    }
+}
