@@ -7,5 +7,6 @@ mod answered;
 mod erratic;
 
 libfuzzer_sys::fuzz_target!(|text: &str| {
+    answered::is_answered_the_same(text);
     answered::is_handled(text);
 });

@@ -105,7 +105,9 @@ pub(super) fn library(path: &str) -> Result<String, String> {
     File::open(path).and_then(read_text).map_err(|cause| {
         let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
         let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
-        let siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+        let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+        // Of names that are equally near the first is suggested, and a folder has no order of its own.
+        siblings.sort_unstable();
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
             Some(meant) => format!("{cause}; did you mean `{meant}`?"),

@@ -15,6 +15,8 @@ const NUMBERS: [f64; 14] =
 /// Senses that say now this, now that, but know how many whiskers there are.
 struct Erratic {
     whiskers: usize,
+    /// Whether every number is one that a rig may say.
+    is_sound: bool,
     tick: usize,
     said: Cell<usize>,
 }
@@ -24,7 +26,7 @@ impl Erratic {
         self.said.set(self.said.get() + 1);
         // Half of the ticks are of sound mind.
         let choice = self.said.get().wrapping_mul(0x9E37_79B9) >> 7;
-        NUMBERS[choice % if self.tick.is_multiple_of(2) { 8 } else { NUMBERS.len() }]
+        NUMBERS[choice % if self.is_sound || self.tick.is_multiple_of(2) { 8 } else { NUMBERS.len() }]
     }
 
     fn vector(&self) -> Vector2 {
@@ -79,13 +81,20 @@ impl Senses for Erratic {
 }
 
 /// Runs a program for a hundred ticks: it must not panic, ask for a whisker that it has not, or give a command that is not
-/// finite or is beyond the rig's limits.
+/// finite or is beyond the rig's limits. Where all numbers are finite, a machine comes to more of its states before it fails.
 pub(crate) fn run(program: Program) {
+    let program = Arc::new(program);
+    for is_sound in [true, false] {
+        run_on(&program, is_sound);
+    }
+}
+
+fn run_on(program: &Arc<Program>, is_sound: bool) {
     let rig = Rig::default();
     let whiskers: Vec<usize> = (0..program.whiskers.len()).map(|index| index % rig.whiskers.len()).collect();
     let mut steering = Steering::new(&rig, &whiskers);
-    let mut senses = Erratic { whiskers: program.whiskers.len(), tick: 0, said: Cell::new(0) };
-    let mut machine = Machine::new(Arc::new(program));
+    let mut senses = Erratic { whiskers: program.whiskers.len(), is_sound, tick: 0, said: Cell::new(0) };
+    let mut machine = Machine::new(program.clone());
     for tick in 0..100 {
         senses.tick = tick;
         let action = machine.tick(&mut senses).action;

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 use std::{env, fmt, thread};
 
-use crate::answered::is_handled;
+use crate::answered::{is_answered_the_same, is_handled};
 use crate::random::Random;
 use crate::{STACK, THESIS, memory, mutate};
 
@@ -35,7 +35,14 @@ fn campaign(seed: u64, texts: usize) -> Report {
             // Every text has a seed of its own, so that one can be made again alone.
             let text = mutate::input(&corpus, &mut Random(seed.wrapping_add(index as u64)));
             let start = Instant::now();
-            let (handled, peak) = memory::peak(|| catch_unwind(AssertUnwindSafe(|| is_handled(&text))));
+            let handle = || {
+                // Asking again takes several times as long, so only a part is.
+                if index.is_multiple_of(16) {
+                    is_answered_the_same(&text);
+                }
+                is_handled(&text)
+            };
+            let (handled, peak) = memory::peak(|| catch_unwind(AssertUnwindSafe(handle)));
             let mut time = start.elapsed();
             if time > report.slowest.0 {
                 // Something else may have had the processor.
@@ -77,7 +84,7 @@ impl Report {
     fn check(&self) {
         assert!(self.panics.is_empty(), "{self}");
         assert!(self.largest.0 < MOST_MEMORY, "too large: {self}");
-        assert!(self.compiled > self.texts / 10, "hardly any compiles: {self}");
+        assert!(self.compiled > self.texts * 3 / 20, "hardly any compiles: {self}");
     }
 }
 

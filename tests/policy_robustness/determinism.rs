@@ -7,12 +7,13 @@ use std::{fs, thread};
 use vibrissa::diagnostic::{Diagnostic, Source};
 use vibrissa::policy::compile_with_warnings;
 
+use crate::answered::source;
 use crate::random::Random;
 use crate::{THESIS, mutate};
 
 /// What a text gives: the bytes of its machine and the warnings, or the faults.
 fn result(text: &str) -> Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let compiled = compile_with_warnings(&Source::new("policy.fsm", text))?;
+    let compiled = compile_with_warnings(&source(text))?;
     Ok((compiled.artifact.to_bytes().unwrap(), compiled.warnings))
 }
 

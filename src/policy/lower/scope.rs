@@ -87,7 +87,9 @@ impl<'f> Compiler<'f> {
             let diagnostic = in_the_standard_library(did_you_mean(diagnostic, text, known), text);
             let is_whisker =
                 |(_, meaning): &(&&str, &Meaning)| meaning.is_some_and(|value| value.r#type == Type::Whisker);
-            let whiskers = self.names().globals.iter().filter(is_whisker).map(|(&known, _)| known);
+            let mut whiskers: Vec<_> =
+                self.names().globals.iter().filter(is_whisker).map(|(&known, _)| known).collect();
+            whiskers.sort_unstable();
             match suggest(text, whiskers) {
                 Some(whisker) => diagnostic
                     .hint(format!("to use another whisker of the rig, bind it too: `whisker {whisker}, {text}`")),
