@@ -1,6 +1,7 @@
 //! The policy language: compiling the thesis's policy, and a tick of it beside the same law written in Rust by hand.
 //!
-//! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand.
+//! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand. The last is not reached: see
+//! `ARCHITECTURE.md`.
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
@@ -71,6 +72,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                 black_box(by_hand.tick(&mut black_box(senses)));
             }
         });
+    });
+    group.finish();
+
+    // What a robot pays: the same, asking perception itself, which computes what it is asked for.
+    let felt = control.perception();
+    let mut group = criterion.benchmark_group("policy_tick_and_perception");
+    group.bench_function("machine", |bencher| {
+        let (mut machine, mut felt) = (machine.clone(), felt.clone());
+        bencher.iter(|| black_box(machine.tick(black_box(&mut felt))));
+    });
+    group.bench_function("by hand", |bencher| {
+        let (mut by_hand, mut felt) = (by_hand.clone(), felt.clone());
+        bencher.iter(|| black_box(by_hand.tick(black_box(&mut felt))));
     });
     group.finish();
     criterion.final_summary();

@@ -228,7 +228,7 @@ fn describe(file: &str, machine: &Summary) -> String {
         text += &(parameters.trim_fmt() + "\n");
     }
     if let Some(failsafe) = &machine.failsafe {
-        text += &format!("failsafe -> {failsafe}\n");
+        text.extend(["failsafe -> ", failsafe, "\n"]);
     }
     text + &states.trim_fmt()
 }
