@@ -1,8 +1,6 @@
 //! The tutorial keeps what it promises: every step compiles, does what its tests say, and is warned of what the text says.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::path::Path;
-
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::policy::compile_with_warnings;
 
@@ -33,12 +31,12 @@ fn every_step_but_the_one_that_says_so_compiles_without_a_warning() {
 #[cfg(feature = "sim")]
 #[test]
 fn every_step_passes_its_own_tests() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tutorial");
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("tutorial");
     let _ = std::fs::remove_dir_all(&folder);
     for name in ["policies", "scenarios"] {
         std::fs::create_dir_all(folder.join(name)).unwrap();
     }
-    let disk = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/disk.yaml");
+    let disk = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/disk.yaml");
     std::fs::copy(disk, folder.join("scenarios/disk.yaml")).unwrap();
     for step in blocks("fsm") {
         std::fs::write(folder.join("policies/mine.fsm"), step).unwrap();
