@@ -108,7 +108,7 @@ fn mutated_and_generated_policies_are_handled_in_bounded_memory() {
 
 /// `cargo x fuzz` runs this.
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes minutes; `cargo x fuzz N` runs it on N texts"]
 #[expect(clippy::print_stdout, reason = "the figures are what it is run for")]
 fn as_many_policies_as_asked_for_are_handled_in_bounded_time_and_memory() {
     let texts = env::var("FUZZ_TEXTS").ok().and_then(|texts| texts.parse().ok()).unwrap_or(100_000);
