@@ -1,7 +1,6 @@
 //! The policy language: compiling the thesis's policy, and a tick of it beside the same law written in Rust by hand.
 //!
-//! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand. The last is not reached: see
-//! `ARCHITECTURE.md`.
+//! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand.
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
@@ -14,7 +13,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
 use disk::Disk;
-use recorded::Recorded;
+use recorded::{Felt, Recorded};
 use thesis::{State, Thesis};
 use vibrissa::machine::{Action, Machine, Turn};
 use vibrissa::policy::{compile, compile_with_warnings};
@@ -55,25 +54,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     agree(&machine, &by_hand, &run);
 
-    let mut group = criterion.benchmark_group("policy_tick");
-    group.throughput(Throughput::Elements(TICKS as u64));
-    group.bench_function("machine", |bencher| {
-        let mut machine = machine.clone();
-        bencher.iter(|| {
-            for senses in &run {
-                black_box(machine.tick(&mut black_box(senses)));
-            }
+    // One tick after the other, as in a loop; and ticks that have nothing to do with each other, of which the processor does
+    // several at a time. The first is what a tick takes.
+    let zero = black_box(0.0);
+    for (name, after) in [("policy_tick", Some(zero)), ("policy_tick_overlapping", None)] {
+        let mut group = criterion.benchmark_group(name);
+        group.throughput(Throughput::Elements(TICKS as u64));
+        group.bench_function("machine", |bencher| {
+            let mut machine = machine.clone();
+            bencher.iter(|| in_turn(&run, after, |senses| machine.tick(senses).action));
         });
-    });
-    group.bench_function("by hand", |bencher| {
-        let mut by_hand = by_hand.clone();
-        bencher.iter(|| {
-            for senses in &run {
-                black_box(by_hand.tick(&mut black_box(senses)));
-            }
+        group.bench_function("by hand", |bencher| {
+            let mut by_hand = by_hand.clone();
+            bencher.iter(|| in_turn(&run, after, |senses| by_hand.tick(senses)));
         });
-    });
-    group.finish();
+        group.finish();
+    }
 
     // What a robot pays: the same, asking perception itself, which computes what it is asked for.
     let felt = control.perception();
@@ -91,10 +87,27 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Ticks, each with what was felt in its turn: after the command before it, for a `zero` that the compiler does not know, or
+/// whenever the processor likes.
+#[inline]
+fn in_turn(run: &[Recorded], zero: Option<f64>, mut tick: impl FnMut(&mut Felt<'_>) -> Action) {
+    let mut command = 0.0;
+    for recorded in run {
+        let action = tick(&mut black_box(Felt { recorded, command }));
+        if let Some(zero) = zero
+            && let Some((_, [x, _, _, heading])) = steering(action)
+        {
+            command = zero * (x + heading);
+        }
+        black_box(action);
+    }
+}
+
 /// Panics unless the compiled policy and the one by hand do the same, and swipe throughout.
 fn agree(machine: &Machine, by_hand: &Thesis, run: &[Recorded]) {
     let (mut machine, mut by_hand) = (machine.clone(), by_hand.clone());
-    for mut senses in run {
+    for recorded in run {
+        let mut senses = Felt { recorded, command: 0.0 };
         let compiled = machine.tick(&mut senses).action;
         let expected = by_hand.tick(&mut senses);
         assert_eq!(machine.state_name(), "Swiping");

@@ -53,7 +53,7 @@ impl Grower<'_> {
     }
 
     fn number(&mut self, depth: u8) -> Shown<f64> {
-        let choice = self.pick(depth, 4, 26);
+        let choice = self.pick(depth, 4, 28);
         if choice >= 4 {
             return self.larger_number(choice, depth - 1);
         }
@@ -105,6 +105,16 @@ impl Grower<'_> {
             23 => shown(ATOM, format!("exp({})", a.text), a.value.exp()),
             24 => shown(ATOM, format!("floor({})", a.text), a.value.floor()),
             25 => shown(PRODUCT, format!("wrap(({}) * 1 rad) / 1 rad", a.text), wrap(a.value)),
+            26 => {
+                let (v, u) = (self.vector(depth), self.vector(depth));
+                let text = format!("|{}|", infix(SUM, "-", &v, &u, ()).text);
+                shown(ATOM, text, (v.value - u.value).norm())
+            }
+            27 => {
+                let (b, share) = (self.number(depth), self.number(depth));
+                let value = (1.0 - share.value) * a.value + share.value * b.value;
+                shown(ATOM, format!("blend({}, {}, {})", a.text, b.text, share.text), value)
+            }
             _ => self.pair(choice, &a, depth),
         }
     }
@@ -126,7 +136,7 @@ impl Grower<'_> {
     }
 
     fn vector(&mut self, depth: u8) -> Shown<Vector2> {
-        let choice = self.pick(depth, 1, 10);
+        let choice = self.pick(depth, 1, 11);
         if choice == 0 {
             return shown(ATOM, "w.contour.tangent", self.feel.tangent);
         }
@@ -151,6 +161,11 @@ impl Grower<'_> {
             5 => shown(ATOM, format!("rotate({}, ({}) * 1 rad)", v.text, a.text), rotate(v.value, a.value)),
             6 => infix(PRODUCT, "*", &a, &v, v.value * a.value),
             7 => infix(PRODUCT, "/", &v, &a, v.value / a.value),
+            10 => {
+                let u = self.vector(depth);
+                let text = format!("blend({}, {}, {})", v.text, u.text, a.text);
+                shown(ATOM, text, (1.0 - a.value) * v.value + a.value * u.value)
+            }
             8 => {
                 let u = self.vector(depth);
                 infix(SUM, "+", &v, &u, v.value + u.value)
@@ -199,13 +214,13 @@ impl Grower<'_> {
     }
 }
 
-/// The lesser of two numbers; not a number if either is not.
+/// The lesser of two numbers, the second of two zeros; not a number if either is not.
 fn lesser(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+    if a.is_nan() || b.is_nan() { f64::NAN } else if a < b { a } else { b }
 }
 
 fn greater(a: f64, b: f64) -> f64 {
-    -lesser(-a, -b)
+    if a.is_nan() || b.is_nan() { f64::NAN } else if a > b { a } else { b }
 }
 
 /// A number that expressions meet; the odd ones are as likely as the plain ones.

@@ -59,32 +59,47 @@ impl Recorded {
     }
 }
 
-impl Senses for &Recorded {
+/// What was felt after a command. In a loop nothing can be felt before that: every number waits for the one before it, so that
+/// the processor cannot do two ticks at once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Felt<'r> {
+    pub(crate) recorded: &'r Recorded,
+    /// Zero.
+    pub(crate) command: f64,
+}
+
+impl Felt<'_> {
+    fn vector(&self, recorded: Vector2) -> Vector2 {
+        recorded.add_scalar(self.command)
+    }
+}
+
+impl Senses for Felt<'_> {
     fn time(&self) -> f64 {
-        self.time
+        self.recorded.time + self.command
     }
 
     fn body(&self, quantity: BodyScalar) -> f64 {
         match quantity {
-            BodyScalar::Yaw => self.yaw,
+            BodyScalar::Yaw => self.recorded.yaw + self.command,
         }
     }
 
     fn body_position(&self) -> Vector2 {
-        self.position
+        self.vector(self.recorded.position)
     }
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
-        self.whiskers[whisker].scalars[quantity as usize]
+        self.recorded.whiskers[whisker].scalars[quantity as usize] + self.command
     }
 
     fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
-        self.whiskers[whisker].vectors[quantity as usize]
+        self.vector(self.recorded.whiskers[whisker].vectors[quantity as usize])
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
         let same = |&&(recorded, _): &&(f64, Vector2)| recorded.total_cmp(&deflection).is_eq();
-        self.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
+        self.recorded.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
     }
 
     fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {

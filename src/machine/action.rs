@@ -42,6 +42,7 @@ pub enum Turn {
 
 impl Action {
     /// Whether every number in the action is finite.
+    #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match *self {

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::action::Action;
-use super::evaluate::evaluate;
+use super::evaluate::{compute, evaluate};
 use super::failsafe::{Cause, Failsafe};
 use super::op::Block;
-use super::program::{Guard, Program, Target, Transition};
+use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
 use super::tick::{CHAIN_LIMIT, Failure};
 use super::way::Way;
@@ -51,7 +51,8 @@ impl Activity {
         &mut self,
         program: &Program,
         senses: &mut S,
-    ) -> (Result<Action, Failure>, Option<Failsafe>) {
+        action: &mut Action,
+    ) -> (Result<(), Failure>, Option<Failsafe>) {
         let now = senses.time();
         if !self.has_begun {
             self.has_begun = true;
@@ -64,9 +65,9 @@ impl Activity {
             }
             match due.take() {
                 None => {
-                    return match self.act(program, 0, senses) {
-                        Ok(action) => (Ok(action), None),
-                        Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses),
+                    return match self.act(program, 0, senses, action) {
+                        Ok(()) => (Ok(()), None),
+                        Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses, action),
                     };
                 }
                 Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
@@ -76,7 +77,7 @@ impl Activity {
                 Some((_, Target::State { .. })) => {}
             }
         }
-        self.leave(program, (self.state(), Cause::Chain), now, senses)
+        self.leave(program, (self.state(), Cause::Chain), now, senses, action)
     }
 
     /// What is due of the active states' transitions, from the outermost state to the innermost.
@@ -101,9 +102,9 @@ impl Activity {
     ) {
         let stays = program.stays(from, target);
         for left in program.outward(self.state()).take_while(|&left| Some(left) != stays) {
-            evaluate(&program.code, &program.states[left].exit, &mut self.registers, senses);
+            self.compute(program, &program.states[left].exit, senses);
         }
-        evaluate(&program.code, arguments, &mut self.registers, senses);
+        self.compute(program, arguments, senses);
         self.enter(program, stays, (target, resume), now, senses);
     }
 
@@ -125,7 +126,7 @@ impl Activity {
             let inner = match self.last_inner[self.state()] {
                 Some(last) if resume => last,
                 _ => {
-                    evaluate(&program.code, arguments, &mut self.registers, senses);
+                    self.compute(program, arguments, senses);
                     *initial
                 }
             };
@@ -145,21 +146,31 @@ impl Activity {
                 self.holding_since[timer] = None;
             }
         }
-        evaluate(&program.code, &state.entry, &mut self.registers, senses);
+        self.compute(program, &state.entry, senses);
     }
 
-    /// What the active states do, but for the `from` outermost: the last action that one of them gives. If it is not finite, the
-    /// state that gave it.
-    fn act<S: Senses>(&mut self, program: &Program, from: usize, senses: &mut S) -> Result<Action, usize> {
-        let mut given = None;
+    /// What the active states do, but for the `from` outermost: the last action that one of them gives, or to hold. If it is not
+    /// finite, the state that gave it.
+    fn act<S: Senses>(
+        &mut self,
+        program: &Program,
+        from: usize,
+        senses: &mut S,
+        action: &mut Action,
+    ) -> Result<(), usize> {
+        *action = Action::Hold;
+        let mut giver = self.state();
         for &state in &self.active.states()[from..] {
-            let action = evaluate(&program.code, &program.states[state].body, &mut self.registers, senses);
-            given = action.map(|action| (state, action)).or(given);
+            if evaluate(&program.code, &program.states[state].body, &mut self.registers, senses, action) {
+                giver = state;
+            }
         }
-        match given {
-            Some((state, action)) if !action.is_finite() => Err(state),
-            _ => Ok(given.map_or(Action::Hold, |(_, action)| action)),
-        }
+        if action.is_finite() { Ok(()) } else { Err(giver) }
+    }
+
+    /// Runs code that gives no action.
+    fn compute<S: Senses>(&mut self, program: &Program, block: &Block, senses: &mut S) {
+        compute(&program.code, block, &mut self.registers, senses);
     }
 
     /// Leaves the active state by the failsafe of the state in which the machine cannot go on. The states entered only act:
@@ -170,8 +181,9 @@ impl Activity {
         (stuck, cause): (usize, Cause),
         now: f64,
         senses: &mut S,
-    ) -> (Result<Action, Failure>, Option<Failsafe>) {
-        let action = match program.failsafe_of(stuck) {
+        action: &mut Action,
+    ) -> (Result<(), Failure>, Option<Failsafe>) {
+        let went = match program.failsafe_of(stuck) {
             None => return (Err(cause.failure(&program.states[stuck].name)), None),
             Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
@@ -180,11 +192,11 @@ impl Activity {
                     Cause::NotFinite => program.stays(from, *state).map_or(0, |stays| program.outward(stays).count()),
                     Cause::Chain => 0,
                 };
-                let action = self.act(program, have_acted, senses);
-                action.map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
+                let acted = self.act(program, have_acted, senses, action);
+                acted.map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
             }
         };
-        (action, Some(Failsafe { left: stuck, cause }))
+        (went, Some(Failsafe { left: stuck, cause }))
     }
 
     /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds. If that has
@@ -200,9 +212,10 @@ impl Activity {
             None => (&program.always, 0.0),
             Some(state) => (&program.states[state].transitions, self.entered_at[state]),
         };
+        self.compute(program, &guards(transitions), senses);
         let (mut first, mut failure): (Option<&Target>, Option<&Target>) = (None, None);
         for Transition { guard, target } in transitions {
-            if self.holds(program, guard, now - since, now, senses) {
+            if self.holds(guard, now - since, now) {
                 first = first.or(Some(target));
                 if let Target::Failure(_) = target {
                     failure = failure.or(Some(target));
@@ -216,24 +229,21 @@ impl Activity {
         Some((from, target))
     }
 
-    /// Whether a guard holds whose state has been active for the time `active` (s).
-    fn holds<S: Senses>(&mut self, program: &Program, guard: &Guard, active: f64, now: f64, senses: &mut S) -> bool {
-        match guard {
-            Guard::When { code, truth, lasting } => {
-                evaluate(&program.code, code, &mut self.registers, senses);
-                let holds = self.registers[usize::from(*truth)] > 0.5;
+    /// Whether a guard holds, which has been computed, and whose state has been active for the time `active` (s).
+    #[inline]
+    fn holds(&mut self, guard: &Guard, active: f64, now: f64) -> bool {
+        match *guard {
+            Guard::When { truth, lasting, .. } => {
+                let holds = self.registers[usize::from(truth)] > 0.5;
                 let Some((duration, timer)) = lasting else { return holds };
-                let since = &mut self.holding_since[*timer];
+                let since = &mut self.holding_since[timer];
                 if !holds {
                     *since = None;
                     return false;
                 }
-                now - *since.get_or_insert(now) >= self.registers[usize::from(*duration)] - TIME_SLACK
+                now - *since.get_or_insert(now) >= self.registers[usize::from(duration)] - TIME_SLACK
             }
-            Guard::After { code, time } => {
-                evaluate(&program.code, code, &mut self.registers, senses);
-                active >= self.registers[usize::from(*time)] - TIME_SLACK
-            }
+            Guard::After { time, .. } => active >= self.registers[usize::from(time)] - TIME_SLACK,
         }
     }
 }

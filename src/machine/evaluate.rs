@@ -1,5 +1,7 @@
 //! The evaluator: runs a block of code over the registers.
 
+use std::cmp::Ordering;
+
 use crate::geometry::{Vector2, rotate, wrap};
 
 use super::action::{Action, Mover, Turn};
@@ -7,10 +9,18 @@ use super::op::{Block, Op, Register, Wide};
 use super::senses::Senses;
 use super::stateful;
 
-/// Runs `block` of `code` and returns the last action that it gave, if any.
-pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) -> Option<Action> {
+/// Runs `block` of `code`; says whether it gave an action, which then replaces `action`. Of several, the last one stays.
+///
+/// An action is written where it is to be, because moving one about costs as much as several operations.
+pub(crate) fn evaluate<S: Senses>(
+    code: &[Op],
+    block: &Block,
+    registers: &mut [f64],
+    senses: &mut S,
+    action: &mut Action,
+) -> bool {
     let mut file = File(registers);
-    let mut action = None;
+    let mut has_acted = false;
     // A jump goes on with what lies ahead; taking operations off a slice spares the check of an index for each.
     let code = &code[..block.end as usize];
     let mut ahead = code[block.start as usize..].iter();
@@ -26,7 +36,10 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::Sign { to, a } => file.put(to, sign(file.at(a))),
             Op::SquareRoot { to, a } => file.put(to, file.at(a).sqrt()),
             Op::Minimum { to, a, b } => file.put(to, minimum(file.at(a), file.at(b))),
-            Op::Maximum { to, a, b } => file.put(to, -minimum(-file.at(a), -file.at(b))),
+            Op::Maximum { to, a, b } => file.put(to, maximum(file.at(a), file.at(b))),
+            Op::Clamp { to, a, low, high } => {
+                file.put(to, minimum(maximum(file.at(a), file.at(low)), file.at(high)));
+            }
             Op::Sine { to, a } => file.put(to, file.at(a).sin()),
             Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
             Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
@@ -44,6 +57,11 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::NegateVector { to, a } => file.put_vector(to, -file.vector(a)),
             Op::MultiplyVector { to, a, b } => file.put_vector(to, file.vector(a) * file.at(b)),
             Op::DivideVector { to, a, b } => file.put_vector(to, file.vector(a) / file.at(b)),
+            Op::Blend { to, a, b, share } => {
+                let share = file.at(share);
+                file.put_vector(to, file.vector(a) * (1.0 - share) + file.vector(b) * share);
+            }
+            Op::Distance { to, a, b } => file.put(to, (file.vector(a) - file.vector(b)).norm()),
             Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
             Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {
@@ -83,24 +101,39 @@ pub(crate) fn evaluate<S: Senses>(code: &[Op], block: &Block, registers: &mut [f
             Op::Record { whisker } => senses.record(file.index(whisker)),
             Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
             Op::SteerBodyFacing { along, speed, heading } => {
-                action = Some(file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading))));
+                *action = file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading)));
+                has_acted = true;
             }
             Op::SteerBodyTurning { along, speed, rate } => {
-                action = Some(file.steer(Mover::Body, along, speed, Turn::Rate(file.at(rate))));
+                *action = file.steer(Mover::Body, along, speed, Turn::Rate(file.at(rate)));
+                has_acted = true;
             }
             Op::SteerWhiskerFacing { whisker, along, speed, heading } => {
                 let mover = Mover::Whisker(file.index(whisker));
-                action = Some(file.steer(mover, along, speed, Turn::Facing(file.at(heading))));
+                *action = file.steer(mover, along, speed, Turn::Facing(file.at(heading)));
+                has_acted = true;
             }
             Op::SteerWhiskerTurning { whisker, along, speed, rate } => {
                 let mover = Mover::Whisker(file.index(whisker));
-                action = Some(file.steer(mover, along, speed, Turn::Rate(file.at(rate))));
+                *action = file.steer(mover, along, speed, Turn::Rate(file.at(rate)));
+                has_acted = true;
             }
-            Op::Hold => action = Some(Action::Hold),
-            Op::Stop => action = Some(Action::Stop),
+            Op::Hold => {
+                *action = Action::Hold;
+                has_acted = true;
+            }
+            Op::Stop => {
+                *action = Action::Stop;
+                has_acted = true;
+            }
         }
     }
-    action
+    has_acted
+}
+
+/// Runs code that only computes.
+pub(crate) fn compute<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) {
+    evaluate(code, block, registers, senses, &mut Action::Hold);
 }
 
 /// The registers, read and written as what the code takes them for.
@@ -146,9 +179,10 @@ impl File<'_> {
 
     /// A whisker's index.
     fn index(&self, register: Register) -> usize {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whisker registers hold indices")]
-        let index = self.at(register) as usize;
-        index
+        /// Added to a small whole number, this leaves that number in the lowest bits.
+        const UNIT_IN_LAST_PLACE: f64 = (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
+        // Half of what reading a whisker costs would be a cast, which has a meaning for every number; this is for indices.
+        (self.at(register) + UNIT_IN_LAST_PLACE).to_bits() as usize & 0xff
     }
 
     fn steer(&self, mover: Mover, along: Wide, speed: Register, turn: Turn) -> Action {
@@ -156,9 +190,23 @@ impl File<'_> {
     }
 }
 
-/// The lesser of two numbers; not a number if either is not, so that a bad sample is never hidden.
+/// The lesser of two numbers, and of equal ones the second (a zero has a sign); not a number if either is not, so that a bad
+/// sample is never hidden.
 fn minimum(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+    match a.partial_cmp(&b) {
+        Some(Ordering::Less) => a,
+        Some(_) => b,
+        None => f64::NAN,
+    }
+}
+
+/// The greater of two numbers, and of equal ones the second; not a number if either is not.
+fn maximum(a: f64, b: f64) -> f64 {
+    match a.partial_cmp(&b) {
+        Some(Ordering::Greater) => a,
+        Some(_) => b,
+        None => f64::NAN,
+    }
 }
 
 fn sign(value: f64) -> f64 {

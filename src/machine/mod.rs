@@ -20,7 +20,7 @@ mod verify;
 mod way;
 
 pub(crate) use activity::TIME_SLACK;
-pub(crate) use evaluate::evaluate;
+pub(crate) use evaluate::compute;
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};

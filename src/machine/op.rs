@@ -41,6 +41,8 @@ pub enum Op {
     Minimum { to: Register, a: Register, b: Register },
     /// `to = max(a, b)`
     Maximum { to: Register, a: Register, b: Register },
+    /// `to = min(max(a, low), high)`
+    Clamp { to: Register, a: Register, low: Register, high: Register },
     /// `to = sin(a)`
     Sine { to: Register, a: Register },
     /// `to = cos(a)`
@@ -73,8 +75,12 @@ pub enum Op {
     MultiplyVector { to: Wide, a: Wide, b: Register },
     /// `to = the vector a over the number b`
     DivideVector { to: Wide, a: Wide, b: Register },
+    /// `to = (1 - share) a + share b`, vectors
+    Blend { to: Wide, a: Wide, b: Wide, share: Register },
     /// `to = length of the vector a`
     Norm { to: Register, a: Wide },
+    /// `to = length of a - b`, vectors
+    Distance { to: Register, a: Wide, b: Wide },
     /// `to = the vector a at unit length`, and zero for zero
     Unit { to: Wide, a: Wide },
     /// `to = direction of the vector a` (rad)

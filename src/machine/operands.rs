@@ -93,6 +93,9 @@ impl Op {
             | Self::Equal { to, a, b }
             | Self::And { to, a, b }
             | Self::Or { to, a, b } => operands.write(number(to)).read([number(a), number(b)]),
+            Self::Clamp { to, a, low, high } => operands.write(number(to)).read([number(a), number(low), number(high)]),
+            Self::Blend { to, a, b, share } => operands.write(vector(to)).read([vector(a), vector(b), number(share)]),
+            Self::Distance { to, a, b } => operands.write(number(to)).read([vector(a), vector(b)]),
             Self::Norm { to, a } | Self::Angle { to, a } => operands.write(number(to)).read([vector(a)]),
             Self::AddVectors { to, a, b } | Self::SubtractVectors { to, a, b } => {
                 operands.write(vector(to)).read([vector(a), vector(b)])

@@ -99,7 +99,7 @@ pub struct Transition {
 pub enum Guard {
     /// When a condition holds.
     When {
-        /// Computes the condition.
+        /// Computes the condition, behind the guard of the transition that is tried before.
         code: Block,
         /// Where the condition is afterwards.
         truth: Register,
@@ -108,7 +108,7 @@ pub enum Guard {
     },
     /// When the state has been active for a time.
     After {
-        /// Computes the time.
+        /// Computes the time, behind the guard of the transition that is tried before.
         code: Block,
         /// Where the time (s) is afterwards.
         time: Register,
@@ -120,6 +120,16 @@ impl Guard {
     #[must_use]
     pub fn is_timed(&self) -> bool {
         matches!(self, Self::When { lasting: Some(_), .. })
+    }
+}
+
+/// The code of the guards of a list of transitions. One lies behind the other, so that a tick runs them in one go.
+#[inline]
+pub(super) fn guards(transitions: &[Transition]) -> Block {
+    match transitions {
+        [] => 0..0,
+        [first, .., last] => first.guard.code().start..last.guard.code().end,
+        [only] => only.guard.code().clone(),
     }
 }
 
@@ -206,9 +216,7 @@ impl Program {
     /// does, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
-        let guards = |transitions: &[Transition]| {
-            transitions.iter().map(|transition| transition.guard.code().len()).sum::<usize>()
-        };
+        let guards = |transitions: &[Transition]| guards(transitions).len();
         let active = self.outward(state).map(|state| &self.states[state]);
         guards(&self.always) + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
@@ -221,9 +229,7 @@ impl Program {
         let on_the_way = |state: usize, of: &dyn Fn(&State) -> usize| -> usize {
             self.outward(state).map(|state| of(&self.states[state])).sum()
         };
-        let guards = |transitions: &[Transition]| -> usize {
-            transitions.iter().map(|transition| transition.guard.code().len()).sum()
-        };
+        let guards = |transitions: &[Transition]| guards(transitions).len();
         let values = |target: &Target| if let Target::State { arguments, .. } = target { arguments.len() } else { 0 };
         let of_states =
             self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.failsafe));

@@ -107,13 +107,14 @@ impl Machine {
         if self.failure.is_some() {
             return Tick { action: Action::Stop, status: Status::Failed, failsafe: None };
         }
-        let (action, failsafe) = self.activity.tick(&self.program, senses);
-        match action {
-            Ok(action) => Tick { action, status: Status::Running, failsafe },
-            Err(failure) => {
-                self.failure = Some(failure);
-                Tick { action: Action::Stop, status: Status::Failed, failsafe }
-            }
+        let mut tick = Tick { action: Action::Hold, status: Status::Running, failsafe: None };
+        let (went, failsafe) = self.activity.tick(&self.program, senses, &mut tick.action);
+        tick.failsafe = failsafe;
+        if let Err(failure) = went {
+            self.failure = Some(failure);
+            tick.action = Action::Stop;
+            tick.status = Status::Failed;
         }
+        tick
     }
 }

@@ -200,6 +200,14 @@ impl Program {
         self.always.iter().try_for_each(|rule| self.verify_transition(rule, 0..lasting))?;
         let mut transitions = self.states.iter().flat_map(|state| &state.transitions);
         transitions.try_for_each(|transition| self.verify_transition(transition, lasting..self.timers))?;
+        for transitions in self.states.iter().map(|state| &state.transitions).chain([&self.always]) {
+            for pair in transitions.windows(2) {
+                let Block { start, end } = pair[1].guard.code().clone();
+                if start != pair[0].guard.code().end {
+                    return Err(Unsound::Block { start, end });
+                }
+            }
+        }
         let of_states = self.states.iter().filter_map(|state| state.failsafe.as_ref());
         of_states.chain(&self.failsafe).try_for_each(|target| self.verify_target(target))
     }

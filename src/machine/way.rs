@@ -22,11 +22,13 @@ impl Way {
     }
 
     /// From the outermost to the innermost.
+    #[inline]
     pub(super) fn states(&self) -> &[usize] {
         &self.states[..self.count]
     }
 
     /// The state that it leads to.
+    #[inline]
     pub(super) fn innermost(&self) -> usize {
         self.states[self.count - 1]
     }

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
 use crate::machine::{
-    BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, evaluate,
+    BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, compute,
 };
 use crate::units::{Dimension, format_si};
 
@@ -104,7 +104,7 @@ impl Expectation {
         }
         // A test's code has far fewer operations than this.
         let everything = 0..u32::try_from(self.code.len()).unwrap_or(u32::MAX);
-        evaluate(&self.code, &everything, &mut registers, &mut Numb);
+        compute(&self.code, &everything, &mut registers, &mut Numb);
         if registers[usize::from(self.truth)] > 0.5 {
             return None;
         }

@@ -91,6 +91,8 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         | Op::SquareRoot { to, .. }
         | Op::Minimum { to, .. }
         | Op::Maximum { to, .. }
+        | Op::Clamp { to, .. }
+        | Op::Distance { to, .. }
         | Op::Sine { to, .. }
         | Op::Cosine { to, .. }
         | Op::Exponential { to, .. }
@@ -115,6 +117,7 @@ fn written(op: &Op) -> std::ops::Range<Register> {
         | Op::MultiplyVector { to, .. }
         | Op::DivideVector { to, .. }
         | Op::Unit { to, .. }
+        | Op::Blend { to, .. }
         | Op::Rotate { to, .. }
         | Op::BodyPosition { to }
         | Op::WhiskerVector { to, .. }

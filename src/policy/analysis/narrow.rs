@@ -161,6 +161,13 @@ impl Bounds<'_> {
                 let most = Interval::new(f64::NEG_INFINITY, self.cell(to).high);
                 wants = [Some((a, most)), Some((b, most))];
             }
+            Op::Clamp { to, a, low, high } if !self.cell(to).nan => {
+                let (clamped, low, high) = (self.cell(to), self.at(low, region), self.at(high, region));
+                // A value is seen through the clamp where it is not at an end of it.
+                let least = if clamped.low > low.high { clamped.low } else { f64::NEG_INFINITY };
+                let most = if clamped.high < high.low { clamped.high } else { f64::INFINITY };
+                wants = [Some((a, Interval::new(least, most))), None];
+            }
             Op::Norm { to, a } if !self.cell(to).nan => {
                 let size = self.cell(to).high;
                 let part = Interval::new(-size, size).widened();

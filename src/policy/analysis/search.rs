@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use crate::machine::{Register, evaluate};
+use crate::machine::{Register, compute};
 
 use super::bounds::Bounds;
 use super::model::{Condition, Model};
@@ -108,7 +108,7 @@ impl<'m> Search<'m> {
         self.enter(point);
         let met = goals.iter().all(|goal| {
             self.bounds.work += goal.condition.code.len() + 1;
-            evaluate(&program.code, goal.condition.code, &mut self.registers, &mut senses);
+            compute(&program.code, goal.condition.code, &mut self.registers, &mut senses);
             let truth = self.registers[usize::from(goal.condition.truth)] > 0.5;
             truth == goal.wanted
         });

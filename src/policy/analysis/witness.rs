@@ -1,6 +1,6 @@
 //! Witnesses: points made plain, in words.
 
-use crate::machine::{Program, Senses as _, evaluate};
+use crate::machine::{Program, Senses as _, compute};
 use crate::policy::builtins::{Member, MemberSource, members};
 use crate::policy::types::Type;
 use crate::units::{Dimension, format_si, parse_quantity};
@@ -28,7 +28,7 @@ impl Search<'_> {
         let mut senses = point.clone();
         let mut registers = self.registers(&point);
         for goal in goals.iter().filter(|goal| goal.wanted) {
-            evaluate(&program.code, goal.condition.code, &mut registers, &mut senses);
+            compute(&program.code, goal.condition.code, &mut registers, &mut senses);
         }
         let named = named_values(model, &point);
         let felt = senses.readings().into_iter().filter_map(|reading| felt(program, &senses, reading));

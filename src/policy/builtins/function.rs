@@ -9,6 +9,7 @@ pub(in crate::policy) enum Function {
     Min,
     Max,
     Clamp,
+    Blend,
     Sin,
     Cos,
     Tan,
@@ -30,13 +31,19 @@ pub(in crate::policy) enum Function {
 }
 
 /// Every function, by its name, with how it is called and what it gives.
-pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 24] = [
+pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
     ("abs", Function::Abs, "abs(x)", "the magnitude of a number"),
     ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1"),
     ("sqrt", Function::Sqrt, "sqrt(x)", "the square root of a number, with the root of its dimension"),
     ("min", Function::Min, "min(a, b)", "the lesser of two numbers"),
     ("max", Function::Max, "max(a, b)", "the greater of two numbers"),
     ("clamp", Function::Clamp, "clamp(x, low, high)", "`min(max(x, low), high)`"),
+    (
+        "blend",
+        Function::Blend,
+        "blend(a, b, share)",
+        "`(1 - share) * a + share * b`: `a` at a share of 0, `b` at a share of 1",
+    ),
     ("sin", Function::Sin, "sin(angle)", "its sine, a plain number"),
     ("cos", Function::Cos, "cos(angle)", "its cosine, a plain number"),
     ("tan", Function::Tan, "tan(angle)", "its tangent, a plain number"),
@@ -95,6 +102,7 @@ impl Function {
             Self::Sqrt => "one number whose dimension is a square, such as an area",
             Self::Min | Self::Max | Self::Vector => "two numbers of one dimension",
             Self::Clamp => "three numbers of one dimension: what to clamp, the least, the greatest",
+            Self::Blend => "two numbers or two vectors of one dimension, and a plain number",
             Self::Sin | Self::Cos | Self::Tan | Self::Direction | Self::Wrap => "one angle",
             Self::Asin | Self::Acos | Self::Exp | Self::Floor => "one plain number",
             Self::Unit | Self::Angle => "one vector",

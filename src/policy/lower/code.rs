@@ -89,6 +89,16 @@ impl Code {
         to
     }
 
+    /// Takes back the last operation if it is a difference of vectors; gives the places of the two.
+    pub(super) fn take_difference(&mut self) -> Option<(Register, Register)> {
+        let Some(&Op::SubtractVectors { a, b, .. }) = self.ops.last() else { return None };
+        if self.full {
+            return None;
+        }
+        self.ops.pop();
+        Some((a, b))
+    }
+
     /// Copies `width` numbers.
     pub(super) fn copy(&mut self, to: Register, from: Register, width: u16) {
         for offset in 0..width {

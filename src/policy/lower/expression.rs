@@ -225,7 +225,12 @@ impl<'f> Compiler<'f> {
         let Value { r#type, register: a } = self.expression(scope, inner)?;
         match r#type {
             Type::Vector(dimension) => {
-                let register = self.code.scalar(|to| Op::Norm { to, a });
+                // A difference that nothing else can name is not needed by itself.
+                let difference = if let Kind::Binary { .. } = inner.kind { self.code.take_difference() } else { None };
+                let register = match difference {
+                    Some((a, b)) => self.code.scalar(|to| Op::Distance { to, a, b }),
+                    None => self.code.scalar(|to| Op::Norm { to, a }),
+                };
                 Some(Value { r#type: Type::Scalar(dimension), register })
             }
             Type::Scalar(_) => Some(Value { r#type, register: self.code.scalar(|to| Op::Absolute { to, a }) }),

@@ -44,8 +44,19 @@ impl<'f> Compiler<'f> {
                 scalar(a, self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) }))
             }
             (Function::Clamp, &[Type::Scalar(a), Type::Scalar(b), Type::Scalar(c)]) if a == b && b == c => {
-                let raised = self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) });
-                scalar(a, self.code.scalar(|to| Op::Minimum { to, a: raised, b: register(2) }))
+                let (low, high) = (register(1), register(2));
+                scalar(a, self.code.scalar(|to| Op::Clamp { to, a: register(0), low, high }))
+            }
+            (Function::Blend, &[Type::Scalar(a), Type::Scalar(b), Type::NUMBER]) if a == b => {
+                let (share, one) = (register(2), self.code.constant(1.0));
+                let rest = self.code.scalar(|to| Op::Subtract { to, a: one, b: share });
+                let first = self.code.scalar(|to| Op::Multiply { to, a: register(0), b: rest });
+                let second = self.code.scalar(|to| Op::Multiply { to, a: register(1), b: share });
+                scalar(a, self.code.scalar(|to| Op::Add { to, a: first, b: second }))
+            }
+            (Function::Blend, &[Type::Vector(a), Type::Vector(b), Type::NUMBER]) if a == b => {
+                let share = register(2);
+                vector(a, self.code.vector(|to| Op::Blend { to, a: register(0), b: register(1), share }))
             }
             (Function::Sin | Function::Cos | Function::Tan, &[Type::ANGLE])
             | (Function::Exp | Function::Floor, &[Type::NUMBER]) => {

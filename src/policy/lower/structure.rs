@@ -49,8 +49,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     compiler.hierarchy = Hierarchy::new(&file.states);
     let declared = compiler.declare(file);
     let mut timers = 0;
-    let always = file.always.iter();
-    let always = always.filter_map(|rule| compiler.transition(&Scope::default(), None, rule, &mut timers)).collect();
+    let always = compiler.transitions(&Scope::default(), None, &file.always, &mut timers);
     let failsafe = compiler.failsafe(&Scope::default(), None, &file.failsafes);
     let states = compiler.states(file, declared, &mut timers);
     let initial = compiler.initial(file);
@@ -222,9 +221,7 @@ impl<'f> Compiler<'f> {
     fn state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>, timers: &mut usize) -> machine::State {
         self.memories.clear();
         self.doing = &state.body;
-        let transitions = state.transitions.iter();
-        let transitions =
-            transitions.filter_map(|transition| self.transition(scope, Some(index), transition, timers)).collect();
+        let transitions = self.transitions(scope, Some(index), &state.transitions, timers);
         let failsafe = self.failsafe(scope, Some(index), &state.failsafes);
         self.doing = &[];
         let start = self.code.here();
@@ -266,16 +263,26 @@ impl<'f> Compiler<'f> {
         self.code.since(start)
     }
 
-    /// Writes a transition of the state `from`, or of any state.
-    fn transition(
+    /// Writes the transitions of the state `from`, or of any state: first all guards, then where they lead.
+    fn transitions(
         &mut self,
         scope: &Scope<'f>,
         from: Option<usize>,
-        transition: &'f Transition,
+        transitions: &'f [Transition],
         timers: &mut usize,
-    ) -> Option<machine::Transition> {
+    ) -> Vec<machine::Transition> {
+        let guards: Vec<Option<machine::Guard>> =
+            transitions.iter().map(|transition| self.guard(scope, &transition.guard, timers)).collect();
+        let written = guards.into_iter().zip(transitions).filter_map(|(guard, transition)| {
+            let target = self.target(scope, from, &transition.target);
+            Some(machine::Transition { guard: guard?, target: target? })
+        });
+        written.collect()
+    }
+
+    fn guard(&mut self, scope: &Scope<'f>, guard: &'f Guard, timers: &mut usize) -> Option<machine::Guard> {
         let start = self.code.here();
-        let guard = match &transition.guard {
+        match guard {
             Guard::When { condition, lasting } => {
                 let truth = self.expect(scope, condition, Type::Truth);
                 let lasting = match lasting {
@@ -293,9 +300,7 @@ impl<'f> Compiler<'f> {
                 let code = self.code.since(start);
                 time.map(|time| machine::Guard::After { code, time: time.register })
             }
-        };
-        let target = self.target(scope, from, &transition.target);
-        Some(machine::Transition { guard: guard?, target: target? })
+        }
     }
 
     /// Where to go when the machine cannot go on. There is one at most.
