@@ -67,8 +67,9 @@ fn what_cannot_be_renamed_says_why() {
     assert_eq!(in_swipe("tilt: angle", "tangent"), taken("tangent", line("let tangent")));
     assert_eq!(in_swipe("tangent = w", "tilt"), taken("tilt", line("tilt: angle")));
     let (name, file) = ("at_limit".to_owned(), "std.guards".to_owned());
-    assert_eq!(rename("at_limit(r0", "x"), RenameError::Foreign { name: name.clone(), file: file.clone() });
-    assert_eq!(rename("at_limit, ", "x"), RenameError::Foreign { name: name.clone(), file: file.clone() });
+    let standard = RenameError::Standard { name: name.clone(), module: file.clone() };
+    assert_eq!(rename("at_limit(r0", "x"), standard);
+    assert_eq!(rename("at_limit, ", "x"), standard);
     assert_eq!(rename("lost ", "at_limit"), RenameError::Brought { name, file });
     assert_eq!(rename("lost ", "state"), RenameError::Reserved("state".to_owned()));
     assert_eq!(rename("lost ", "Failure"), RenameError::Reserved("Failure".to_owned()));
