@@ -1,11 +1,12 @@
 //! A tick allocates nothing.
-#![allow(unsafe_code, reason = "counting allocations takes an allocator of one's own")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+#[path = "common/allocator.rs"]
+mod allocator;
+
 use std::sync::Arc;
 
+use allocator::allocations;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose};
 use vibrissa::machine::Status;
@@ -13,30 +14,6 @@ use vibrissa::policy::compile;
 use vibrissa::rig::Rig;
 use vibrissa::run::Control;
 use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
-
-/// The system's allocator, with a count of what each thread asks of it.
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: every call is the system allocator's own.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.set(COUNT.get() + 1);
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Ten samples of a platform that goes straight ahead, its right whisker bent to `base_angle` (rad).
 fn samples(tick: usize, base_angle: f64) -> [Sample; 10] {
@@ -58,9 +35,9 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
         // Nothing, then a touch as forward motion gives it, then one that is too strong.
         let base_angle = [0.0, -3e-4, -3e-4, -2e-3][tick / 30];
         let samples = samples(tick, base_angle);
-        let before = COUNT.get();
+        let before = allocations();
         let (command, given) = control.tick(&samples);
-        assert_eq!(COUNT.get() - before, 0, "tick {tick}");
+        assert_eq!(allocations() - before, 0, "tick {tick}");
         assert!(command.is_finite());
         let state = control.machine().state_name();
         assert_eq!(given.status == Status::Failed, state == "Failure");
@@ -72,7 +49,7 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
         }
     }
     assert_eq!(seen, ["Exploring", "Swiping", "Failure"]);
-    assert!(COUNT.get() > 0, "the count counts");
+    assert!(allocations() > 0, "the count counts");
 }
 
 #[test]
@@ -84,9 +61,9 @@ fn a_tick_among_states_in_states_allocates_nothing() {
         // Touched and lost, again and again; then touched too strongly.
         let base_angle = if tick > 200 { -2e-3 } else { [0.0, -3e-4][tick / 15 % 2] };
         let samples = samples(tick, base_angle);
-        let before = COUNT.get();
+        let before = allocations();
         control.tick(&samples);
-        assert_eq!(COUNT.get() - before, 0, "tick {tick}");
+        assert_eq!(allocations() - before, 0, "tick {tick}");
         let state = control.machine().state_name();
         if seen.last().map(String::as_str) != Some(state) {
             seen.push(state.to_owned());

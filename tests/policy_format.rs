@@ -144,10 +144,15 @@ fn a_text_that_cannot_be_read_is_refused_with_its_faults() {
 #[test]
 fn a_text_that_would_become_too_long_to_be_read_is_refused() {
     let nested = format!("{}hold{}", "if a { ".repeat(60), " }".repeat(60));
-    let states: Vec<String> = (0..200).map(|index| format!(" state S{index} {{ {nested} }}")).collect();
-    let states = states.concat();
-    let faults = format(&Source::new("policy.fsm", format!("machine m{states}"))).unwrap_err();
+    let states: Vec<String> = (0..200).map(|index| format!("state S{index} {{ {nested} }}")).collect();
+    let source = Source::new("policy.fsm", format!("machine m\n{}\n", states.join("\n")));
+    let faults = format(&source).unwrap_err();
     assert_eq!(faults.iter().map(|fault| fault.code).collect::<Vec<_>>(), ["P0102"]);
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path("../snapshots/policies");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!("laid_out_too_long", terminal(&source, &faults, Colour::Plain)));
 }
 
 #[test]

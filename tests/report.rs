@@ -1,14 +1,16 @@
 //! What people and programs get to see of a run.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/seen.rs"]
+mod seen;
+
 mod runs;
 
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use runs::{arc_of_tips, run_with};
-use svg::node::element::tag::Type;
-use svg::parser::Event;
+use seen::{apart, see};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::machine::{Cause, Failsafe, Mark};
@@ -142,60 +144,12 @@ fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
     picture(scene, policy, run, &Score::new(run, &scene.object))
 }
 
-/// A text of a picture and the box that it takes up at most: left, top, right, bottom (px).
-type Label = (String, [f64; 4]);
-
-/// The texts of a picture, whose tags are shown to be balanced and whose numbers to be finite.
-fn labels(picture: &str) -> Vec<Label> {
-    let (mut open, mut labels, mut current) = (Vec::new(), Vec::new(), None::<(f64, f64, f64, f64, String)>);
-    for event in svg::read(picture).unwrap() {
-        match event {
-            Event::Tag(name, kind, attributes) => {
-                for value in attributes.values() {
-                    assert!(!value.contains("NaN") && !value.contains("inf"), "{name}: {value:?}");
-                }
-                match kind {
-                    Type::Start => open.push(name.to_owned()),
-                    Type::End => assert_eq!(open.pop().as_deref(), Some(name)),
-                    Type::Empty => {}
-                }
-                if name == "text" && kind == Type::Start {
-                    let number = |key: &str| attributes[key].parse::<f64>().unwrap();
-                    let before = match &*attributes["text-anchor"] {
-                        "start" => 0.0,
-                        "middle" => 0.5,
-                        _ => 1.0,
-                    };
-                    current = Some((number("x"), number("y"), number("font-size"), before, String::new()));
-                } else if name == "text"
-                    && kind == Type::End
-                    && let Some((x, y, size, before, content)) = current.take()
-                {
-                    let width = 0.6 * size * content.chars().count() as f64;
-                    let left = x - before * width;
-                    labels.push((content, [left, y - 0.8 * size, left + width, y + 0.2 * size]));
-                }
-            }
-            Event::Text(content) => {
-                if let Some((.., text)) = &mut current {
-                    text.push_str(content.trim());
-                }
-            }
-            Event::Error(error) => panic!("{error}"),
-            _ => {}
-        }
-    }
-    assert!(open.is_empty(), "{open:?}");
-    labels
-}
-
 fn texts_stand_clear(picture: &str) {
-    let labels = labels(picture);
-    for (index, (a, [left, top, right, bottom])) in labels.iter().enumerate() {
-        assert!(*left >= 0.0 && *top >= 0.0 && *right <= 1200.0, "{a} is cut off");
-        for (b, other) in &labels[..index] {
-            let apart = *left >= other[2] || other[0] >= *right || *top >= other[3] || other[1] >= *bottom;
-            assert!(apart, "`{a}` and `{b}` overlap");
+    let texts = see(picture).texts;
+    for (index, (a, place)) in texts.iter().enumerate() {
+        assert!(place[0] >= 0.0 && place[1] >= 0.0 && place[2] <= 1200.0, "{a} is cut off");
+        for (b, other) in &texts[..index] {
+            assert!(apart(place, other), "`{a}` and `{b}` overlap");
         }
     }
 }
@@ -203,7 +157,7 @@ fn texts_stand_clear(picture: &str) {
 #[test]
 fn a_picture_names_scene_policy_and_outcome_and_no_text_hides_another() {
     let picture = draw(&scene(), "thesis", &half_round());
-    let labels: Vec<_> = labels(&picture).into_iter().map(|(content, _)| content).collect();
+    let labels: Vec<_> = see(&picture).texts.into_iter().map(|(content, _)| content).collect();
     for wanted in ["disk", "policy thesis ·completed", "Swiping", "Error (mm)", "w0", "w1", "not traced within 1 mm"] {
         assert!(labels.iter().any(|label| label == wanted), "no {wanted:?} in {labels:?}");
     }
@@ -250,14 +204,14 @@ fn names_cannot_break_a_picture() {
     let picture = draw(&scene, "\"><script>alert(1)</script>", &run);
     assert!(!picture.contains("<script"));
     assert!(!picture.contains(|c: char| c.is_control() && c != '\n'));
-    labels(&picture);
+    see(&picture);
 }
 
 #[test]
 fn a_tip_far_off_is_left_out_of_the_map() {
     let mut run = half_round();
     run.trace.ticks[3].tips[0] = Some(Point2::new(1e308, 0.0));
-    labels(&draw(&scene(), "thesis", &run));
+    see(&draw(&scene(), "thesis", &run));
 }
 
 proptest! {
@@ -277,6 +231,6 @@ proptest! {
             tick.body_touches = state == 0;
             tick.state = (state < 3).then_some(state);
         }
-        labels(&draw(&scene(), "thesis", &run));
+        see(&draw(&scene(), "thesis", &run));
     }
 }

@@ -1,6 +1,7 @@
 //! Changes to a policy that an editor can ask for: another name, the layout, a quick fix.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use gen_lsp_types::json_rpc::Error;
 use gen_lsp_types::{
@@ -10,7 +11,6 @@ use gen_lsp_types::{
 
 use crate::diagnostic::Span;
 use crate::policy::format;
-use crate::policy::index::RenameError;
 
 use super::diagnose::diagnostic;
 use super::server::Server;
@@ -27,9 +27,21 @@ impl Server<'_> {
     pub(super) fn rename(&self, asked: &RenameParams) -> Result<Option<WorkspaceEdit>, Error> {
         let place = &asked.text_document_position_params;
         let (document, at) = self.place(place)?;
-        let places = document.index.rename(at, &asked.new_name).map_err(|refusal| refused(&refusal))?;
-        let edit = |span| TextEdit { range: document.range(span), new_text: asked.new_name.clone() };
-        Ok(Some(changes(&place.text_document.uri, places.into_iter().map(edit).collect())))
+        let known = self.known(document);
+        let asked_in = known.first().map_or(&document.index, |document| &document.index);
+        // What cannot be renamed says why where it stands, before other files are asked.
+        asked_in.rename(at, &asked.new_name).map_err(|refusal| refused(&refusal))?;
+        let Some(origin) = asked_in.origin(at) else { return Ok(None) };
+        let mut changes = HashMap::new();
+        for document in &known {
+            let places = document.index.rename_to(&origin, &asked.new_name);
+            let places = places.map_err(|refusal| refused(&format_args!("in {}: {refusal}", document.source.name)))?;
+            let edit = |span| TextEdit { range: document.range(span), new_text: asked.new_name.clone() };
+            if !places.is_empty() {
+                changes.insert(document.uri.clone(), places.into_iter().map(edit).collect());
+            }
+        }
+        Ok(Some(WorkspaceEdit { changes: Some(changes), ..Default::default() }))
     }
 
     /// The layout. A text that cannot be read stays as it is; its faults are told already.
@@ -77,6 +89,6 @@ fn changes(uri: &Uri, edits: Vec<TextEdit>) -> WorkspaceEdit {
     WorkspaceEdit { changes: Some(HashMap::from([(uri.clone(), edits)])), ..Default::default() }
 }
 
-fn refused(refusal: &RenameError) -> Error {
+fn refused(refusal: &impl Display) -> Error {
     error(LspErrorCodes::RequestFailed, refusal.to_string())
 }

@@ -12,7 +12,7 @@ use super::uri;
 /// A text and all that is known of it.
 #[derive(Debug)]
 pub(super) struct Document {
-    uri: Uri,
+    pub(super) uri: Uri,
     /// The text alone.
     pub(super) source: Source,
     /// The editor's number of the text.

@@ -29,10 +29,16 @@ impl Server<'_> {
 
     pub(super) fn references(&self, asked: &ReferenceParams) -> Result<Option<Vec<Location>>, Error> {
         let (document, at) = self.place(&asked.text_document_position_params)?;
-        let places = document.index.references(at).into_iter();
-        let used = places.filter(|&(_, role)| role != Role::Declares).map(|(span, _)| span);
-        let declared = document.index.definition(at).filter(|_| asked.context.include_declaration);
-        Ok(Some(declared.into_iter().chain(used).filter_map(|span| document.location(span)).collect()))
+        let known = self.known(document);
+        let asked_in = known.first().map(|document| &document.index);
+        let Some(origin) = asked_in.and_then(|index| index.origin(at)) else { return Ok(Some(Vec::new())) };
+        let declared = known.first().filter(|_| asked.context.include_declaration);
+        let declared = declared.and_then(|document| document.location(document.index.definition(at)?));
+        let used = known.iter().flat_map(|document| {
+            let places = document.index.references_to(&origin).into_iter();
+            places.filter(|&(_, role)| role != Role::Declares).filter_map(|(span, _)| document.location(span))
+        });
+        Ok(Some(declared.into_iter().chain(used).collect()))
     }
 
     pub(super) fn highlights(&self, asked: &DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>, Error> {

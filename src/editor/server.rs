@@ -167,6 +167,33 @@ impl Server<'_> {
         }
     }
 
+    /// Every file that is known: `first`, the others that are open, and those that all of these use. All are looked at anew, so that
+    /// what one says of a place in another is so.
+    pub(super) fn known(&self, first: &Document) -> Vec<Document> {
+        let mut open: Vec<&Document> = self.documents.values().filter(|document| document.uri != first.uri).collect();
+        open.sort_by(|a, b| a.uri.as_ref().cmp(b.uri.as_ref()));
+        let look = |uri: Uri, version, text: &str| {
+            let library = &mut |path: &str| self.text(path);
+            Document::new(uri, version, text.to_owned(), self.client.encoding, library)
+        };
+        let open = std::iter::once(first).chain(open);
+        let mut known: Vec<Document> =
+            open.map(|document| look(document.uri.clone(), document.version, &document.source.text)).collect();
+        for index in 0..known.len() {
+            let source = known[index].index.source().clone();
+            for part in (1..source.count()).filter(|&part| source.absence(part).is_none()) {
+                let name = source.part_name(part);
+                // The standard library has no address.
+                if let Some(uri) = uri::of_path(name)
+                    && known.iter().all(|document| document.source.name != name)
+                {
+                    known.push(look(uri, 0, source.slice(source.part_span(part))));
+                }
+            }
+        }
+        known
+    }
+
     pub(super) fn document(&self, uri: &Uri) -> Result<&Document, Error> {
         let unknown = || error(ErrorCodes::InvalidParams, format!("`{uri}` is not open"));
         self.documents.get(uri).ok_or_else(unknown)

@@ -26,6 +26,7 @@ mod standard;
 mod syntax_error;
 mod test;
 mod types;
+mod unit;
 
 pub use format::format;
 pub use load::Library;

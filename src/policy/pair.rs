@@ -53,10 +53,13 @@ impl<'i> Iterator for Pairs<'i> {
     }
 }
 
-/// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it.
+/// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it; the quote at
+/// the end of a text, which is no part, does.
 pub(super) fn place(pair: &Pair<'_>) -> Span {
     let mut last = pair.pair.clone();
-    while let Some(inner) = last.clone().into_inner().next_back() {
+    while last.as_rule() != Rule::text
+        && let Some(inner) = last.clone().into_inner().next_back()
+    {
         last = inner;
     }
     Span::new(pair.start + pair.pair.as_span().start(), pair.start + last.as_span().end())

@@ -11,4 +11,4 @@ mod unit;
 pub use dimension::Dimension;
 pub use format::format_si;
 pub use quantity::{Quantity, QuantityError, parse_quantity};
-pub use unit::{Unit, UnitError, parse_unit, suggest_unit, units_of};
+pub use unit::{Unit, UnitError, parse_unit, simple_units, suggest_unit, units_of};

@@ -139,7 +139,9 @@ impl UnitError {
         match self {
             Self::Missing { .. } => "write a unit such as mm, deg, s or mm/s".to_owned(),
             Self::Unknown { suggestion: Some(suggestion), .. } => format!("did you mean `{suggestion}`?"),
-            Self::Unknown { suggestion: None, .. } => format!("the units are {}", simple_units()),
+            Self::Unknown { suggestion: None, .. } => {
+                format!("the units are {}", simple_units().collect::<Vec<_>>().join(", "))
+            }
             Self::Exponent { .. } => "write it like m^2 or s^-1".to_owned(),
             Self::Ambiguous { .. } => {
                 "put products first and each divisor behind a slash of its own: N m/rad, kg/m/s".to_owned()
@@ -221,7 +223,7 @@ fn parse_power(text: &str, start: usize) -> Result<Unit, UnitError> {
     let (name, exponent) = text.split_once('^').map_or((text, None), |(name, exponent)| (name, Some(exponent)));
     let spelt = name.replace(['\u{b5}', '\u{3bc}'], "u");
     let Some((_, unit)) = SIMPLE.iter().find(|(symbol, _)| *symbol == spelt) else {
-        let suggestion = suggest(&spelt, SIMPLE.iter().map(|(symbol, _)| *symbol));
+        let suggestion = suggest(&spelt, simple_units());
         return Err(UnitError::Unknown { name: name.to_owned(), range: start..start + name.len(), suggestion });
     };
     let Some(exponent) = exponent else { return Ok(*unit) };
@@ -250,8 +252,9 @@ pub fn suggest_unit(name: &str, dimension: Dimension) -> Option<String> {
     suggest(name, units.iter().map(String::as_str)).map(str::to_owned)
 }
 
-fn simple_units() -> String {
-    SIMPLE.iter().map(|(symbol, _)| *symbol).collect::<Vec<_>>().join(", ")
+/// Every unit that has a name of its own, such as `mm`, `deg` and `%`.
+pub fn simple_units() -> impl Iterator<Item = &'static str> {
+    SIMPLE.iter().map(|&(symbol, _)| symbol)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::{env, fmt, thread};
 
 use crate::answered::{is_answered_the_same, is_handled};
 use crate::random::Random;
-use crate::{STACK, THESIS, memory, mutate};
+use crate::{STACK, THESIS, allocator, mutate};
 
 /// The most times that any text may take as long as the thesis's policy.
 const MOST_TIME: f64 = 1000.0;
@@ -42,7 +42,7 @@ fn campaign(seed: u64, texts: usize) -> Report {
                 }
                 is_handled(&text)
             };
-            let (handled, peak) = memory::peak(|| catch_unwind(AssertUnwindSafe(handle)));
+            let (handled, peak) = allocator::peak(|| catch_unwind(AssertUnwindSafe(handle)));
             let mut time = start.elapsed();
             if time > report.slowest.0 {
                 // Something else may have had the processor.

@@ -1,13 +1,14 @@
 //! No text makes the compiler panic, exhaust a small stack, or go on for ever; each either compiles or is answered.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "../common/allocator.rs"]
+mod allocator;
 mod answered;
 mod campaign;
 mod determinism;
 #[path = "../artifact/erratic.rs"]
 mod erratic;
 mod generate;
-mod memory;
 mod mutate;
 mod random;
 

@@ -1,15 +1,7 @@
 //! Intervals: all values that a register may hold.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-use crate::geometry::wrap;
-
 /// Room for the rounding of functions whose rounding is not monotone (relative, or absolute next to 1).
-const SLACK: f64 = 1e-14;
-/// Beyond this magnitude (rad) an angle's rounding shows when it is wrapped.
-const GREATEST_ANGLE: f64 = 1e6;
-/// How far a wrapped angle of at most that magnitude can lie from where it belongs (rad).
-const WRAP_SLACK: f64 = 1e-8;
+pub(super) const SLACK: f64 = 1e-14;
 
 /// All values from `low` to `high`, and perhaps "not a number". No number at all if `low` is above `high`.
 ///
@@ -34,15 +26,15 @@ impl Interval {
         if value.is_nan() { Self::NO_NUMBER } else { Self::new(value, value) }
     }
 
-    fn truth(may_hold: bool, may_fail: bool) -> Self {
+    pub(super) fn truth(may_hold: bool, may_fail: bool) -> Self {
         Self::new(f64::from(u8::from(!may_fail)), f64::from(u8::from(may_hold)))
     }
 
-    fn or_nan(self, nan: bool) -> Self {
+    pub(super) fn or_nan(self, nan: bool) -> Self {
         Self { nan: self.nan || nan, ..self }
     }
 
-    fn is_empty(self) -> bool {
+    pub(super) fn is_empty(self) -> bool {
         self.low > self.high
     }
 
@@ -51,11 +43,11 @@ impl Interval {
         if value.is_nan() { self.nan } else { (self.low..=self.high).contains(&value) }
     }
 
-    fn has(self, value: f64) -> bool {
+    pub(super) fn has(self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 
-    fn has_infinity(self) -> bool {
+    pub(super) fn has_infinity(self) -> bool {
         self.has(f64::INFINITY) || self.has(f64::NEG_INFINITY)
     }
 
@@ -100,173 +92,6 @@ impl Interval {
         Self { nan: false, ..self }
     }
 
-    /// What an operation came from whose result lies in it, given its other operand and the inverse operation. There is
-    /// room for the rounding of both.
-    pub(super) fn undo(self, other: Self, inverse: fn(Self, Self) -> Self) -> Self {
-        let origin = inverse(self, other.number());
-        let room = (self.size() + other.size() + origin.size()) * SLACK + 1e-200;
-        if origin.nan || !room.is_finite() {
-            return Self::new(f64::NEG_INFINITY, f64::INFINITY);
-        }
-        Self::new(origin.low - room, origin.high + room)
-    }
-
-    /// What a product came from that lies in it, given the other factor.
-    pub(super) fn undo_product(self, other: Self) -> Self {
-        // Next to a factor of nothing, anything goes.
-        let is_plain = !other.is_empty() && other.absolute().low > 1e-100;
-        if is_plain { self.undo(other, Self::divide) } else { Self::new(f64::NEG_INFINITY, f64::INFINITY) }
-    }
-
-    fn size(self) -> f64 {
-        if self.is_empty() { 0.0 } else { self.low.abs().max(self.high.abs()) }
-    }
-
-    pub(super) fn add(self, other: Self) -> Self {
-        let nan = self.nan || other.nan || self.opposes(other.negate()) || other.opposes(self.negate());
-        if self.is_empty() || other.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        let low = self.low + other.low;
-        let high = self.high + other.high;
-        Self {
-            low: if low.is_nan() { f64::NEG_INFINITY } else { low },
-            high: if high.is_nan() { f64::INFINITY } else { high },
-            nan,
-        }
-    }
-
-    /// Whether the difference of the two can be that of two equal infinities.
-    fn opposes(self, other: Self) -> bool {
-        [f64::INFINITY, f64::NEG_INFINITY].iter().any(|&end| self.has(end) && other.has(end))
-    }
-
-    pub(super) fn subtract(self, other: Self) -> Self {
-        self.add(other.negate())
-    }
-
-    pub(super) fn multiply(self, other: Self) -> Self {
-        if self.is_empty() || other.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        let nan = (self.has(0.0) && other.has_infinity()) || (other.has(0.0) && self.has_infinity());
-        self.ends(other, |a, b| a * b).or_nan(self.nan || other.nan || nan)
-    }
-
-    pub(super) fn divide(self, other: Self) -> Self {
-        if self.is_empty() || other.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        let nan = self.nan || other.nan || (self.has_infinity() && other.has_infinity());
-        if other.has(0.0) {
-            return Self { nan: nan || self.has(0.0), ..Self::ANYTHING };
-        }
-        self.ends(other, |a, b| a / b).or_nan(nan)
-    }
-
-    /// The hull of an operation's values at the ends. Where that is no number, values near it come down to zero.
-    fn ends(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        let corners = [(self.low, other.low), (self.low, other.high), (self.high, other.low), (self.high, other.high)];
-        corners.iter().fold(Self::new(f64::INFINITY, f64::NEG_INFINITY), |hull, &(a, b)| {
-            let value = operation(a, b);
-            hull.join(Self::point(if value.is_nan() { 0.0 } else { value }))
-        })
-    }
-
-    pub(super) fn negate(self) -> Self {
-        Self { low: -self.high, high: -self.low, nan: self.nan }
-    }
-
-    pub(super) fn absolute(self) -> Self {
-        if self.is_empty() || self.low >= 0.0 {
-            self
-        } else if self.high <= 0.0 {
-            self.negate()
-        } else {
-            Self { low: 0.0, high: self.high.max(-self.low), nan: self.nan }
-        }
-    }
-
-    pub(super) fn sign(self) -> Self {
-        let sign = |value: f64| if value == 0.0 { 0.0 } else { value.signum() };
-        if self.is_empty() { self } else { Self { low: sign(self.low), high: sign(self.high), nan: self.nan } }
-    }
-
-    pub(super) fn square_root(self) -> Self {
-        let nan = self.nan || (!self.is_empty() && self.low < 0.0);
-        if self.is_empty() || self.high < 0.0 {
-            return Self::NO_NUMBER;
-        }
-        Self { low: self.low.max(0.0).sqrt(), high: self.high.sqrt(), nan }
-    }
-
-    pub(super) fn minimum(self, other: Self) -> Self {
-        if self.is_empty() || other.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        Self { low: self.low.min(other.low), high: self.high.min(other.high), nan: self.nan || other.nan }
-    }
-
-    pub(super) fn maximum(self, other: Self) -> Self {
-        self.negate().minimum(other.negate()).negate()
-    }
-
-    pub(super) fn sine(self) -> Self {
-        self.wave(f64::sin, FRAC_PI_2)
-    }
-
-    pub(super) fn cosine(self) -> Self {
-        self.wave(f64::cos, 0.0)
-    }
-
-    /// A wave of period 2π that is 1 at `crest`.
-    fn wave(self, wave: fn(f64) -> f64, crest: f64) -> Self {
-        if self.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        if let Some(angle) = self.single() {
-            return Self::point(wave(angle));
-        }
-        let nan = self.nan || self.has_infinity();
-        if self.high - self.low >= TAU || self.low.abs().max(self.high.abs()) > GREATEST_ANGLE {
-            return Self { low: -1.0, high: 1.0, nan };
-        }
-        let reaches = |angle: f64| ((self.low - angle) / TAU - SLACK).ceil() <= (self.high - angle) / TAU + SLACK;
-        let (low, high) = (wave(self.low), wave(self.high));
-        Self {
-            low: if reaches(crest + PI) { -1.0 } else { (low.min(high) - SLACK).max(-1.0) },
-            high: if reaches(crest) { 1.0 } else { (low.max(high) + SLACK).min(1.0) },
-            nan,
-        }
-    }
-
-    pub(super) fn exponential(self) -> Self {
-        let Self { low, high, .. } = self.rising(f64::exp).widened();
-        Self { low: low.max(0.0), high, nan: self.nan }
-    }
-
-    pub(super) fn floor(self) -> Self {
-        self.rising(f64::floor)
-    }
-
-    /// What a function gives that never falls.
-    fn rising(self, function: fn(f64) -> f64) -> Self {
-        if self.is_empty() { self } else { Self { low: function(self.low), high: function(self.high), nan: self.nan } }
-    }
-
-    pub(super) fn wrapped(self) -> Self {
-        let nan = self.nan || self.has_infinity();
-        if self.is_empty() || (self.low > WRAP_SLACK - PI && self.high <= PI) {
-            self
-        } else if let Some(angle) = self.single() {
-            Self::point(wrap(angle))
-        } else if self.low.abs().max(self.high.abs()) <= GREATEST_ANGLE {
-            Self { low: -PI - WRAP_SLACK, high: PI + WRAP_SLACK, nan }
-        } else {
-            Self { nan, ..Self::ANYTHING }
-        }
-    }
-
     pub(super) fn less(self, other: Self) -> Self {
         let some = !self.is_empty() && !other.is_empty();
         Self::truth(some && self.low < other.high, !some || self.nan || other.nan || self.high >= other.low)
@@ -304,57 +129,14 @@ impl Interval {
         let out = |end: f64| end.abs() * SLACK + f64::MIN_POSITIVE;
         Self { low: self.low - out(self.low), high: self.high + out(self.high), nan: self.nan }
     }
-
-    /// The length of the vector `[x, y]`.
-    pub(super) fn norm([x, y]: [Self; 2]) -> Self {
-        let (x, y) = (x.absolute(), y.absolute());
-        let norm = x.multiply(x).add(y.multiply(y)).square_root().widened();
-        let nan = x.nan || y.nan;
-        if norm.is_empty() { Self::NO_NUMBER } else { Self { low: norm.low.max(0.0), high: norm.high, nan } }
-    }
-
-    /// The vector `[x, y]` at unit length; zero for zero.
-    pub(super) fn unit([x, y]: [Self; 2]) -> [Self; 2] {
-        let nan = x.nan || y.nan || x.has_infinity() || y.has_infinity();
-        [x, y].map(|part| {
-            if x.is_empty() || y.is_empty() {
-                return Self::NO_NUMBER;
-            }
-            let low = if part.low >= 0.0 { 0.0 } else { -1.0 - SLACK };
-            let high = if part.high <= 0.0 { 0.0 } else { 1.0 + SLACK };
-            Self { low, high, nan }
-        })
-    }
-
-    /// The direction of the vector `[x, y]`.
-    pub(super) fn angle([x, y]: [Self; 2]) -> Self {
-        if x.is_empty() || y.is_empty() {
-            return Self::NO_NUMBER;
-        }
-        match (x.single(), y.single()) {
-            (Some(x), Some(y)) => Self::point(y.atan2(x)),
-            _ => Self { low: -PI, high: PI, nan: x.nan || y.nan },
-        }
-    }
-
-    /// The vector `[x, y]` turned by `angle`.
-    pub(super) fn rotate([x, y]: [Self; 2], angle: Self) -> [Self; 2] {
-        let (sine, cosine) = (angle.sine(), angle.cosine());
-        // An infinite part is as good as any after turning.
-        if x.has_infinity() || y.has_infinity() {
-            return [Self::ANYTHING; 2];
-        }
-        let error = (x.absolute().high + y.absolute().high) * SLACK;
-        let room = Self::new(-error, error);
-        let turned = [x.multiply(cosine).subtract(y.multiply(sine)), x.multiply(sine).add(y.multiply(cosine))];
-        turned.map(|part| if part.is_empty() { Self::NO_NUMBER } else { part.add(room).or_nan(part.nan) })
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{PI, TAU};
+
     use super::*;
-    use crate::geometry::{Vector2, rotate};
+    use crate::geometry::{Vector2, rotate, wrap};
     use proptest::prelude::*;
 
     /// A number that the evaluator may meet; the odd ones are as likely as the plain ones.

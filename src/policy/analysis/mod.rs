@@ -4,8 +4,10 @@
 //! (`bounds`) in regions of all that can be felt (`region`), which are narrowed to where it may be as wanted (`narrow`) and split until the question is settled or a witness is
 //! found (`search`). A witness is checked by the machine's own evaluator. Each of the other files is one kind of warning.
 
+mod arithmetic;
 mod bounds;
 mod cycle;
+mod direction;
 mod flow;
 mod guards;
 mod interval;

@@ -8,7 +8,8 @@ use crate::policy::description::description;
 use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
-use crate::units::{Dimension, units_of};
+use crate::policy::unit::units_of;
+use crate::units::Dimension;
 
 use super::{At, FUNCTIONS, MemberSource, members};
 
@@ -47,11 +48,7 @@ Places and directions are in the world (x right, y up) unless said otherwise.
         let units = if dimension == Dimension::NUMBER {
             "a plain number, without a unit".to_owned()
         } else {
-            units_of(dimension)
-                .iter()
-                .map(|unit| format!("`{}`", unit.replace(' ', "*")))
-                .collect::<Vec<_>>()
-                .join(", ")
+            units_of(dimension).iter().map(|unit| format!("`{unit}`")).collect::<Vec<_>>().join(", ")
         };
         row(&mut page, [&format!("`{name}`"), &units]);
     }

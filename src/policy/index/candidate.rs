@@ -5,7 +5,8 @@ use crate::policy::ast::{Name, TypeName};
 use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
-use crate::units::{Dimension, units_of};
+use crate::policy::unit::units_of;
+use crate::units::Dimension;
 
 use super::context::{Context, Expected, Level, context};
 use super::import::{heading, offered};
@@ -249,16 +250,12 @@ fn dimensions() -> impl Iterator<Item = Candidate> {
 
 fn units() -> impl Iterator<Item = Candidate> {
     WRITTEN.into_iter().flat_map(|dimension| {
-        units_of(dimension).into_iter().map(move |unit| {
-            // In a policy a unit has no blanks in it.
-            let unit = unit.replace(' ', "*");
-            Candidate {
-                label: unit.clone(),
-                kind: CandidateKind::Unit,
-                detail: dimension.phrase(),
-                meaning: String::new(),
-                snippet: unit,
-            }
+        units_of(dimension).into_iter().map(move |unit| Candidate {
+            label: unit.clone(),
+            kind: CandidateKind::Unit,
+            detail: dimension.phrase(),
+            meaning: String::new(),
+            snippet: unit,
         })
     })
 }

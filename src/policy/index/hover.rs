@@ -4,7 +4,8 @@ use crate::diagnostic::Span;
 use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
 use crate::policy::description::description;
 use crate::policy::types::Type;
-use crate::units::{Dimension, format_si, parse_unit, units_of};
+use crate::policy::unit::units_of;
+use crate::units::{Dimension, format_si, parse_unit};
 
 use super::Index;
 use super::import::{heading, offered};

@@ -9,6 +9,7 @@ mod context;
 mod declare;
 mod hover;
 mod import;
+mod origin;
 mod rename;
 mod resolve;
 mod state;
@@ -31,6 +32,7 @@ use symbol::{Meaning, Use};
 
 pub use candidate::{Candidate, CandidateKind};
 pub use hover::Hover;
+pub use origin::Origin;
 pub use rename::RenameError;
 pub use symbol::{Role, Symbol, SymbolKind};
 
@@ -154,12 +156,7 @@ impl Index {
     /// Every place in the text of what the name at a byte stands for, in their order; none if it is no name that files give.
     #[must_use]
     pub fn references(&self, at: usize) -> Vec<(Span, Role)> {
-        let Some((_, wanted)) = self.symbol_at(at) else { return Vec::new() };
-        let places = self.resolved.uses.iter().filter_map(|known| match known.meaning {
-            Meaning::Symbol(index, role) if index == wanted => Some((known.span, role)),
-            _ => None,
-        });
-        places.collect()
+        self.symbol_at(at).map_or_else(Vec::new, |(_, wanted)| self.places(wanted))
     }
 
     /// How a symbol is written, without its braces and on one line: `law swipe(w: whisker)`.

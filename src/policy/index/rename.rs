@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::diagnostic::Span;
 use crate::policy::grammar::is_keyword;
 use crate::policy::lower::is_reserved;
+use crate::policy::path::standard;
 
 use super::Index;
 use super::symbol::{Meaning, Symbol, SymbolKind};
@@ -30,13 +31,13 @@ pub enum RenameError {
     /// The new name is a word of the language, or of a function.
     #[error("`{0}` has a meaning of its own in the language; choose another name")]
     Reserved(String),
-    /// Another file gives the name.
-    #[error("`{name}` is given in `{file}` and keeps its name here; rename it there")]
-    Foreign {
+    /// The standard library gives the name.
+    #[error("`{name}` belongs to the standard library (`{module}`), which is part of the program; it keeps its name")]
+    Standard {
         /// The name.
         name: String,
-        /// The file.
-        file: String,
+        /// The module.
+        module: String,
     },
     /// A file that is used brings the new name.
     #[error("the name `{name}` is brought from `{file}`; choose another name")]
@@ -65,13 +66,21 @@ impl Index {
         self.to_rename(at).map(|(span, _)| span)
     }
 
-    /// The places at which `name` must be written for what the name at a byte stands for to be called so.
+    /// The places in the text at which `name` must be written for what the name at a byte stands for to be called so. Other files
+    /// may have more, see [`rename_to`](Self::rename_to).
     ///
     /// # Errors
     /// The name cannot be changed, or not to this one.
     pub fn rename(&self, at: usize, name: &str) -> Result<Vec<Span>, RenameError> {
-        let (_, index) = self.to_rename(at)?;
+        self.to_rename(at).and_then(|(_, index)| self.renamed(index, name))
+    }
+
+    /// The places at which `name` must be written for a symbol to be called so.
+    pub(super) fn renamed(&self, index: usize, name: &str) -> Result<Vec<Span>, RenameError> {
         let symbol = &self.symbols[index];
+        if !self.is_read {
+            return Err(RenameError::Unreadable);
+        }
         let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
         if name.is_empty() || !name.chars().all(is_part) || name.starts_with(|first: char| first.is_ascii_digit()) {
             return Err(RenameError::Malformed(name.to_owned()));
@@ -87,19 +96,20 @@ impl Index {
             let line = self.source.line_column(other.span.start).line;
             return Err(RenameError::Taken { name: name.to_owned(), line });
         }
-        Ok(self.references(at).into_iter().map(|(span, _)| span).collect())
+        Ok(self.places(index).into_iter().map(|(span, _)| span).collect())
     }
 
     fn to_rename(&self, at: usize) -> Result<(Span, usize), RenameError> {
         let known = self.use_at(at).ok_or(RenameError::NoName)?;
         let text = self.source.slice(known.span).to_owned();
         match known.meaning {
-            Meaning::Symbol(index, _) if index >= self.own => {
-                let file = self.file_of(&self.symbols[index]).unwrap_or_default().to_owned();
-                Err(RenameError::Foreign { name: text, file })
-            }
-            Meaning::Symbol(index, _) if self.is_read => Ok((known.span, index)),
-            Meaning::Symbol(..) => Err(RenameError::Unreadable),
+            Meaning::Symbol(index, _) => match self.file_of(&self.symbols[index]) {
+                Some(file) if standard(file).is_some() => {
+                    Err(RenameError::Standard { name: text, module: file.to_owned() })
+                }
+                _ if self.is_read => Ok((known.span, index)),
+                _ => Err(RenameError::Unreadable),
+            },
             Meaning::File(_) => Err(RenameError::NoName),
             Meaning::Unknown => Err(RenameError::Unknown(text)),
             _ => Err(RenameError::BuiltIn(text)),

@@ -7,7 +7,8 @@ use crate::policy::builtins::{self, At, Member, MemberSource};
 use crate::policy::hint::did_you_mean;
 use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
-use crate::units::{Dimension, parse_unit, units_of};
+use crate::policy::unit::{unit_hint, units_of};
+use crate::units::{Dimension, parse_unit};
 
 use super::Compiler;
 use super::scope::Scope;
@@ -95,7 +96,8 @@ impl<'f> Compiler<'f> {
                     let message = format!("`{}` is not a unit", unit.text);
                     let range = error.range();
                     let place = Span::new(unit.span.start + range.start, unit.span.start + range.end);
-                    let diagnostic = Diagnostic::error("P0302", message, place, error.to_string()).hint(error.hint());
+                    let diagnostic =
+                        Diagnostic::error("P0302", message, place, error.to_string()).hint(unit_hint(&error));
                     // The grammar takes `50 mm/t` for a number with a unit.
                     self.report(match unit.text.find(['/', '*']) {
                         Some(at) if at < range.start => {
@@ -127,6 +129,10 @@ impl<'f> Compiler<'f> {
         if known.is_none()
             && let Some(derived) = self.names().derived.get(name.text.as_str()).copied()
         {
+            if derived.1.arguments.is_empty() && values.is_some_and(<[Expression]>::is_empty) {
+                self.not_called(format!("`{}` takes no values", name.text), span);
+                return None;
+            }
             return self.derived_value(scope, derived, values.unwrap_or_default(), span);
         }
         if known.is_none()
@@ -145,13 +151,16 @@ impl<'f> Compiler<'f> {
             }
         };
         if values.is_some() {
-            let message = format!("`{}` is {} and takes no values", name.text, value.r#type);
-            self.report(
-                Diagnostic::error("P0304", message, span, "called like a function").hint("leave out the parentheses"),
-            );
+            self.not_called(format!("`{}` is {} and takes no values", name.text, value.r#type), span);
             return None;
         }
         Some(value)
+    }
+
+    /// Reports parentheses behind what takes no values.
+    fn not_called(&mut self, message: String, place: Span) {
+        let diagnostic = Diagnostic::error("P0304", message, place, "called like a function");
+        self.report(diagnostic.hint("leave out the parentheses"));
     }
 
     fn member(
@@ -206,9 +215,7 @@ impl<'f> Compiler<'f> {
             (MemberSource::Visits, ..) => self.run_of_state(RunFigure::Visits, name, values)?,
             (MemberSource::TimeIn, ..) => self.run_of_state(RunFigure::TimeIn, name, values)?,
             (_, _, Some(_)) => {
-                let message = format!("`{}` takes no values", name.text);
-                let diagnostic = Diagnostic::error("P0304", message, name.span, "called like a function");
-                self.report(diagnostic.hint("leave out the parentheses"));
+                self.not_called(format!("`{}` takes no values", name.text), name.span);
                 return None;
             }
             (MemberSource::Contour | MemberSource::At, ..) => whisker,

@@ -3,7 +3,8 @@
 use crate::diagnostic::Diagnostic;
 use crate::machine;
 use crate::policy::ast::{Bound, Parameter};
-use crate::units::{Dimension, format_si, parse_unit, units_of};
+use crate::policy::unit::units_of;
+use crate::units::{Dimension, format_si, parse_unit};
 
 use super::Compiler;
 

@@ -1,0 +1,10 @@
+//! The statechart of a policy, and its three renderings.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[path = "../common/seen.rs"]
+mod seen;
+
+mod charts;
+mod machine;
+mod picture;
+mod text;

@@ -1,0 +1,80 @@
+//! What the program is called with.
+
+use super::program::{bad, stderr, stdout, vibrissa};
+
+#[test]
+fn help_explains_every_command() {
+    let help = stdout(&vibrissa(&["--help"]));
+    for command in ["run", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
+        assert!(help.contains(command));
+        let output = vibrissa(&[command, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stdout(&output).contains("Usage:"));
+    }
+}
+
+#[test]
+fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
+    let files = bad("scenarios");
+    assert!(files.len() >= 20);
+    for file in files {
+        let output = vibrissa(&["run", &file, "--policy", "policies/thesis.fsm"]);
+        assert_eq!(output.status.code(), Some(2), "{file}");
+        assert!(stderr(&output).contains(&format!("{file}:")), "{file}: {}", stderr(&output));
+        assert_eq!(stdout(&output), "", "{file}");
+    }
+}
+
+#[test]
+fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
+    let disk = "scenarios/disk.yaml";
+    for (arguments, expected) in [
+        (vec!["run", "scenarios/nothing.yaml"], "cannot read scenarios/nothing.yaml"),
+        (vec!["run", disk, "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["run", disk, "--set", "sped=20 mm/s"], "no parameter `sped`"),
+        (vec!["run", disk, "--set", "speed=20 deg"], "`speed` is"),
+        (vec!["run", disk, "--set", "speed=2 m/s"], "must lie between"),
+        (vec!["run", disk, "--set", "speed"], "NAME=VALUE"),
+        (vec!["run", disk, "--set", "speed=20 mn/s"], "mn"),
+        (vec!["run", disk, disk], "both called `disk`"),
+        (vec!["run"], "SCENARIO"),
+        (vec!["fly"], "fly"),
+        (vec!["fmt"], "POLICY"),
+        (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+        (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
+        (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
+    ] {
+        let output = vibrissa(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+        assert_eq!(stdout(&output), "", "{arguments:?}");
+    }
+}
+
+#[test]
+fn every_command_that_writes_takes_the_place_alike() {
+    for command in ["run", "compile", "graph"] {
+        assert!(stdout(&vibrissa(&[command, "--help"])).contains("-o, --out <"), "{command}");
+    }
+}
+
+#[test]
+fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_status_2() {
+    for (file, expected) in [("/dev/zero", "larger than 1 MiB"), ("tests/fixtures/latin1.txt", "not UTF-8")] {
+        for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
+            let output = vibrissa(&arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            let message = stderr(&output);
+            assert!(message.contains(&format!("cannot read {file}")) && message.contains(expected), "{message}");
+        }
+    }
+}
+
+#[cfg(not(feature = "lsp"))]
+#[test]
+fn a_build_without_the_language_server_says_how_to_get_it() {
+    let output = vibrissa(&["lsp"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--features lsp"), "{}", stderr(&output));
+}

@@ -1,0 +1,26 @@
+//! `vibrissa graph` and `vibrissa mjcf`
+
+use super::program::{directory, stderr, stdout, vibrissa};
+
+#[test]
+fn graph_prints_or_writes_a_statechart() {
+    for (format, beginning) in [("svg", "<svg"), ("mermaid", "stateDiagram-v2\n"), ("dot", "digraph \"thesis\" {\n")] {
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let printed = stdout(&output);
+        assert!(printed.starts_with(beginning) && printed.contains("Swiping"), "{printed}");
+        let file = directory("graph").join("chart").display().to_string();
+        let output = vibrissa(&["graph", "policies/thesis.fsm", "--format", format, "-o", &file]);
+        assert_eq!((output.status.code(), stdout(&output)), (Some(0), String::new()));
+        assert_eq!(std::fs::read_to_string(file).unwrap(), printed);
+    }
+    assert!(stdout(&vibrissa(&["graph", "policies/thesis.fsm"])).starts_with("<svg"));
+}
+
+#[test]
+fn mjcf_prints_the_model() {
+    let output = vibrissa(&["mjcf", "scenarios/disk.yaml"]);
+    assert_eq!(output.status.code(), Some(0));
+    let model = stdout(&output);
+    assert!(model.starts_with("<mujoco") && model.contains(r#"type="cylinder""#));
+}

@@ -1,0 +1,11 @@
+//! The command line as its users meet it: what goes where, and with which exit status.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod argument;
+mod check;
+mod compile;
+mod fmt;
+mod graph;
+mod program;
+mod run;
+mod test;

@@ -1,0 +1,123 @@
+//! `vibrissa run`
+
+use super::program::{directory, stderr, vibrissa};
+
+#[test]
+fn run_tells_the_warnings_of_a_policy_once() {
+    let directory = directory("warned");
+    let other = directory.join("other.yaml").display().to_string();
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    std::fs::write(&other, disk.replace("name: disk", "name: other")).unwrap();
+    let warned = "tests/fixtures/policies/warn/parameter_never_used.fsm";
+    // No run is needed to see them: a setting that does not exist ends the command before.
+    let output = vibrissa(&["run", "scenarios/disk.yaml", &other, "--policy", warned, "--set", "nothing=1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
+}
+
+#[cfg(feature = "sim")]
+mod with_simulation {
+    use serde_json::Value;
+
+    use crate::program::{directory, stderr, stdout, vibrissa};
+
+    /// The keys of a JSON value, with those of objects within, sorted.
+    fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {
+        for (key, inner) in value.as_object().into_iter().flatten() {
+            into.push(format!("{prefix}{key}"));
+            keys(inner, &format!("{prefix}{key}."), into);
+        }
+        into.sort();
+    }
+
+    #[test]
+    fn run_prints_results_as_json_and_nothing_else() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let result = &results[0];
+        let mut found = Vec::new();
+        keys(result, "", &mut found);
+        let mut expected = [
+            "scenario",
+            "policy",
+            "world",
+            "seed",
+            "outcome",
+            "reason",
+            "final_state",
+            "sim_s",
+            "wall_s",
+            "realtime",
+            "error_mm",
+            "error_mm.mean",
+            "error_mm.std",
+            "error_mm.p95",
+            "error_mm.max",
+            "error_mm.n",
+            "coverage",
+            "hausdorff_mm",
+            "retrieval",
+            "failsafes",
+            "failsafes.count",
+            "failsafes.first_s",
+            "failsafes.first_state",
+            "failsafes.first_cause",
+            "axis_mm",
+            "tick_us",
+            "tick_us.mean",
+            "tick_us.p99",
+            "tick_us.max",
+            "hash",
+            "hash.scenario",
+            "hash.policy",
+            "hash.engine",
+        ]
+        .map(str::to_owned);
+        expected.sort();
+        assert_eq!(found, expected);
+        assert_eq!(result["outcome"], "completed");
+        assert!(result["error_mm"]["mean"].as_f64().unwrap() <= 0.8);
+        assert!(result["coverage"].as_f64().unwrap() >= 0.95);
+    }
+
+    #[test]
+    fn a_compiled_machine_runs_as_its_policy_does() {
+        let machine = directory("run_compiled").join("thesis.machine").display().to_string();
+        assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));
+        let felt = |policy: &str| {
+            let output = vibrissa(&["run", "scenarios/disk.yaml", "--policy", policy, "--json"]);
+            let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+            ["error_mm", "coverage", "sim_s", "final_state"].map(|key| results[0][key].clone())
+        };
+        assert_eq!(felt(&machine), felt("policies/thesis.fsm"));
+    }
+
+    #[test]
+    fn an_expectation_that_fails_has_exit_status_1_and_says_which() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "limit=300 urad"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("the outcome is failed, expected completed"), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn a_report_is_a_picture_and_the_result() {
+        let directory = directory("report");
+        let out = directory.join("new").display().to_string();
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--out", &out]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stdout(&output).contains("disk.svg"));
+        let picture = std::fs::read_to_string(directory.join("new/disk.svg")).unwrap();
+        assert!(picture.starts_with("<svg"));
+        let result = std::fs::read_to_string(directory.join("new/disk.json")).unwrap();
+        assert!(serde_json::from_str::<Value>(&result).unwrap().is_object());
+    }
+}
+
+#[cfg(not(feature = "sim"))]
+#[test]
+fn a_build_without_the_simulator_says_so() {
+    let output = vibrissa(&["run", "scenarios/disk.yaml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
+}

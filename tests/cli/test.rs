@@ -1,0 +1,60 @@
+//! `vibrissa test`
+
+#[cfg(feature = "sim")]
+use std::path::Path;
+
+#[cfg(feature = "sim")]
+use super::program::{ROOT, stdout};
+use super::program::{directory, stderr, vibrissa};
+
+#[test]
+fn a_test_names_a_scenario_that_can_be_read() {
+    let policy = directory("test-without-scenario").join("policy.fsm");
+    let test = "test \"it runs\" in \"nowhere.yaml\" { expect run.completed }";
+    std::fs::write(&policy, format!("machine m initial Still state Still {{ stop }} {test}")).unwrap();
+    let output = vibrissa(&["test", policy.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("P0702") && stderr(&output).contains("nowhere.yaml"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_filter_that_no_title_passes_is_unusable() {
+    let output = vibrissa(&["test", "policies/thesis.fsm", "--filter", "flies"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("`flies`"));
+}
+
+#[cfg(feature = "sim")]
+#[test]
+fn tests_pass_or_show_what_was_measured() {
+    let policy = directory("tests").join("policy.fsm");
+    let scenario = Path::new(ROOT).join("scenarios/disk.yaml");
+    let scenario = scenario.display();
+    let text = format!(
+        "machine m param patience = 60 s in 1 .. 60 s
+         initial Still state Still {{ stop after patience -> Late }} state Late {{ stop after 1 s -> Failure(\"late\") }}
+         test \"it gives up\" in \"{scenario}\" {{
+           set patience = 2 s
+           expect run.failed and run.time_in(Late) > 0.9 s and run.time < patience + 1.2 s and run.visits(Late) == 1
+         }}
+         test \"it feels something\" in \"{scenario}\" {{ set patience = 1 s  expect run.error_mean < 1 mm or run.completed }}"
+    );
+    std::fs::write(&policy, text).unwrap();
+    let output = vibrissa(&["test", policy.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let tests: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!([&tests[0]["passed"], &tests[1]["passed"]], [true, false]);
+    assert_eq!(tests[1]["diagnostics"][0]["secondary"][0]["label"], "is not known");
+    assert_eq!(tests[1]["diagnostics"][0]["secondary"][1]["label"], "is false");
+
+    let output = vibrissa(&["test", policy.to_str().unwrap(), "--filter", "gives up"]);
+    assert_eq!((output.status.code(), stdout(&output).ends_with("1 test, 0 failed\n")), (Some(0), true));
+}
+
+#[cfg(feature = "sim")]
+#[test]
+fn the_policies_pass_their_own_tests() {
+    let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm"]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("policies/thesis.fsm: ") && stdout(&output).contains("policies/bang.fsm: "));
+}

@@ -1,0 +1,164 @@
+//! What can be written at a place.
+
+use vibrissa::policy::index::{Candidate, Index};
+
+use super::policies::{USING, gathered};
+
+/// The labels of what can be written at the `§` of a text.
+pub(crate) fn labels(text: &str) -> Vec<String> {
+    candidates(text).into_iter().map(|candidate| candidate.label).collect()
+}
+
+/// What can be written at the `§` of a text.
+pub(crate) fn candidates(text: &str) -> Vec<Candidate> {
+    let at = text.find('\u{a7}').unwrap();
+    Index::new(&gathered(&text.replace('\u{a7}', "")), None).candidates(at).1
+}
+
+/// A policy with `inside` in the second of its states, and no end.
+pub(crate) fn writing(inside: &str) -> String {
+    format!(
+        "machine m\nwhisker r0, l0\nparam speed = 50 mm/s\nlet half(x: length) = x / 2\nlaw follow(w: whisker) {{ hold }}\n\
+         initial Begin\nstate Begin {{ stop }}\nstate Go(w: whisker, far: length) {{\n  var worst = 0 rad\n  let dir = w.contour\n  \
+         {inside}"
+    )
+}
+
+#[test]
+fn behind_a_point_come_the_members_of_what_stands_before_it() {
+    let members = [
+        "deflection",
+        "touching",
+        "yaw",
+        "side",
+        "sense",
+        "length",
+        "tip",
+        "tip_base",
+        "tip_spread",
+        "base",
+        "tip_at",
+        "contour",
+    ];
+    for place in [
+        "w.\u{a7}",
+        "w.ti\u{a7}p",
+        "when r0.\u{a7}\n  when l0.touching -> Begin\n}",
+        "when |w.\u{a7}",
+        "record w.\u{a7}\n}",
+    ] {
+        assert_eq!(labels(&writing(place)), members, "{place}");
+    }
+    for place in ["let x = w.contour.\u{a7}", "steer body along r0.contour.\u{a7} at speed"] {
+        assert_eq!(labels(&writing(place)), ["ready", "tangent", "normal", "end", "point", "curvature"], "{place}");
+    }
+    assert_eq!(labels(&writing("let x = body.\u{a7}")), ["yaw", "position"]);
+    for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}", "let x = w.tip.\u{a7}"] {
+        assert_eq!(labels(&writing(place)), [""; 0], "{place}");
+    }
+}
+
+#[test]
+fn behind_an_arrow_come_the_states_and_failure() {
+    for place in
+        ["when true -> \u{a7}", "when true -> B\u{a7}\n}", "after 5 s ->\u{a7}", "}\nalways when true -> \u{a7}"]
+    {
+        assert_eq!(labels(&writing(place)), ["Begin", "Go", "Failure"], "{place}");
+    }
+    assert_eq!(labels(&writing("}\ninitial \u{a7}")), ["Begin"]);
+    assert_eq!(labels(&writing("do \u{a7}")), ["follow"]);
+    assert_eq!(labels(&writing("set \u{a7}")), ["worst"]);
+}
+
+#[test]
+fn a_statement_a_transition_and_an_item_begin_with_their_words() {
+    let has = |place: &str, word: &str| labels(&writing(place)).contains(&word.to_owned());
+    for (place, yes, no) in [
+        ("\u{a7}", "when", "param"),
+        ("hold\n  \u{a7}", "steer", "law"),
+        ("hold\n  st\u{a7}", "steer", "param"),
+        ("hold\n  st\u{a7}", "state", "always"),
+        ("hold\n  \u{a7}", "failsafe", "use"),
+        ("if true {\n \u{a7}", "record", "when"),
+        ("entry {\n \u{a7}", "set", "when"),
+        ("}\n\n\u{a7}", "param", "when"),
+        ("}\n\nlaw other() {\n  \u{a7}", "steer", "when"),
+        ("}\n\npa\u{a7}", "param", "steer"),
+        ("steer body \u{a7}", "along", "at"),
+        ("steer body along w.tip \u{a7}", "at", "along"),
+        ("steer body along w.tip at speed \u{a7}", "facing", "at"),
+        ("when w.touching \u{a7}", "->", "along"),
+        ("when w.touching for 1 s \u{a7}", "->", "for"),
+        ("if true { hold } \u{a7}", "else", "facing"),
+        ("}\nparam x = 3 mm \u{a7}", "in", "when"),
+        ("}\nalways \u{a7}", "when", "param"),
+    ] {
+        assert!(has(place, yes), "{place}: {:?}", labels(&writing(place)));
+        assert!(!has(place, no), "{place}: {:?}", labels(&writing(place)));
+    }
+    assert_eq!(labels("\u{a7}"), ["machine", "library"]);
+    assert_eq!(labels("library l\n\u{a7}"), ["use", "law", "let"]);
+}
+
+#[test]
+fn a_value_is_one_that_is_known_at_the_place() {
+    let has = |place: &str, word: &str| labels(&writing(place)).contains(&word.to_owned());
+    for value in ["w", "far", "worst", "dir", "speed", "half", "r0", "l0", "time", "body", "not", "clamp", "pid"] {
+        assert!(has("let x = \u{a7}", value), "{value}");
+        assert!(has("let x = clamp(1, \u{a7}", value), "{value}");
+    }
+    // Transitions are tried before the statements, and other items do not know what a state does.
+    assert!(!has("when \u{a7}", "dir") && has("when \u{a7}", "worst"));
+    assert!(!has("}\nlet x = \u{a7}", "w") && !has("}\nlet x = \u{a7}", "worst") && has("}\nlet x = \u{a7}", "speed"));
+    assert!(!has("let x = \u{a7}", "x") && !has("let x = \u{a7}", "Go"));
+    assert!(!has("if true { let inner = 1 }\n let x = \u{a7}", "inner"));
+    assert!(has("if true { let inner = 1\n let x = \u{a7}", "inner"));
+}
+
+#[test]
+fn units_follow_numbers_and_types_follow_colons() {
+    for place in ["let x = 50 \u{a7}", "let x = 50 m\u{a7}", "after 5 \u{a7}", "}\nparam x = 1 \u{a7}"] {
+        let labels = labels(&writing(place));
+        assert!(
+            ["mm", "m", "urad", "ms", "mm/s", "deg/s", "N*m"].iter().all(|unit| labels.contains(&(*unit).to_owned()))
+        );
+    }
+    let types = labels(&writing("}\nlaw other(a: \u{a7}"));
+    assert!(types.contains(&"whisker".to_owned()) && types.contains(&"angular_speed".to_owned()));
+    assert_eq!(labels(&writing("}\nlaw other(a: vector \u{a7}")), ["of"]);
+    assert!(!labels(&writing("}\nlaw other(a: vector of \u{a7}")).contains(&"whisker".to_owned()));
+}
+
+#[test]
+fn where_anything_may_be_written_nothing_is_offered() {
+    for place in [
+        "# w.\u{a7}",
+        "when true -> Failure(\"w.\u{a7}\")",
+        "let \u{a7}",
+        "var x\u{a7}",
+        "}\nlaw \u{a7}",
+        "}\nlaw l(\u{a7}",
+        "}\nparam x = \u{a7}",
+        "let x = 50\u{a7}",
+    ] {
+        assert_eq!(labels(&writing(place)), [""; 0], "{place}");
+    }
+}
+
+#[test]
+fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
+    let modules = ["guards", "retrieval", "swipe", "tunnel"];
+    assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
+    assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
+    assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);
+    for list in ["(\u{a7}", "(\u{a7})", "(swipe, \u{a7})\nwhisker r0\n", "(sw\u{a7}"] {
+        assert_eq!(labels(&format!("machine m\nuse std.swipe {list}")), ["swipe", "swipe_tilted"], "{list}");
+        assert_eq!(labels(&format!("machine m\nuse \"laws/corner.fsm\" {list}")), ["sharp", "wait"], "{list}");
+    }
+    let has = |text: &str, name: &str| labels(text).contains(&name.to_owned());
+    let using = |inside: &str| USING.replace("  do wait(r0)\n", inside);
+    assert!(has(&using("do \u{a7}"), "wait") && !has(&using("do \u{a7}"), "sharp"));
+    assert!(has(&using("let x = \u{a7}\n"), "sharp") && has(&using("let x = \u{a7}\n"), "is_near"));
+    // What the used file uses itself is not known.
+    assert!(!has(&using("let x = \u{a7}\n"), "bent"));
+}

@@ -1,0 +1,10 @@
+//! What editors are told of the places in a policy.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod any_text;
+mod candidate;
+mod definition;
+mod hover;
+mod policies;
+mod rename;
+mod state_candidate;

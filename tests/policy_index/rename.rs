@@ -1,0 +1,79 @@
+//! Other names for things.
+
+use vibrissa::diagnostic::Span;
+use vibrissa::machine::Program;
+use vibrissa::policy::index::{Index, RenameError};
+use vibrissa::policy::{Checked, check};
+
+use super::policies::{SWIPE, THESIS, gathered, index, policies};
+
+/// A text with a name in other places.
+fn replaced(text: &str, places: &[Span], name: &str) -> String {
+    let mut text = text.to_owned();
+    for place in places.iter().rev() {
+        text.replace_range(place.start..place.end, name);
+    }
+    text
+}
+
+/// A program without the names that its policy gives to things.
+fn nameless(mut program: Program) -> String {
+    program.name.clear();
+    program.whiskers.iter_mut().for_each(String::clear);
+    program.parameters.iter_mut().for_each(|parameter| parameter.name.clear());
+    program.states.iter_mut().for_each(|state| state.name = "".into());
+    format!("{program:?}")
+}
+
+#[test]
+fn whatever_is_renamed_the_machine_stays_the_same() {
+    let mut renamed = 0;
+    for (name, text) in policies() {
+        let before = check(&gathered(&text)).unwrap();
+        let index = Index::new(&gathered(&text), None);
+        for symbol in index.symbols() {
+            let places = index.rename(symbol.span.start, "fresh_name").unwrap();
+            assert!(places.contains(&symbol.span));
+            let after = replaced(&text, &places, "fresh_name");
+            let after = check(&gathered(&after))
+                .unwrap_or_else(|faults| panic!("{name}, {}: {faults:?}\n{after}", symbol.name));
+            match (after, &before) {
+                (Checked::Machine(after), Checked::Machine(before)) => {
+                    let [after, before] = [after.artifact.program, before.artifact.program.clone()].map(nameless);
+                    assert_eq!(after, before, "{name}, {}", symbol.name);
+                }
+                (after, before) => {
+                    assert!(matches!((after, before), (Checked::Library { .. }, Checked::Library { .. })));
+                }
+            }
+            renamed += 1;
+        }
+    }
+    assert!(renamed > 250, "{renamed}");
+}
+
+#[test]
+fn what_cannot_be_renamed_says_why() {
+    let index = index(THESIS);
+    let rename = |part: &str, name: &str| index.rename(THESIS.find(part).unwrap(), name).unwrap_err();
+    let in_swipe = |part: &str, name: &str| self::index(SWIPE).rename(SWIPE.find(part).unwrap(), name).unwrap_err();
+    assert_eq!(in_swipe("clamp", "x"), RenameError::BuiltIn("clamp".to_owned()));
+    assert_eq!(rename("touching", "x"), RenameError::BuiltIn("touching".to_owned()));
+    assert_eq!(rename("# The", "x"), RenameError::NoName);
+    assert_eq!(rename("std.guards", "x"), RenameError::NoName);
+    assert_eq!(rename("lost ", "limit"), RenameError::Taken { name: "limit".to_owned(), line: 15 });
+    let line = |part: &str| SWIPE[..SWIPE.find(part).unwrap()].matches('\n').count() + 1;
+    let taken = |name: &str, line| RenameError::Taken { name: name.to_owned(), line };
+    assert_eq!(in_swipe("tilt: angle", "tangent"), taken("tangent", line("let tangent")));
+    assert_eq!(in_swipe("tangent = w", "tilt"), taken("tilt", line("tilt: angle")));
+    let (name, file) = ("at_limit".to_owned(), "std.guards".to_owned());
+    let standard = RenameError::Standard { name: name.clone(), module: file.clone() };
+    assert_eq!(rename("at_limit(r0", "x"), standard);
+    assert_eq!(rename("at_limit, ", "x"), standard);
+    assert_eq!(rename("lost ", "at_limit"), RenameError::Brought { name, file });
+    assert_eq!(rename("lost ", "state"), RenameError::Reserved("state".to_owned()));
+    assert_eq!(rename("lost ", "Failure"), RenameError::Reserved("Failure".to_owned()));
+    for name in ["", "1a", "a b", "\u{e4}", "a-b"] {
+        assert_eq!(rename("lost ", name), RenameError::Malformed(name.to_owned()));
+    }
+}

@@ -1,0 +1,42 @@
+//! Laws at work.
+
+use std::sync::Arc;
+
+use vibrissa::diagnostic::{Colour, Source, terminal};
+use vibrissa::geometry::{Point2, Vector2};
+use vibrissa::machine::{Action, Machine, Mover, Turn};
+use vibrissa::policy::compile;
+
+use super::felt::Felt;
+
+/// A machine that does one thing, with the whisker `w` of the one side and `v` of the other.
+pub(crate) fn machine(whisker: usize, does: &str) -> Machine {
+    let (right, left) = if whisker == 0 { ("w", "v") } else { ("v", "w") };
+    let text = format!(
+        "machine m use std.guards use std.retrieval use std.swipe use std.tunnel whisker {right}, {left}
+        initial Doing state Doing {{ {does} }}"
+    );
+    let source = Source::new("m.fsm", text);
+    let program = compile(&source).unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain)));
+    Machine::new(Arc::new(program))
+}
+
+/// What a law commands: along, speed, and the heading or the rate of turning.
+pub(crate) fn commanded(whisker: usize, does: &str, felt: &Felt) -> (Mover, Vector2, f64, Turn) {
+    match machine(whisker, does).tick(&mut { *felt }).action {
+        Action::Steer { mover, along_world, speed, turn } => (mover, along_world, speed, turn),
+        other => panic!("{other:?}"),
+    }
+}
+
+pub(crate) fn vector(vector: Vector2) -> String {
+    format!("vector({:?}, {:?})", vector.x, vector.y)
+}
+
+pub(crate) fn place(place: Point2) -> String {
+    format!("vector({:?} m, {:?} m)", place.x, place.y)
+}
+
+pub(crate) fn is_near(a: Vector2, b: Vector2) -> bool {
+    (a - b).norm() < 1e-9
+}
