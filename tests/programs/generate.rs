@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::grow::Grower;
-use super::tree::{Derived, Expression, Guard, Law, Program, Rule, State, Statement, Steer, Target, Type};
+use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, State, Statement, Steer, Target, Type};
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {
@@ -34,7 +34,7 @@ impl Grower<'_> {
             self.program.parameters.push((name, value));
         }
         let globals = self.scope.len();
-        let [derived, laws, states] = [5, 5, MOST_STATES].map(|most| self.pick(most));
+        let [derived, laws, states] = [6, 5, MOST_STATES].map(|most| self.pick(most));
         for index in 0..derived {
             self.next_part();
             let (arguments, r#type) = (self.arguments(2), self.one_of(&Type::ALL));
@@ -157,12 +157,22 @@ impl Grower<'_> {
         if self.pick(16) == 15 {
             return Target::Failure(format!("reason {}", self.pick(3)));
         }
-        let target = self.pick(self.program.states.len());
+        let target = match from {
+            Some(from) if self.pick(4) == 3 => from,
+            _ => self.pick(self.program.states.len()),
+        };
         let has_inner = self.program.states.iter().any(|state| state.parent == Some(target));
         let resume = has_inner && self.pick(2) == 1;
         let entered = self.program.entered(from, target);
-        let step = |state: usize| (state, self.values(&self.program.states[state].arguments.clone(), 2));
-        Target::State { way: entered.into_iter().map(step).collect(), resume }
+        let mut way = Vec::new();
+        for state in entered {
+            let arguments = self.program.states[state].arguments.clone();
+            // A state that hands its own arguments on to itself could overwrite one before it is read.
+            let values =
+                if from == Some(state) && self.pick(3) == 1 { swapped(&arguments) } else { self.values(&arguments, 2) };
+            way.push((state, values));
+        }
+        Target::State { way, resume }
     }
 
     /// Statements whose names end with them.
@@ -174,13 +184,26 @@ impl Grower<'_> {
     }
 
     fn statements(&mut self, may: May, depth: u8) -> Vec<Statement> {
-        (0..self.pick(8)).map(|_| self.statement(may, depth)).collect()
+        let mut statements = Vec::new();
+        for _ in 0..self.pick(8) {
+            let statement = self.statement(may, depth);
+            let copied = match &statement {
+                Statement::Let(_, Expression::Name(name)) if may.set => name.clone(),
+                _ => String::new(),
+            };
+            statements.push(statement);
+            let memory = self.scope.iter().find(|known| known.is_memory && known.name == copied).cloned();
+            if let Some(memory) = memory {
+                statements.push(Statement::Set(memory.name, self.expression(memory.r#type, 2)));
+            }
+        }
+        statements
     }
 
     fn statement(&mut self, may: May, depth: u8) -> Statement {
         let memory: Vec<_> = self.scope.iter().filter(|known| known.is_memory).cloned().collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
-        match self.pick(16) {
+        match self.pick(17) {
             0 | 1 => {
                 let r#type = self.one_of(&Type::ALL);
                 let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
@@ -189,7 +212,7 @@ impl Grower<'_> {
             }
             2..=5 if may.set && !memory.is_empty() => {
                 let memory = self.one_of(&memory);
-                // Named before it is set: what that name stands for must stay.
+                // Named, and set behind that: what the name stands for must stay.
                 if self.pick(3) > 0 {
                     let name = self.fresh_name();
                     self.know(&name, memory.r#type, false);
@@ -210,7 +233,7 @@ impl Grower<'_> {
                 Statement::Do(law.name, values, self.site())
             }
             12 => Statement::Mark(self.one_of(&["lost", "found"]), self.expression(Type::Whisker, 1)),
-            13 if may.command => [Statement::Hold, Statement::Stop][self.pick(2)].clone(),
+            13 | 16 if may.command => [Statement::Hold, Statement::Stop][self.pick(2)].clone(),
             14 | 15 if may.command => self.steer(),
             _ => Statement::Record(self.expression(Type::Whisker, 1)),
         }
@@ -224,4 +247,14 @@ impl Grower<'_> {
         let turn = self.expression(if facing { Type::Angle } else { Type::Rate }, 3);
         Statement::Steer(Steer { whisker, along, speed, facing, turn })
     }
+}
+
+/// For every argument the name of the next one of its type.
+fn swapped(arguments: &Arguments) -> Vec<Expression> {
+    let next = |(index, (_, r#type)): (usize, &(String, Type))| {
+        let mut behind = arguments.iter().cycle().skip(index + 1);
+        let (name, _) = behind.find(|(_, other)| other == r#type).unwrap();
+        Expression::Name(name.clone())
+    };
+    arguments.iter().enumerate().map(next).collect()
 }

@@ -75,7 +75,10 @@ impl<'g> Grower<'g> {
         let count = self.pick(most + 1);
         let mut arguments = Arguments::new();
         for _ in 0..count {
-            let (name, r#type) = (self.fresh_name(), self.one_of(&Type::ALL));
+            let another = self.one_of(&Type::ALL);
+            // Arguments of one type can be taken for one another.
+            let same = arguments.last().map(|&(_, r#type)| r#type).filter(|_| self.pick(2) == 1);
+            let (name, r#type) = (self.fresh_name(), same.unwrap_or(another));
             self.know(&name, r#type, false);
             arguments.push((name, r#type));
         }
@@ -179,10 +182,15 @@ impl<'g> Grower<'g> {
             9 => self.function("max", &[r#type; 2], depth),
             10 => self.function("clamp", &[r#type; 3], depth),
             _ => {
-                let values = vec![self.expression(r#type, depth), self.quantity(Type::Frequency)];
+                let values = vec![self.filtered(r#type, depth), self.quantity(Type::Frequency)];
                 self.call("lowpass", values)
             }
         }
+    }
+
+    /// What a filter is given: what changes, as often as not.
+    fn filtered(&mut self, r#type: Type, depth: u8) -> Expression {
+        if self.pick(2) == 0 { self.sensed(r#type) } else { self.expression(r#type, depth) }
     }
 
     /// What numbers of one dimension have.
@@ -228,7 +236,7 @@ impl<'g> Grower<'g> {
     }
 
     fn pid(&mut self, types: [Type; 2], p: &'static str, i: &'static str, d: &'static str, depth: u8) -> Expression {
-        let error = self.expression(types[0], depth);
+        let error = self.filtered(types[0], depth);
         let mut gain = |unit| Expression::Quantity(self.one_of(&NUMBERS), unit);
         let gains = [gain(p), gain(i), gain(d)];
         let limit = self.expression(types[1], 0);
@@ -265,7 +273,7 @@ impl<'g> Grower<'g> {
     }
 
     fn truth(&mut self, depth: u8) -> Expression {
-        match self.pick(7) {
+        match self.pick(8) {
             0..=2 => {
                 let (sign, scalar) = (self.one_of(&["<", "<=", ">", ">=", "==", "!="]), self.one_of(&SCALARS));
                 self.binary(sign, scalar, scalar, depth)
@@ -276,7 +284,13 @@ impl<'g> Grower<'g> {
             }
             4 => Expression::Not(Box::new(self.expression(Type::Truth, depth))),
             5 => self.binary("and", Type::Truth, Type::Truth, depth),
-            _ => self.binary("or", Type::Truth, Type::Truth, depth),
+            6 => self.binary("or", Type::Truth, Type::Truth, depth),
+            // A comparison shows what a filter remembers of a gap, in which a command cannot be given.
+            _ => {
+                let values = vec![self.sensed(Type::Angle), self.quantity(Type::Frequency)];
+                let filtered = self.call("lowpass", values);
+                Expression::Binary("<", Box::new(filtered), Box::new(self.sensed(Type::Angle)))
+            }
         }
     }
 }
