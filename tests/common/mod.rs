@@ -33,6 +33,8 @@ impl Default for Feel {
 pub struct Script {
     pub period: f64,
     pub now: usize,
+    /// By how much (s) each tick comes late; those that are not listed do not.
+    pub late: Vec<f64>,
     /// By tick, then by whisker; the last tick lasts.
     pub ticks: Vec<Vec<Feel>>,
     pub recorded: Vec<usize>,
@@ -41,7 +43,7 @@ pub struct Script {
 
 impl Script {
     pub fn new(ticks: Vec<Vec<Feel>>) -> Self {
-        Self { period: 1.0 / 30.0, now: 0, ticks, recorded: Vec::new(), marked: Vec::new() }
+        Self { period: 1.0 / 30.0, now: 0, late: Vec::new(), ticks, recorded: Vec::new(), marked: Vec::new() }
     }
 
     /// One whisker that touches at the ticks marked `x`.
@@ -57,7 +59,7 @@ impl Script {
 
 impl Senses for Script {
     fn time(&self) -> f64 {
-        self.now as f64 * self.period
+        self.now as f64 * self.period + self.late.get(self.now).unwrap_or(&0.0)
     }
 
     fn body(&self, quantity: BodyScalar) -> f64 {

@@ -1,0 +1,337 @@
+//! Expressions and statements, interpreted over their trees, with names looked up as they are met.
+
+use vibrissa::geometry::{Vector2, rotate, wrap};
+use vibrissa::machine::{Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+
+use super::interpreter::Interpreter;
+use super::tree::{Arguments, Derived, Expression, Law, Statement, Steer};
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Value {
+    Number(f64),
+    Truth(bool),
+    Vector(Vector2),
+    /// A whisker, or its contour.
+    Whisker(usize),
+}
+
+impl Value {
+    pub(crate) fn number(self) -> f64 {
+        if let Self::Number(number) = self { number } else { panic!("{self:?} is no number") }
+    }
+
+    pub(crate) fn truth(self) -> bool {
+        if let Self::Truth(truth) = self { truth } else { panic!("{self:?} is no truth") }
+    }
+
+    fn vector(self) -> Vector2 {
+        if let Self::Vector(vector) = self { vector } else { panic!("{self:?} is no vector") }
+    }
+
+    fn whisker(self) -> usize {
+        if let Self::Whisker(whisker) = self { whisker } else { panic!("{self:?} is no whisker") }
+    }
+}
+
+/// Where something is evaluated.
+pub(crate) struct Place {
+    /// The state whose arguments and memory are known, with those of the states around it.
+    sees: Option<usize>,
+    /// The state in which it stands, be it by way of laws and derived values.
+    stands_in: Option<usize>,
+    /// The uses of laws and derived values that lead here.
+    uses: Vec<usize>,
+    locals: Vec<(String, Value)>,
+    /// Names of memory, and of what was named after it since it was last set.
+    copies: Vec<(String, String)>,
+    /// What it is part of, to count.
+    pub(crate) part: &'static str,
+}
+
+impl Place {
+    pub(crate) fn new(state: Option<usize>, part: &'static str) -> Self {
+        Self { sees: state, stands_in: state, uses: Vec::new(), locals: Vec::new(), copies: Vec::new(), part }
+    }
+}
+
+impl Interpreter<'_> {
+    pub(crate) fn values(&mut self, values: &[Expression], place: &mut Place) -> Vec<Value> {
+        values.iter().map(|value| self.value(value, place)).collect()
+    }
+
+    pub(crate) fn value(&mut self, expression: &Expression, place: &mut Place) -> Value {
+        match expression {
+            Expression::Quantity(number, unit) => {
+                let (factor, divisor) = unit_in_si(unit);
+                self.seen(
+                    "a unit with a factor",
+                    (!unit.is_empty() && unit_in_si(unit) != (1.0, 1.0)).then_some(place.part),
+                );
+                Value::Number(number.parse::<f64>().unwrap() * factor / divisor)
+            }
+            Expression::Truth(truth) => Value::Truth(*truth),
+            Expression::Name(name) => self.named(name, place),
+            Expression::Call(name, values, site) => {
+                let values = self.values(values, place);
+                let derived = self.program.derived.iter().find(|derived| derived.name == *name);
+                match derived {
+                    Some(Derived { arguments, value, .. }) => {
+                        self.seen(
+                            if values.is_empty() { "a derived value" } else { "one with arguments" },
+                            Some(place.part),
+                        );
+                        let mut inside = inside(place, *site, arguments, values, "a derived value");
+                        self.value(value, &mut inside)
+                    }
+                    None => self.function(name, &values, *site, place),
+                }
+            }
+            Expression::Body("yaw") => Value::Number(self.senses.body(BodyScalar::Yaw)),
+            Expression::Body(_) => Value::Vector(self.senses.body_position()),
+            Expression::Member(owner, member, values) => {
+                let whisker = self.value(owner, place).whisker();
+                let values = self.values(values, place);
+                self.member(whisker, member, values.first().map(|value| value.number()))
+            }
+            Expression::Norm(inner) => Value::Number(match self.value(inner, place) {
+                Value::Vector(vector) => vector.norm(),
+                other => other.number().abs(),
+            }),
+            Expression::Negate(inner) => match self.value(inner, place) {
+                Value::Vector(vector) => Value::Vector(-vector),
+                other => Value::Number(-other.number()),
+            },
+            Expression::Not(inner) => Value::Truth(!self.value(inner, place).truth()),
+            // Both sides are computed, whatever the first is: filters in the second see every tick.
+            Expression::Binary(sign, left, right) => binary(sign, self.value(left, place), self.value(right, place)),
+        }
+    }
+
+    fn named(&mut self, name: &str, place: &Place) -> Value {
+        if let Some((_, value)) = place.locals.iter().rev().find(|(known, _)| known == name) {
+            return *value;
+        }
+        let around = place.sees.map_or_else(Vec::new, |state| self.program.way(state));
+        if let Some(value) = around.iter().rev().find_map(|&state| self.kept[state].get(name)) {
+            return *value;
+        }
+        if let Some((_, value)) = self.program.parameters.iter().find(|(known, _)| known == name) {
+            self.seen("a parameter", Some(place.part));
+            return self.value(value, &mut Place::new(None, "a parameter"));
+        }
+        Value::Whisker(name.strip_prefix('w').unwrap().parse().unwrap())
+    }
+
+    fn member(&self, whisker: usize, member: &str, value: Option<f64>) -> Value {
+        let scalar = |quantity| Value::Number(self.senses.whisker(whisker, quantity));
+        let truth = |quantity| Value::Truth(self.senses.whisker(whisker, quantity) > 0.5);
+        let vector = |quantity| Value::Vector(self.senses.whisker_vector(whisker, quantity));
+        let behind = |quantity| Value::Vector(self.senses.contour_at(whisker, value.unwrap(), quantity));
+        match member {
+            "deflection" => scalar(WhiskerScalar::Deflection),
+            "touching" => truth(WhiskerScalar::Touching),
+            "yaw" => scalar(WhiskerScalar::Yaw),
+            "side" => scalar(WhiskerScalar::Side),
+            "sense" => scalar(WhiskerScalar::Sense),
+            "length" => scalar(WhiskerScalar::Length),
+            "tip_spread" => scalar(WhiskerScalar::TipSpread),
+            "ready" => truth(WhiskerScalar::ContourReady),
+            "tip" => vector(WhiskerVector::Tip),
+            "tip_base" => vector(WhiskerVector::TipBase),
+            "base" => vector(WhiskerVector::Base),
+            "end" => vector(WhiskerVector::ContourEnd),
+            "tip_at" => Value::Vector(self.senses.tip_at(whisker, value.unwrap())),
+            "point" => behind(ContourVector::Point),
+            "tangent" if value.is_some() => behind(ContourVector::Tangent),
+            "normal" if value.is_some() => behind(ContourVector::Normal),
+            "tangent" => vector(WhiskerVector::ContourTangent),
+            "normal" => vector(WhiskerVector::ContourNormal),
+            _ => Value::Whisker(whisker),
+        }
+    }
+
+    fn function(&mut self, name: &str, values: &[Value], site: usize, place: &mut Place) -> Value {
+        let number = |index: usize| values[index].number();
+        Value::Number(match name {
+            "time" => self.senses.time(),
+            "abs" => number(0).abs(),
+            "sign" if number(0) == 0.0 => 0.0,
+            "sign" => number(0).signum(),
+            "sqrt" => number(0).sqrt(),
+            "exp" => number(0).exp(),
+            "floor" => number(0).floor(),
+            "sin" => number(0).sin(),
+            "cos" => number(0).cos(),
+            "min" => lesser(number(0), number(1)),
+            "max" => greater(number(0), number(1)),
+            "clamp" => lesser(greater(number(0), number(1)), number(2)),
+            "wrap" => wrap(number(0)),
+            "turn" => wrap(number(1) - number(0)),
+            "angle" => values[0].vector().y.atan2(values[0].vector().x),
+            "dot" => values[0].vector().dot(&values[1].vector()),
+            "cross" => values[0].vector().perp(&values[1].vector()),
+            "direction" => return Value::Vector(Vector2::new(number(0).cos(), number(0).sin())),
+            "vector" => return Value::Vector(Vector2::new(number(0), number(1))),
+            "rotate" => return Value::Vector(rotate(values[0].vector(), number(1))),
+            "unit" => {
+                let (vector, length) = (values[0].vector(), values[0].vector().norm());
+                return Value::Vector(if length == 0.0 { Vector2::zeros() } else { vector / length });
+            }
+            _ => {
+                let now = self.senses.time();
+                let which = place.uses.iter().copied().chain([site]).collect();
+                let filter = self.filters.entry((place.stands_in, which)).or_default();
+                let (what, output) = match name {
+                    "lowpass" => ("lowpass", filter.low_pass(now, number(0), number(1))),
+                    _ => ("pid", filter.pid(now, number(0), [1, 2, 3, 4].map(number))),
+                };
+                self.seen(what, Some(place.part));
+                output
+            }
+        })
+    }
+
+    /// Runs statements; the last command that they give, if any.
+    pub(crate) fn run(&mut self, statements: &[Statement], place: &mut Place) -> Option<Action> {
+        let (known, mut command) = (place.locals.len(), None);
+        for statement in statements {
+            command = self.statement(statement, place).or(command);
+        }
+        place.locals.truncate(known);
+        command
+    }
+
+    fn statement(&mut self, statement: &Statement, place: &mut Place) -> Option<Action> {
+        match statement {
+            Statement::Let(name, value) => {
+                if let Expression::Name(memory) = value {
+                    place.copies.push((memory.clone(), name.clone()));
+                }
+                let value = self.value(value, place);
+                place.locals.push((name.clone(), value));
+                self.seen("let", Some(place.part));
+            }
+            Statement::Set(name, value) => {
+                let value = self.value(value, place);
+                let around = self.program.way(place.sees.unwrap());
+                let owner = around.into_iter().rev().find(|&state| self.kept[state].contains_key(name)).unwrap();
+                self.kept[owner].insert(name.clone(), value);
+                let was_copied = place.copies.iter().any(|(memory, _)| memory == name);
+                self.seen("set of what was named before", was_copied.then_some(place.part));
+                self.seen("set of an outer state's memory", (Some(owner) != place.sees).then_some(place.part));
+                self.seen("set", Some(place.part));
+            }
+            Statement::If(branches, otherwise) => {
+                let part = std::mem::replace(&mut place.part, "an if");
+                let taken = branches.iter().find(|(condition, _)| self.value(condition, place).truth());
+                let command = self.run(taken.map_or(otherwise, |(_, then)| then), place);
+                place.part = part;
+                self.seen("if", Some(part));
+                return command;
+            }
+            Statement::Do(law, values, site) => {
+                let values = self.values(values, place);
+                let Law { arguments, body, .. } = self.program.laws.iter().find(|known| known.name == *law).unwrap();
+                self.seen("do", Some(place.part));
+                return self.run(body, &mut inside(place, *site, arguments, values, "a law"));
+            }
+            Statement::Record(whisker) => {
+                let whisker = self.value(whisker, place).whisker();
+                self.senses.record(whisker);
+                self.seen("record", Some(place.part));
+            }
+            Statement::Mark(mark, whisker) => {
+                let whisker = self.value(whisker, place).whisker();
+                self.senses.mark(whisker, if *mark == "lost" { Mark::Lost } else { Mark::Found });
+                self.seen("mark", Some(place.part));
+            }
+            Statement::Steer(steer) => return Some(self.steer(steer, place)),
+            Statement::Hold => {
+                self.seen("hold", Some(place.part));
+                return Some(Action::Hold);
+            }
+            Statement::Stop => {
+                self.seen("stop", Some(place.part));
+                return Some(Action::Stop);
+            }
+        }
+        None
+    }
+
+    fn steer(&mut self, steer: &Steer, place: &mut Place) -> Action {
+        let Steer { whisker, along, speed, facing, turn } = steer;
+        let whisker = whisker.as_ref().map(|whisker| self.value(whisker, place).whisker());
+        let (along_world, speed) = (self.value(along, place).vector(), self.value(speed, place).number());
+        let turn = self.value(turn, place).number();
+        let is = ["steer body turning", "steer body facing", "steer w turning", "steer w facing"];
+        self.seen(is[2 * usize::from(whisker.is_some()) + usize::from(*facing)], Some(place.part));
+        let mover = whisker.map_or(Mover::Body, Mover::Whisker);
+        Action::Steer { mover, along_world, speed, turn: if *facing { Turn::Facing(turn) } else { Turn::Rate(turn) } }
+    }
+}
+
+/// The place within a law or a derived value: it knows its arguments alone, and stands where it is used.
+fn inside(place: &Place, site: usize, arguments: &Arguments, values: Vec<Value>, part: &'static str) -> Place {
+    let uses = place.uses.iter().copied().chain([site]).collect();
+    let locals = arguments.iter().map(|(name, _)| name.clone()).zip(values).collect();
+    Place { uses, locals, stands_in: place.stands_in, ..Place::new(None, part) }
+}
+
+fn binary(sign: &str, left: Value, right: Value) -> Value {
+    use Value::{Number, Truth, Vector, Whisker};
+    match (sign, left, right) {
+        ("or", Truth(a), Truth(b)) => Truth(a || b),
+        ("and", Truth(a), Truth(b)) => Truth(a && b),
+        ("==", Truth(a), Truth(b)) => Truth(a == b),
+        ("!=", Truth(a), Truth(b)) => Truth(a != b),
+        ("==", Whisker(a), Whisker(b)) => Truth(a == b),
+        ("!=", Whisker(a), Whisker(b)) => Truth(a != b),
+        ("+", Vector(a), Vector(b)) => Vector(a + b),
+        ("-", Vector(a), Vector(b)) => Vector(a - b),
+        ("*", Vector(a), Number(b)) | ("*", Number(b), Vector(a)) => Vector(a * b),
+        ("/", Vector(a), Number(b)) => Vector(a / b),
+        (_, Number(a), Number(b)) => numbers(sign, a, b),
+        _ => panic!("{left:?} {sign} {right:?}"),
+    }
+}
+
+#[expect(clippy::float_cmp, reason = "the language compares exactly")]
+fn numbers(sign: &str, a: f64, b: f64) -> Value {
+    match sign {
+        "+" => Value::Number(a + b),
+        "-" => Value::Number(a - b),
+        "*" => Value::Number(a * b),
+        "/" => Value::Number(a / b),
+        "<" => Value::Truth(a < b),
+        "<=" => Value::Truth(a <= b),
+        ">" => Value::Truth(a > b),
+        ">=" => Value::Truth(a >= b),
+        "==" => Value::Truth(a == b),
+        _ => Value::Truth(a != b),
+    }
+}
+
+/// The lesser of two numbers; not a number if either is not.
+fn lesser(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+}
+
+fn greater(a: f64, b: f64) -> f64 {
+    -lesser(-a, -b)
+}
+
+/// What one of a unit is in SI units: a factor and a divisor.
+fn unit_in_si(unit: &str) -> (f64, f64) {
+    if let Some((above, below)) = unit.split_once('/') {
+        let ((a, b), (c, d)) = (unit_in_si(above), unit_in_si(below));
+        return (a * d, b * c);
+    }
+    match unit {
+        "deg" => (std::f64::consts::PI / 180.0, 1.0),
+        "cm" => (1.0, 1e2),
+        "mm" | "mrad" | "ms" => (1.0, 1e3),
+        "um" | "urad" | "us" => (1.0, 1e6),
+        "kHz" => (1e3, 1.0),
+        _ => (1.0, 1.0),
+    }
+}

@@ -1,0 +1,300 @@
+//! Random expressions of a given type, grown from bytes that say at every point what comes next.
+
+use super::tree::{Arguments, Expression, Program, Type};
+
+/// A name that is known where something grows.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub(crate) name: String,
+    pub(crate) r#type: Type,
+    /// Whether it can be `set`.
+    pub(crate) is_memory: bool,
+}
+
+/// Every part of a program grows from bytes of its own, so that a shorter part leaves the others what they are. A part whose bytes
+/// are used up grows in the simplest way.
+pub(crate) struct Grower<'g> {
+    parts: std::slice::Iter<'g, Vec<u8>>,
+    bytes: std::slice::Iter<'g, u8>,
+    pub(crate) program: Program,
+    pub(crate) scope: Vec<Known>,
+    sites: usize,
+}
+
+const NUMBERS: [&str; 10] = ["1", "0.5", "2", "0.1", "3.7", "0", "10", "0.25", "0.013", "1e2"];
+
+/// The units of a type whose values are numbers with one.
+fn units(r#type: Type) -> &'static [&'static str] {
+    match r#type {
+        Type::Length => &["m", "mm", "cm", "um"],
+        Type::Angle => &["rad", "deg", "mrad", "urad"],
+        Type::Time => &["s", "ms", "us"],
+        Type::Speed => &["m/s", "mm/s", "cm/s", "mm/ms"],
+        Type::Rate => &["rad/s", "deg/s", "mrad/ms"],
+        Type::Frequency => &["Hz", "kHz"],
+        _ => &[""],
+    }
+}
+
+const SCALARS: [Type; 7] =
+    [Type::Number, Type::Length, Type::Angle, Type::Time, Type::Speed, Type::Rate, Type::Frequency];
+
+impl<'g> Grower<'g> {
+    pub(crate) fn new(parts: &'g [Vec<u8>]) -> Self {
+        Self { parts: parts.iter(), bytes: [].iter(), program: Program::default(), scope: Vec::new(), sites: 0 }
+    }
+
+    pub(crate) fn next_part(&mut self) {
+        self.bytes = self.parts.next().map_or([].iter(), |part| part.iter());
+    }
+
+    /// One of `0..all`, and 0 when the bytes are used up.
+    pub(crate) fn pick(&mut self, all: usize) -> usize {
+        usize::from(self.bytes.next().copied().unwrap_or(0)) % all
+    }
+
+    pub(crate) fn one_of<T: Clone>(&mut self, items: &[T]) -> T {
+        items[self.pick(items.len())].clone()
+    }
+
+    pub(crate) fn site(&mut self) -> usize {
+        self.sites += 1;
+        self.sites
+    }
+
+    pub(crate) fn know(&mut self, name: &str, r#type: Type, is_memory: bool) {
+        self.scope.push(Known { name: name.to_owned(), r#type, is_memory });
+    }
+
+    /// A name that means nothing yet where something grows; beside it, it may.
+    pub(crate) fn fresh_name(&self) -> String {
+        format!("x{}", self.scope.len())
+    }
+
+    pub(crate) fn arguments(&mut self, most: usize) -> Arguments {
+        let count = self.pick(most + 1);
+        let mut arguments = Arguments::new();
+        for _ in 0..count {
+            let another = self.one_of(&Type::ALL);
+            // Arguments of one type can be taken for one another.
+            let same = arguments.last().map(|&(_, r#type)| r#type).filter(|_| self.pick(2) == 1);
+            let (name, r#type) = (self.fresh_name(), same.unwrap_or(another));
+            self.know(&name, r#type, false);
+            arguments.push((name, r#type));
+        }
+        arguments
+    }
+
+    pub(crate) fn values(&mut self, arguments: &Arguments, depth: u8) -> Vec<Expression> {
+        arguments.iter().map(|&(_, r#type)| self.expression(r#type, depth)).collect()
+    }
+
+    pub(crate) fn quantity(&mut self, r#type: Type) -> Expression {
+        Expression::Quantity(self.one_of(&NUMBERS), self.one_of(units(r#type)))
+    }
+
+    pub(crate) fn call(&mut self, name: &str, values: Vec<Expression>) -> Expression {
+        Expression::Call(name.to_owned(), values, self.site())
+    }
+
+    pub(crate) fn expression(&mut self, r#type: Type, depth: u8) -> Expression {
+        let names: Vec<String> =
+            self.scope.iter().filter(|known| known.r#type == r#type).map(|known| known.name.clone()).collect();
+        let derived: Vec<_> = self.program.derived.iter().filter(|derived| derived.r#type == r#type).cloned().collect();
+        match self.pick(if depth == 0 { 6 } else { 10 }) {
+            0 => self.simple(r#type),
+            1..=3 if !names.is_empty() => Expression::Name(self.one_of(&names)),
+            4 | 5 if depth > 0 && !derived.is_empty() => {
+                let derived = self.one_of(&derived);
+                let values = self.values(&derived.arguments, depth - 1);
+                self.call(&derived.name, values)
+            }
+            1..=5 => self.sensed(r#type),
+            _ => self.composite(r#type, depth - 1),
+        }
+    }
+
+    fn simple(&mut self, r#type: Type) -> Expression {
+        match r#type {
+            Type::Truth => Expression::Truth(self.pick(2) == 0),
+            Type::Whisker => Expression::Name(format!("w{}", self.pick(self.program.whiskers))),
+            Type::Contour => member(self.simple(Type::Whisker), "contour"),
+            Type::Vector => member(self.simple(Type::Contour), "tangent"),
+            Type::Place => Expression::Body("position"),
+            _ => self.quantity(r#type),
+        }
+    }
+
+    fn of_whisker(&mut self, members: &[&'static str]) -> Expression {
+        member(self.expression(Type::Whisker, 0), self.one_of(members))
+    }
+
+    /// Something that is felt.
+    fn sensed(&mut self, r#type: Type) -> Expression {
+        match r#type {
+            Type::Number => self.of_whisker(&["side", "sense"]),
+            Type::Length => self.of_whisker(&["length", "tip_spread"]),
+            Type::Angle if self.pick(3) == 0 => Expression::Body("yaw"),
+            Type::Angle => self.of_whisker(&["deflection", "yaw"]),
+            Type::Time => self.call("time", Vec::new()),
+            Type::Truth if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "ready"),
+            Type::Truth => self.of_whisker(&["touching"]),
+            Type::Vector => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
+            Type::Place if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "end"),
+            Type::Place => self.of_whisker(&["tip", "tip_base", "base"]),
+            Type::Contour => self.of_whisker(&["contour"]),
+            Type::Whisker | Type::Speed | Type::Rate | Type::Frequency => self.simple(r#type),
+        }
+    }
+
+    pub(crate) fn composite(&mut self, r#type: Type, depth: u8) -> Expression {
+        match r#type {
+            Type::Truth => self.truth(depth),
+            Type::Vector | Type::Place => self.vector(r#type, depth),
+            Type::Whisker | Type::Contour => self.sensed(r#type),
+            _ if self.pick(2) == 0 => self.scalar(r#type, depth),
+            _ => self.special(r#type, depth),
+        }
+    }
+
+    fn binary(&mut self, sign: &'static str, left: Type, right: Type, depth: u8) -> Expression {
+        let (left, right) = (self.expression(left, depth), self.expression(right, depth));
+        Expression::Binary(sign, Box::new(left), Box::new(right))
+    }
+
+    fn function(&mut self, name: &str, types: &[Type], depth: u8) -> Expression {
+        let values = types.iter().map(|&r#type| self.expression(r#type, depth)).collect();
+        self.call(name, values)
+    }
+
+    /// What numbers of every dimension have.
+    fn scalar(&mut self, r#type: Type, depth: u8) -> Expression {
+        match self.pick(16) {
+            0 => self.binary("+", r#type, r#type, depth),
+            1 => self.binary("-", r#type, r#type, depth),
+            2 => self.binary("*", Type::Number, r#type, depth),
+            3 => self.binary("*", r#type, Type::Number, depth),
+            4 => self.binary("/", r#type, Type::Number, depth),
+            5 => Expression::Negate(Box::new(self.expression(r#type, depth))),
+            6 => Expression::Norm(Box::new(self.expression(r#type, depth))),
+            7 => self.function("abs", &[r#type], depth),
+            8 => self.function("min", &[r#type; 2], depth),
+            9 => self.function("max", &[r#type; 2], depth),
+            10 => self.function("clamp", &[r#type; 3], depth),
+            _ => {
+                let values = vec![self.filtered(r#type, depth), self.quantity(Type::Frequency)];
+                self.call("lowpass", values)
+            }
+        }
+    }
+
+    /// What a filter is given: what changes, as often as not.
+    fn filtered(&mut self, r#type: Type, depth: u8) -> Expression {
+        if self.pick(2) == 0 { self.sensed(r#type) } else { self.expression(r#type, depth) }
+    }
+
+    /// What numbers of one dimension have.
+    fn special(&mut self, r#type: Type, depth: u8) -> Expression {
+        match (r#type, self.pick(8)) {
+            (Type::Number, 0) => {
+                let scalar = self.one_of(&SCALARS);
+                self.binary("/", scalar, scalar, depth)
+            }
+            (Type::Number, 1) => {
+                let scalar = self.one_of(&SCALARS);
+                self.function("sign", &[scalar], depth)
+            }
+            (Type::Number, 2) => {
+                let name = self.one_of(&["sin", "cos"]);
+                self.function(name, &[Type::Angle], depth)
+            }
+            (Type::Number, 3) => {
+                let name = self.one_of(&["sqrt", "exp", "floor"]);
+                self.function(name, &[Type::Number], depth)
+            }
+            (Type::Number, 4) => {
+                let name = self.one_of(&["dot", "cross"]);
+                self.function(name, &[Type::Vector; 2], depth)
+            }
+            (Type::Number, 5) => Expression::Norm(Box::new(self.expression(Type::Vector, depth))),
+            (Type::Number, _) => self.pid([Type::Number, Type::Number], "", "Hz", "s", depth),
+            (Type::Length, 0..=3) => Expression::Norm(Box::new(self.expression(Type::Place, depth))),
+            (Type::Length, _) => self.binary("*", Type::Speed, Type::Time, depth),
+            (Type::Angle, 0..=1) => self.function("angle", &[Type::Vector], depth),
+            (Type::Angle, 2..=3) => self.function("turn", &[Type::Angle; 2], depth),
+            (Type::Angle, 4..=5) => self.function("wrap", &[Type::Angle], depth),
+            (Type::Angle, _) => self.binary("*", Type::Rate, Type::Time, depth),
+            (Type::Speed, 0..=2) => self.binary("*", Type::Length, Type::Frequency, depth),
+            (Type::Speed, 3) => self.binary("/", Type::Length, Type::Time, depth),
+            (Type::Speed, _) => self.pid([Type::Length, Type::Speed], "Hz", "Hz^2", "", depth),
+            (Type::Rate, 0..=2) => self.binary("*", Type::Angle, Type::Frequency, depth),
+            (Type::Rate, 3) => self.binary("/", Type::Angle, Type::Time, depth),
+            (Type::Rate, _) => self.pid([Type::Angle, Type::Rate], "Hz", "Hz^2", "", depth),
+            (Type::Time, _) => self.binary("/", Type::Length, Type::Speed, depth),
+            _ => self.binary("/", Type::Number, Type::Time, depth),
+        }
+    }
+
+    fn pid(&mut self, types: [Type; 2], p: &'static str, i: &'static str, d: &'static str, depth: u8) -> Expression {
+        let error = self.filtered(types[0], depth);
+        let mut gain = |unit| Expression::Quantity(self.one_of(&NUMBERS), unit);
+        let gains = [gain(p), gain(i), gain(d)];
+        let limit = self.expression(types[1], 0);
+        let values = std::iter::once(error).chain(gains).chain([limit]).collect();
+        self.call("pid", values)
+    }
+
+    fn vector(&mut self, r#type: Type, depth: u8) -> Expression {
+        let is_place = r#type == Type::Place;
+        match self.pick(11) {
+            0 => self.binary("+", r#type, r#type, depth),
+            1 => self.binary("-", r#type, r#type, depth),
+            2 => self.binary("*", Type::Number, r#type, depth),
+            3 => self.binary("*", r#type, Type::Number, depth),
+            4 => self.binary("/", r#type, Type::Number, depth),
+            5 => Expression::Negate(Box::new(self.expression(r#type, depth))),
+            6 => self.function("rotate", &[r#type, Type::Angle], depth),
+            7 => self.function("vector", &[if is_place { Type::Length } else { Type::Number }; 2], depth),
+            8 if is_place => self.binary("*", Type::Vector, Type::Length, depth),
+            9 if is_place => self.at(Type::Whisker, &["tip_at"], Type::Angle, depth),
+            _ if is_place => self.at(Type::Contour, &["point"], Type::Length, depth),
+            8 => self.function("direction", &[Type::Angle], depth),
+            9 => {
+                let of = self.one_of(&[Type::Vector, Type::Place]);
+                self.function("unit", &[of], depth)
+            }
+            _ => self.at(Type::Contour, &["tangent", "normal"], Type::Length, depth),
+        }
+    }
+
+    fn at(&mut self, owner: Type, members: &[&'static str], value: Type, depth: u8) -> Expression {
+        let (owner, value) = (self.expression(owner, depth), self.expression(value, depth));
+        Expression::Member(Box::new(owner), self.one_of(members), vec![value])
+    }
+
+    fn truth(&mut self, depth: u8) -> Expression {
+        match self.pick(8) {
+            0..=2 => {
+                let (sign, scalar) = (self.one_of(&["<", "<=", ">", ">=", "==", "!="]), self.one_of(&SCALARS));
+                self.binary(sign, scalar, scalar, depth)
+            }
+            3 => {
+                let (sign, either) = (self.one_of(&["==", "!="]), self.one_of(&[Type::Whisker, Type::Truth]));
+                self.binary(sign, either, either, depth)
+            }
+            4 => Expression::Not(Box::new(self.expression(Type::Truth, depth))),
+            5 => self.binary("and", Type::Truth, Type::Truth, depth),
+            6 => self.binary("or", Type::Truth, Type::Truth, depth),
+            // A comparison shows what a filter remembers of a gap, in which a command cannot be given.
+            _ => {
+                let values = vec![self.sensed(Type::Angle), self.quantity(Type::Frequency)];
+                let filtered = self.call("lowpass", values);
+                Expression::Binary("<", Box::new(filtered), Box::new(self.sensed(Type::Angle)))
+            }
+        }
+    }
+}
+
+fn member(owner: Expression, member: &'static str) -> Expression {
+    Expression::Member(Box::new(owner), member, Vec::new())
+}

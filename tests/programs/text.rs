@@ -1,0 +1,200 @@
+//! Programs as texts.
+
+use std::fmt::Write;
+
+use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, Statement, Steer, Target, Type};
+
+impl std::fmt::Debug for Program {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.text())
+    }
+}
+
+impl Type {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Number => "number",
+            Self::Length => "length",
+            Self::Angle => "angle",
+            Self::Time => "time",
+            Self::Speed => "speed",
+            Self::Rate => "angular_speed",
+            Self::Frequency => "number / time",
+            Self::Truth => "truth",
+            Self::Vector => "vector",
+            Self::Place => "vector of length",
+            Self::Whisker => "whisker",
+            Self::Contour => "contour",
+        }
+    }
+}
+
+impl Program {
+    /// The program as a policy.
+    pub(crate) fn text(&self) -> String {
+        let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
+        let mut text = format!("machine m\nwhisker {}\ninitial S0\n", whiskers.join(", "));
+        for (name, value) in &self.parameters {
+            writeln!(text, "param {name} = {}", value.text()).unwrap();
+        }
+        for Derived { name, arguments, value, .. } in &self.derived {
+            writeln!(text, "let {name}{} = {}", self::arguments(arguments), value.text()).unwrap();
+        }
+        for Law { name, arguments, body, .. } in &self.laws {
+            let typed: Vec<String> = typed(arguments);
+            writeln!(text, "law {name}({}) {{\n{}}}", typed.join(", "), block(body)).unwrap();
+        }
+        self.write_inside(None, &mut text);
+        for Rule { guard, target } in &self.always {
+            writeln!(text, "always {} -> {}", guard.text(), target.text()).unwrap();
+        }
+        if let Some(target) = &self.failsafe {
+            writeln!(text, "failsafe -> {}", target.text()).unwrap();
+        }
+        text
+    }
+
+    fn write_inside(&self, parent: Option<usize>, text: &mut String) {
+        for (index, state) in self.states.iter().enumerate().filter(|(_, state)| state.parent == parent) {
+            writeln!(text, "state S{index}{} {{", arguments(&state.arguments)).unwrap();
+            if let Some((initial, values)) = &state.initial {
+                writeln!(text, "initial {}", call(&format!("S{initial}"), values)).unwrap();
+            }
+            for (name, _, value) in &state.memory {
+                writeln!(text, "var {name} = {}", value.text()).unwrap();
+            }
+            writeln!(
+                text,
+                "entry {{\n{}}}\n{}exit {{\n{}}}",
+                block(&state.entry),
+                block(&state.body),
+                block(&state.exit)
+            )
+            .unwrap();
+            for Rule { guard, target } in &state.rules {
+                writeln!(text, "{} -> {}", guard.text(), target.text()).unwrap();
+            }
+            if let Some(target) = &state.failsafe {
+                writeln!(text, "failsafe -> {}", target.text()).unwrap();
+            }
+            self.write_inside(Some(index), text);
+            text.push_str("}\n");
+        }
+    }
+}
+
+fn typed(arguments: &Arguments) -> Vec<String> {
+    arguments.iter().map(|(name, r#type)| format!("{name}: {}", r#type.name())).collect()
+}
+
+/// Arguments with their parentheses, which are left out if there are none.
+fn arguments(arguments: &Arguments) -> String {
+    if arguments.is_empty() { String::new() } else { format!("({})", typed(arguments).join(", ")) }
+}
+
+fn list(values: &[Expression]) -> String {
+    values.iter().map(Expression::text).collect::<Vec<_>>().join(", ")
+}
+
+fn call(name: &str, values: &[Expression]) -> String {
+    if values.is_empty() { name.to_owned() } else { format!("{name}({})", list(values)) }
+}
+
+fn block(statements: &[Statement]) -> String {
+    statements.iter().map(|statement| statement.text() + "\n").collect()
+}
+
+impl Guard {
+    fn text(&self) -> String {
+        match self {
+            Self::When(condition) => format!("when {}", condition.text()),
+            Self::WhenFor(condition, time) => format!("when {} for {}", condition.text(), time.text()),
+            Self::After(time) => format!("after {}", time.text()),
+        }
+    }
+}
+
+impl Target {
+    fn text(&self) -> String {
+        match self {
+            Self::Failure(reason) => format!("Failure(\"{reason}\")"),
+            Self::State { way, resume } => {
+                let steps: Vec<String> = way.iter().map(|(state, values)| call(&format!("S{state}"), values)).collect();
+                format!("{}{}", if *resume { "resume " } else { "" }, steps.join("."))
+            }
+        }
+    }
+}
+
+impl Statement {
+    fn text(&self) -> String {
+        match self {
+            Self::Let(name, value) => format!("let {name} = {}", value.text()),
+            Self::Set(name, value) => format!("set {name} = {}", value.text()),
+            Self::If(branches, otherwise) => {
+                let branch = |(condition, then): &(Expression, Vec<Statement>)| {
+                    format!("if {} {{\n{}}}", condition.text(), block(then))
+                };
+                let branches: Vec<String> = branches.iter().map(branch).collect();
+                let otherwise =
+                    if otherwise.is_empty() { String::new() } else { format!(" else {{\n{}}}", block(otherwise)) };
+                branches.join(" else ") + &otherwise
+            }
+            Self::Do(law, values, _) => format!("do {law}({})", list(values)),
+            Self::Record(whisker) => format!("record {}", whisker.text()),
+            Self::Mark(mark, whisker) => format!("mark {mark} {}", whisker.text()),
+            Self::Steer(Steer { whisker, along, speed, facing, turn }) => {
+                let mover = whisker.as_ref().map_or_else(|| "body".to_owned(), Expression::text);
+                let (along, speed, turn) = (along.text(), speed.text(), turn.text());
+                format!("steer {mover} along {along} at {speed} {} {turn}", if *facing { "facing" } else { "turning" })
+            }
+            Self::Hold => "hold".to_owned(),
+            Self::Stop => "stop".to_owned(),
+        }
+    }
+}
+
+const AND: u8 = 2;
+const COMPARE: u8 = 3;
+const SUM: u8 = 4;
+const PRODUCT: u8 = 5;
+const PREFIX: u8 = 6;
+const ATOM: u8 = 7;
+
+impl Expression {
+    /// How tightly it binds.
+    fn power(&self) -> u8 {
+        match self {
+            Self::Binary("or", ..) => 1,
+            Self::Binary("and", ..) | Self::Not(_) => AND,
+            Self::Binary("+" | "-", ..) => SUM,
+            Self::Binary("*" | "/", ..) => PRODUCT,
+            Self::Binary(..) => COMPARE,
+            Self::Negate(_) => PREFIX,
+            _ => ATOM,
+        }
+    }
+
+    /// The text, in parentheses if it binds less than `least`.
+    fn at(&self, least: u8) -> String {
+        if self.power() < least { format!("({})", self.text()) } else { self.text() }
+    }
+
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Self::Quantity(number, "") => (*number).to_owned(),
+            Self::Quantity(number, unit) => format!("{number} {unit}"),
+            Self::Truth(truth) => truth.to_string(),
+            Self::Name(name) => name.clone(),
+            Self::Call(name, values, _) => call(name, values),
+            Self::Body(member) => format!("body.{member}"),
+            Self::Member(owner, member, values) => call(&format!("{}.{member}", owner.at(ATOM)), values),
+            Self::Norm(inner) => format!("|{}|", inner.text()),
+            Self::Negate(inner) => format!("-{}", inner.at(ATOM)),
+            Self::Not(inner) => format!("not {}", inner.at(COMPARE)),
+            Self::Binary(sign, left, right) => {
+                format!("{} {sign} {}", left.at(self.power()), right.at(self.power() + 1))
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Programs as trees.
+
+/// The types that the programs have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Type {
+    Number,
+    Length,
+    Angle,
+    Time,
+    Speed,
+    Rate,
+    Frequency,
+    Truth,
+    Vector,
+    Place,
+    Whisker,
+    Contour,
+}
+
+impl Type {
+    pub(crate) const ALL: [Self; 12] = [
+        Self::Number,
+        Self::Truth,
+        Self::Vector,
+        Self::Whisker,
+        Self::Speed,
+        Self::Length,
+        Self::Angle,
+        Self::Time,
+        Self::Rate,
+        Self::Frequency,
+        Self::Place,
+        Self::Contour,
+    ];
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Expression {
+    /// A number as it is written, and its unit.
+    Quantity(&'static str, &'static str),
+    Truth(bool),
+    Name(String),
+    /// A function or a derived value. Every use has a number of its own, for what it remembers.
+    Call(String, Vec<Expression>, usize),
+    Body(&'static str),
+    Member(Box<Expression>, &'static str, Vec<Expression>),
+    Norm(Box<Expression>),
+    Negate(Box<Expression>),
+    Not(Box<Expression>),
+    Binary(&'static str, Box<Expression>, Box<Expression>),
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Statement {
+    Let(String, Expression),
+    Set(String, Expression),
+    If(Vec<(Expression, Vec<Statement>)>, Vec<Statement>),
+    /// A law, the values that it is given, and the number of this use.
+    Do(String, Vec<Expression>, usize),
+    Record(Expression),
+    Mark(&'static str, Expression),
+    Steer(Steer),
+    Hold,
+    Stop,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Steer {
+    pub(crate) whisker: Option<Expression>,
+    pub(crate) along: Expression,
+    pub(crate) speed: Expression,
+    /// Whether `turn` is a heading, not a rate.
+    pub(crate) facing: bool,
+    pub(crate) turn: Expression,
+}
+
+pub(crate) type Arguments = Vec<(String, Type)>;
+
+/// A derived value.
+#[derive(Debug, Clone)]
+pub(crate) struct Derived {
+    pub(crate) name: String,
+    pub(crate) arguments: Arguments,
+    pub(crate) r#type: Type,
+    pub(crate) value: Expression,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Law {
+    pub(crate) name: String,
+    pub(crate) arguments: Arguments,
+    pub(crate) commands: bool,
+    pub(crate) body: Vec<Statement>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Guard {
+    When(Expression),
+    WhenFor(Expression, Expression),
+    After(Expression),
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Target {
+    Failure(String),
+    /// The states that are entered on the way, with their values; the last is where it leads.
+    State {
+        way: Vec<(usize, Vec<Expression>)>,
+        resume: bool,
+    },
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Rule {
+    pub(crate) guard: Guard,
+    pub(crate) target: Target,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(crate) struct State {
+    pub(crate) parent: Option<usize>,
+    pub(crate) arguments: Arguments,
+    pub(crate) memory: Vec<(String, Type, Expression)>,
+    pub(crate) initial: Option<(usize, Vec<Expression>)>,
+    pub(crate) entry: Vec<Statement>,
+    pub(crate) exit: Vec<Statement>,
+    pub(crate) body: Vec<Statement>,
+    pub(crate) rules: Vec<Rule>,
+    pub(crate) failsafe: Option<Target>,
+}
+
+#[derive(Clone, Default)]
+pub(crate) struct Program {
+    pub(crate) whiskers: usize,
+    /// Names and quantities.
+    pub(crate) parameters: Vec<(String, Expression)>,
+    pub(crate) derived: Vec<Derived>,
+    pub(crate) laws: Vec<Law>,
+    /// An outer state comes before those in it; the machine begins in the first.
+    pub(crate) states: Vec<State>,
+    pub(crate) always: Vec<Rule>,
+    pub(crate) failsafe: Option<Target>,
+}
+
+impl Program {
+    /// From the outermost state to `state`.
+    pub(crate) fn way(&self, state: usize) -> Vec<usize> {
+        let mut way: Vec<usize> = std::iter::successors(Some(state), |&state| self.states[state].parent).collect();
+        way.reverse();
+        way
+    }
+
+    /// The states on the way to a target that it enters, if it is of a rule of `from`.
+    pub(crate) fn entered(&self, from: Option<usize>, target: usize) -> Vec<usize> {
+        let (from, way) = (from.map_or_else(Vec::new, |from| self.way(from)), self.way(target));
+        let outer = &way[..way.len() - 1];
+        let stay = outer.iter().zip(&from).take_while(|(outer, from)| outer == from).count();
+        way[stay..].to_vec()
+    }
+}
