@@ -216,11 +216,23 @@ impl Grower<'_> {
 
 /// The lesser of two numbers, the second of two zeros; not a number if either is not.
 fn lesser(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else if a < b { a } else { b }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if a < b {
+        a
+    } else {
+        b
+    }
 }
 
 fn greater(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else if a > b { a } else { b }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if a > b {
+        a
+    } else {
+        b
+    }
 }
 
 /// A number that expressions meet; the odd ones are as likely as the plain ones.

@@ -99,7 +99,11 @@ impl Senses for Felt<'_> {
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
         let same = |&&(recorded, _): &&(f64, Vector2)| recorded.total_cmp(&deflection).is_eq();
-        self.recorded.whiskers[whisker].tip_at.iter().find(same).map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
+        self.recorded.whiskers[whisker]
+            .tip_at
+            .iter()
+            .find(same)
+            .map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
     }
 
     fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {

@@ -12,6 +12,7 @@ use super::stateful;
 /// Runs `block` of `code`; says whether it gave an action, which then replaces `action`. Of several, the last one stays.
 ///
 /// An action is written where it is to be, because moving one about costs as much as several operations.
+#[expect(clippy::too_many_lines, reason = "one arm an operation")]
 pub(crate) fn evaluate<S: Senses>(
     code: &[Op],
     block: &Block,
@@ -182,7 +183,8 @@ impl File<'_> {
         /// Added to a small whole number, this leaves that number in the lowest bits.
         const UNIT_IN_LAST_PLACE: f64 = (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
         // Half of what reading a whisker costs would be a cast, which has a meaning for every number; this is for indices.
-        (self.at(register) + UNIT_IN_LAST_PLACE).to_bits() as usize & 0xff
+        let [lowest, ..] = (self.at(register) + UNIT_IN_LAST_PLACE).to_le_bytes();
+        usize::from(lowest)
     }
 
     fn steer(&self, mover: Mover, along: Wide, speed: Register, turn: Turn) -> Action {

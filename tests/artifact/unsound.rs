@@ -181,7 +181,9 @@ fn the_blocks_of_the_states_around_a_state_count_with_its_own() {
     let longest = program.states[6].body.clone();
     for state in &mut program.states[1..4] {
         (state.entry, state.body, state.exit) = (longest.clone(), longest.clone(), longest.clone());
-        if let [Transition { guard: Guard::When { code, .. } | Guard::After { code, .. }, .. }] = &mut state.transitions[..] {
+        if let [Transition { guard: Guard::When { code, .. } | Guard::After { code, .. }, .. }] =
+            &mut state.transitions[..]
+        {
             *code = longest.clone();
         }
     }

@@ -33,7 +33,7 @@ fn a_text_with_a_fault_is_known_but_for_the_fault() {
     let given = broken.find("swipe_tilted(w: ").unwrap();
     assert_eq!(before.definition(at), Some(Span::new(given, given + "swipe_tilted".len())));
     // What the fault leaves has its types; for the rest, types of before are remembered.
-    let pull = broken.find("pull * unit").unwrap();
+    let pull = broken.find("pull) at speed").unwrap();
     assert!(index(&broken).hover(pull).unwrap().text.contains("a plain number"));
     let tangent = broken.find("tangent at speed").unwrap();
     assert!(before.hover(tangent).unwrap().text.contains("a vector of plain numbers"));

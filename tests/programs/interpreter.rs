@@ -88,7 +88,7 @@ impl<'p> Interpreter<'p> {
             let active = self.active.clone();
             due = due.or_else(|| active.iter().find_map(|&state| self.due(Some(state))));
             let Some((from, target)) = due.take() else { break };
-            if taken == 8 {
+            if taken == 8 && matches!(target, Target::State { .. }) {
                 return self.leave(self.innermost(), Cause::Chain, failsafe);
             }
             self.seen("a chain", (taken == 1).then_some("a tick"));

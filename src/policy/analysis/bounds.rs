@@ -104,22 +104,7 @@ impl<'m> Bounds<'m> {
             | Op::Equal { .. }
             | Op::And { .. }
             | Op::Or { .. } => self.two(op, region)?,
-            Op::Clamp { to, a, low, high } => {
-                let raised = self.at(a, region).maximum(self.at(low, region));
-                let value = raised.minimum(self.at(high, region));
-                self.put(to, value);
-            }
-            Op::Blend { to, a, b, share } => {
-                let share = self.at(share, region);
-                let rest = Interval::point(1.0).subtract(share);
-                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
-                let part = |from: Interval, into: Interval| from.multiply(rest).add(into.multiply(share));
-                self.put_vector(to, [part(x, u), part(y, v)]);
-            }
-            Op::Distance { to, a, b } => {
-                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
-                self.put(to, Interval::norm([x.subtract(u), y.subtract(v)]));
-            }
+            Op::Clamp { .. } | Op::Blend { .. } | Op::Distance { .. } => self.several(op, region)?,
             Op::AddVectors { to, a, b } => self.parts(to, (a, b), region, Interval::add),
             Op::SubtractVectors { to, a, b } => self.parts(to, (a, b), region, Interval::subtract),
             Op::NegateVector { to, a } => {
@@ -204,6 +189,30 @@ impl<'m> Bounds<'m> {
     ) {
         let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
         self.put_vector(to, [operation(x, u), operation(y, v)]);
+    }
+
+    /// An operation that stands for several; `None` for any other.
+    fn several(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
+        match op {
+            Op::Clamp { to, a, low, high } => {
+                let raised = self.at(a, region).maximum(self.at(low, region));
+                let value = raised.minimum(self.at(high, region));
+                self.put(to, value);
+            }
+            Op::Blend { to, a, b, share } => {
+                let share = self.at(share, region);
+                let rest = Interval::point(1.0).subtract(share);
+                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
+                let part = |from: Interval, into: Interval| from.multiply(rest).add(into.multiply(share));
+                self.put_vector(to, [part(x, u), part(y, v)]);
+            }
+            Op::Distance { to, a, b } => {
+                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
+                self.put(to, Interval::norm([x.subtract(u), y.subtract(v)]));
+            }
+            _ => return None,
+        }
+        Some(())
     }
 
     /// An operation on two numbers or truths; `None` for any other.

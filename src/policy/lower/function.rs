@@ -43,20 +43,17 @@ impl<'f> Compiler<'f> {
             (Function::Max, &[Type::Scalar(a), Type::Scalar(b)]) if a == b => {
                 scalar(a, self.code.scalar(|to| Op::Maximum { to, a: register(0), b: register(1) }))
             }
-            (Function::Clamp, &[Type::Scalar(a), Type::Scalar(b), Type::Scalar(c)]) if a == b && b == c => {
-                let (low, high) = (register(1), register(2));
-                scalar(a, self.code.scalar(|to| Op::Clamp { to, a: register(0), low, high }))
+            (Function::Clamp, &[Type::Scalar(dimension), Type::Scalar(b), Type::Scalar(c)])
+                if dimension == b && b == c =>
+            {
+                let [a, low, high] = [0, 1, 2].map(register);
+                scalar(dimension, self.code.scalar(|to| Op::Clamp { to, a, low, high }))
             }
             (Function::Blend, &[Type::Scalar(a), Type::Scalar(b), Type::NUMBER]) if a == b => {
-                let (share, one) = (register(2), self.code.constant(1.0));
-                let rest = self.code.scalar(|to| Op::Subtract { to, a: one, b: share });
-                let first = self.code.scalar(|to| Op::Multiply { to, a: register(0), b: rest });
-                let second = self.code.scalar(|to| Op::Multiply { to, a: register(1), b: share });
-                scalar(a, self.code.scalar(|to| Op::Add { to, a: first, b: second }))
+                scalar(a, self.blend([register(0), register(1)], register(2)))
             }
             (Function::Blend, &[Type::Vector(a), Type::Vector(b), Type::NUMBER]) if a == b => {
-                let share = register(2);
-                vector(a, self.code.vector(|to| Op::Blend { to, a: register(0), b: register(1), share }))
+                vector(a, self.code.vector(|to| Op::Blend { to, a: register(0), b: register(1), share: register(2) }))
             }
             (Function::Sin | Function::Cos | Function::Tan, &[Type::ANGLE])
             | (Function::Exp | Function::Floor, &[Type::NUMBER]) => {
@@ -65,12 +62,7 @@ impl<'f> Compiler<'f> {
             (Function::Asin | Function::Acos, &[Type::NUMBER]) => {
                 scalar(Dimension::ANGLE, self.arc(function, register(0)))
             }
-            (Function::Direction, &[Type::ANGLE]) => {
-                let to = self.code.place(2);
-                self.code.push(Op::Cosine { to, a: register(0) });
-                self.code.push(Op::Sine { to: to + 1, a: register(0) });
-                vector(Dimension::NUMBER, to)
-            }
+            (Function::Direction, &[Type::ANGLE]) => vector(Dimension::NUMBER, self.direction(register(0))),
             (Function::Vector, &[Type::Scalar(x), Type::Scalar(y)]) if x == y => {
                 let to = self.code.place(2);
                 self.code.push(Op::Copy { to, a: register(0) });
@@ -132,6 +124,23 @@ impl<'f> Compiler<'f> {
         let memory = self.code.place(count);
         self.memories.push((memory, count));
         memory
+    }
+
+    /// The unit vector in the direction of an angle.
+    fn direction(&mut self, angle: u16) -> u16 {
+        let to = self.code.place(2);
+        self.code.push(Op::Cosine { to, a: angle });
+        self.code.push(Op::Sine { to: to + 1, a: angle });
+        to
+    }
+
+    /// The number that is a share of the way from one to another.
+    fn blend(&mut self, [from, into]: [u16; 2], share: u16) -> u16 {
+        let one = self.code.constant(1.0);
+        let rest = self.code.scalar(|to| Op::Subtract { to, a: one, b: share });
+        let first = self.code.scalar(|to| Op::Multiply { to, a: from, b: rest });
+        let second = self.code.scalar(|to| Op::Multiply { to, a: into, b: share });
+        self.code.scalar(|to| Op::Add { to, a: first, b: second })
     }
 
     /// A function of one number.
