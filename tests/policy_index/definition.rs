@@ -35,7 +35,7 @@ fn a_text_with_a_fault_is_known_but_for_the_fault() {
     // What the fault leaves has its types; for the rest, types of before are remembered.
     let pull = broken.find("pull) at speed").unwrap();
     assert!(index(&broken).hover(pull).unwrap().text.contains("a plain number"));
-    let tangent = broken.find("tangent at speed").unwrap();
+    let tangent = broken.find("tangent, unit(miss)").unwrap();
     assert!(before.hover(tangent).unwrap().text.contains("a vector of plain numbers"));
     assert!(!index(&broken).hover(tangent).unwrap().text.contains("a vector of plain numbers"));
     assert_eq!(before.rename(at, "other"), Err(RenameError::Unreadable));

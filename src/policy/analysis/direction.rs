@@ -81,7 +81,8 @@ impl Interval {
             return Self::NO_NUMBER;
         }
         match (x.single(), y.single()) {
-            (Some(x), Some(y)) => Self::point(y.atan2(x)),
+            // Backwards, a zero's sign, which an interval does not know, decides between −π and π.
+            (Some(x), Some(y)) if y != 0.0 || x > 0.0 => Self::point(y.atan2(x)),
             _ => Self { low: -PI, high: PI, nan: x.nan || y.nan },
         }
     }
