@@ -12,11 +12,11 @@ use std::error::Error;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use disk::Disk;
+use disk::{Disk, SETTLED};
 use recorded::{Felt, Recorded};
-use thesis::{State, Thesis};
-use vibrissa::machine::{Action, Machine, Turn};
+use vibrissa::machine::{Action, Turn};
 use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa::signal::Command;
 use vibrissa::world::World;
 
 /// Ticks in a row: enough that the clock costs nothing, and few enough that what they felt stays in the cache.
@@ -36,23 +36,35 @@ fn main() -> Result<(), Box<dyn Error>> {
         let index = disk.program.parameters.iter().position(|parameter| parameter.name == name);
         index.map(|index| disk.program.image[index]).ok_or_else(|| format!("the policy has no parameter `{name}`"))
     };
-    let target = parameter("target")?;
-    let disk::Swiping { mut world, mut control, samples } = disk.swiping()?;
-    let by_hand = Thesis {
+    let mut by_hand = thesis::Swiping {
         speed: parameter("speed")?,
-        target,
+        target: parameter("target")?,
         limit: parameter("limit")?,
-        lost: parameter("lost")?,
-        state: State::Swiping { whisker: 0, untouched_since: None },
+        lost_for: parameter("lost_for")?,
+        spring: parameter("spring")?,
+        whiskers: [0, 1],
+        memory: thesis::Memory::default(),
     };
-    let machine = control.machine().clone();
-    let (mut command, _) = control.tick(&samples);
+    // Side by side from the start of swiping, so that both remember the same.
+    let (mut world, mut control, mut command) = (disk.world()?, disk.control()?, Command::STOP);
+    let mut ticks = 0;
+    while ticks < SETTLED {
+        let tick;
+        (command, tick) = control.tick(world.advance(&command)?);
+        if control.machine().state_name() == "Swiping" {
+            ticks += 1;
+            agree(tick.action, by_hand.tick(&mut felt(&Recorded::after(&control, by_hand.target))));
+        }
+    }
+    let (machine, start) = (control.machine().clone(), by_hand.clone());
     let mut run = Vec::with_capacity(TICKS);
     for _ in 0..TICKS {
-        (command, _) = control.tick(world.advance(&command)?);
-        run.push(Recorded::after(&control, target));
+        let tick;
+        (command, tick) = control.tick(world.advance(&command)?);
+        let recorded = Recorded::after(&control, by_hand.target);
+        agree(tick.action, by_hand.tick(&mut felt(&recorded)));
+        run.push(recorded);
     }
-    agree(&machine, &by_hand, &run);
 
     // One tick after the other, as in a loop; and ticks that have nothing to do with each other, of which the processor does
     // several at a time. The first is what a tick takes.
@@ -65,21 +77,21 @@ fn main() -> Result<(), Box<dyn Error>> {
             bencher.iter(|| in_turn(&run, after, |senses| machine.tick(senses).action));
         });
         group.bench_function("by hand", |bencher| {
-            let mut by_hand = by_hand.clone();
-            bencher.iter(|| in_turn(&run, after, |senses| by_hand.tick(senses)));
+            let mut by_hand = start.clone();
+            bencher.iter(|| in_turn(&run, after, |senses| by_hand.tick(senses).unwrap_or(Action::Stop)));
         });
         group.finish();
     }
 
     // What a robot pays: the same, asking perception itself, which computes what it is asked for.
-    let felt = control.perception();
+    let perception = control.perception();
     let mut group = criterion.benchmark_group("policy_tick_and_perception");
     group.bench_function("machine", |bencher| {
-        let (mut machine, mut felt) = (machine.clone(), felt.clone());
+        let (mut machine, mut felt) = (machine.clone(), perception.clone());
         bencher.iter(|| black_box(machine.tick(black_box(&mut felt))));
     });
     group.bench_function("by hand", |bencher| {
-        let (mut by_hand, mut felt) = (by_hand.clone(), felt.clone());
+        let (mut by_hand, mut felt) = (start.clone(), perception.clone());
         bencher.iter(|| black_box(by_hand.tick(black_box(&mut felt))));
     });
     group.finish();
@@ -95,39 +107,37 @@ fn in_turn(run: &[Recorded], zero: Option<f64>, mut tick: impl FnMut(&mut Felt<'
     for recorded in run {
         let action = tick(&mut black_box(Felt { recorded, command }));
         if let Some(zero) = zero
-            && let Some((_, [x, _, _, heading])) = steering(action)
+            && let Some((_, [x, _, _, rate])) = steering(action)
         {
-            command = zero * (x + heading);
+            command = zero * (x + rate);
         }
         black_box(action);
     }
 }
 
-/// Panics unless the compiled policy and the one by hand do the same, and swipe throughout.
-fn agree(machine: &Machine, by_hand: &Thesis, run: &[Recorded]) {
-    let (mut machine, mut by_hand) = (machine.clone(), by_hand.clone());
-    for recorded in run {
-        let mut senses = Felt { recorded, command: 0.0 };
-        let compiled = machine.tick(&mut senses).action;
-        let expected = by_hand.tick(&mut senses);
-        assert_eq!(machine.state_name(), "Swiping");
-        let (Some((mover, numbers)), Some((expected_mover, expected_numbers))) =
-            (steering(compiled), steering(expected))
-        else {
-            panic!("not a steering: {compiled:?} or {expected:?}")
-        };
-        assert_eq!(mover, expected_mover);
-        for (number, expected) in numbers.iter().zip(expected_numbers) {
-            assert!((number - expected).abs() <= 1e-12, "{compiled:?} is not {expected:?}");
+/// What was recorded, as it is felt.
+fn felt(recorded: &Recorded) -> Felt<'_> {
+    Felt { recorded, command: 0.0 }
+}
+
+/// Panics unless the compiled policy and the one by hand do the same.
+fn agree(compiled: Action, by_hand: Option<Action>) {
+    match (steering(compiled), by_hand.and_then(steering)) {
+        (Some((mover, numbers)), Some((expected_mover, expected_numbers))) => {
+            assert_eq!(mover, expected_mover);
+            for (number, expected) in numbers.iter().zip(expected_numbers) {
+                assert!((number - expected).abs() <= 1e-12, "{compiled:?} is not {by_hand:?}");
+            }
         }
+        _ => assert_eq!(Some(compiled), by_hand),
     }
 }
 
-/// What a steering action that faces a heading moves, and its numbers.
+/// What a steering action moves while it turns at a rate, and its numbers.
 fn steering(action: Action) -> Option<(vibrissa::machine::Mover, [f64; 4])> {
     match action {
-        Action::Steer { mover, along_world, speed, turn: Turn::Facing(heading) } => {
-            Some((mover, [along_world.x, along_world.y, speed, heading]))
+        Action::Steer { mover, along_world, speed, turn: Turn::Rate(rate) } => {
+            Some((mover, [along_world.x, along_world.y, speed, rate]))
         }
         _ => None,
     }

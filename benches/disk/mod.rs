@@ -15,7 +15,7 @@ use vibrissa::signal::{Command, Sample};
 use vibrissa::world::{MujocoWorld, World};
 
 /// Ticks after which the platform swipes steadily.
-const SETTLED: usize = 300;
+pub(crate) const SETTLED: usize = 300;
 
 /// The scene and the policy.
 pub(crate) struct Disk {

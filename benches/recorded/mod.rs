@@ -23,6 +23,9 @@ const VECTORS: [WhiskerVector; 5] = [
     WhiskerVector::ContourEnd,
 ];
 
+/// How far behind a contour's end (m) the policy asks for its direction.
+const BACK: f64 = 5e-3;
+
 /// What the thesis's policy felt in one tick, taken down so that reading it costs next to nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct Recorded {
@@ -36,6 +39,8 @@ pub(crate) struct Recorded {
 struct Whisker {
     scalars: [f64; SCALARS.len()],
     vectors: [Vector2; VECTORS.len()],
+    /// The contour's direction at the distance [`BACK`] behind its end.
+    way: Vector2,
     /// The tip at no deflection, and at the target of either sign.
     tip_at: [(f64, Vector2); 3],
 }
@@ -48,6 +53,7 @@ impl Recorded {
         let whisker = |index| Whisker {
             scalars: SCALARS.map(|quantity| senses.whisker(index, quantity)),
             vectors: VECTORS.map(|quantity| senses.whisker_vector(index, quantity)),
+            way: senses.contour_at(index, BACK, ContourVector::Tangent),
             tip_at: [0.0, target, -target].map(|deflection| (deflection, senses.tip_at(index, deflection))),
         };
         Self {
@@ -106,8 +112,9 @@ impl Senses for Felt<'_> {
             .map_or(Vector2::new(f64::NAN, f64::NAN), |&(_, tip)| tip)
     }
 
-    fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
-        Vector2::new(f64::NAN, f64::NAN)
+    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {
+        assert!(quantity == ContourVector::Tangent && back.total_cmp(&BACK).is_eq(), "nothing else was recorded");
+        self.vector(self.recorded.whiskers[whisker].way)
     }
 
     fn record(&mut self, _: usize) {}

@@ -1,11 +1,13 @@
-//! The thesis's policy as one would write it in Rust: the yardstick for the compiled one.
+//! Swiping as the thesis's policy does it, as one would write it in Rust: the yardstick for the compiled one.
 
-use vibrissa::geometry::{Vector2, rotate, unit};
-use vibrissa::machine::{Action, BodyScalar, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+use std::f64::consts::FRAC_PI_4;
 
-/// `policies/thesis.fsm` by hand.
+use vibrissa::geometry::{Vector2, rotate, turn_between, unit};
+use vibrissa::machine::{Action, BodyScalar, ContourVector, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+
+/// The state `Swiping` of `policies/thesis.fsm` by hand, with all that it uses of the standard library.
 #[derive(Debug, Clone)]
-pub(crate) struct Thesis {
+pub(crate) struct Swiping {
     /// Speed (m/s).
     pub(crate) speed: f64,
     /// Base angle at which the tip is known best (rad).
@@ -13,61 +15,119 @@ pub(crate) struct Thesis {
     /// Base angle at which a whisker is in danger (rad).
     pub(crate) limit: f64,
     /// Time without touch after which the contour is lost (s).
-    pub(crate) lost: f64,
-    pub(crate) state: State,
+    pub(crate) lost_for: f64,
+    /// Loss of bend from tick to tick by which a whisker springs off an edge (rad).
+    pub(crate) spring: f64,
+    /// The whisker that swipes, and the other one.
+    pub(crate) whiskers: [usize; 2],
+    pub(crate) memory: Memory,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum State {
-    Exploring,
-    Swiping { whisker: usize, untouched_since: Option<f64> },
-    Failed,
+/// What swiping remembers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Memory {
+    bend: f64,
+    edge: Vector2,
+    way: Vector2,
+    last_edge: Vector2,
+    last_way: Vector2,
+    same_since: Option<f64>,
+    lost_since: Option<f64>,
+    /// The yaw controllers along the contour and straight on.
+    yaw: [Controller; 2],
 }
 
-impl Thesis {
-    pub(crate) fn tick<S: Senses>(&mut self, senses: &mut S) -> Action {
-        let bent = |whisker| senses.whisker(whisker, WhiskerScalar::Deflection).abs() > self.limit;
-        if bent(0) || bent(1) {
-            self.state = State::Failed;
+/// A PID controller's past, without its derivative part, which this law does not use.
+#[derive(Debug, Clone, Copy, Default)]
+struct Controller {
+    before: Option<f64>,
+    integral: f64,
+}
+
+impl Controller {
+    fn next(&mut self, now: f64, error: f64, [p, i, limit]: [f64; 3]) -> f64 {
+        let grown = self.integral + error * self.before.map_or(0.0, |before| now - before);
+        let output = p * error + i * grown;
+        self.before = Some(now);
+        if output.abs() <= limit {
+            self.integral = grown;
         }
-        if self.state == State::Exploring {
-            let touching = |&whisker: &usize| senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
-            let Some(&whisker) = [0, 1].iter().find(|whisker| touching(whisker)) else {
-                let along_world = unit(senses.body(BodyScalar::Yaw));
-                return Action::Steer { mover: Mover::Body, along_world, speed: self.speed, turn: Turn::Rate(0.0) };
-            };
-            self.state = State::Swiping { whisker, untouched_since: None };
-        }
-        if let State::Swiping { whisker, untouched_since } = &mut self.state {
-            let whisker = *whisker;
-            let now = senses.time();
-            let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
-            *untouched_since = if touching { None } else { Some(untouched_since.unwrap_or(now)) };
-            let lost = untouched_since.is_some_and(|since| now - since >= self.lost - 1e-9);
-            if senses.whisker(whisker, WhiskerScalar::Sense) < 0.0 || lost {
-                self.state = State::Failed;
-            } else {
-                senses.record(whisker);
-                return self.swipe(whisker, senses);
-            }
-        }
-        Action::Stop
+        output.clamp(-limit, limit)
     }
+}
 
-    fn swipe<S: Senses>(&self, whisker: usize, senses: &S) -> Action {
-        let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
-        if !touching || senses.whisker(whisker, WhiskerScalar::ContourReady) < 0.5 {
-            return Action::Hold;
-        }
-        let tangent = senses.whisker_vector(whisker, WhiskerVector::ContourTangent);
+impl Swiping {
+    /// One tick; `None` if it would leave the state.
+    pub(crate) fn tick<S: Senses>(&mut self, senses: &mut S) -> Option<Action> {
+        let [whisker, other] = self.whiskers;
+        let now = senses.time();
         let deflection = senses.whisker(whisker, WhiskerScalar::Deflection);
-        let wanted = senses.tip_at(whisker, if deflection == 0.0 { 0.0 } else { self.target * deflection.signum() });
-        let miss_base = wanted - senses.whisker_vector(whisker, WhiskerVector::TipBase);
-        let miss = rotate(miss_base, senses.whisker(whisker, WhiskerScalar::Yaw));
-        let pull = (1.5 * miss.norm() / (wanted - senses.tip_at(whisker, 0.0)).norm()).clamp(0.0, 1.0);
-        let towards = (-miss).try_normalize(0.0).unwrap_or_default();
-        let along_world: Vector2 = pull * towards + (1.0 - pull) * tangent;
-        let turn = Turn::Facing(tangent.y.atan2(tangent.x));
-        Action::Steer { mover: Mover::Whisker(whisker), along_world, speed: self.speed, turn }
+        if deflection.abs() > self.limit || senses.whisker(other, WhiskerScalar::Deflection).abs() > self.limit {
+            return None;
+        }
+        let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
+        let sense = senses.whisker(whisker, WhiskerScalar::Sense);
+        let same = touching
+            && senses.whisker(other, WhiskerScalar::Touching) > 0.5
+            && senses.whisker(other, WhiskerScalar::Sense) * sense > 0.0;
+        if lasts(&mut self.memory.same_since, same, now, 0.1)
+            || deflection.abs() < self.memory.bend - self.spring
+            || sense < 0.0
+            || lasts(&mut self.memory.lost_since, !touching, now, self.lost_for)
+        {
+            return None;
+        }
+        senses.record(whisker);
+        let tangent = senses.whisker_vector(whisker, WhiskerVector::ContourTangent);
+        let heading = senses.body(BodyScalar::Yaw);
+        let ahead = unit(heading);
+        let side = senses.whisker(whisker, WhiskerScalar::Side);
+        let action = if tangent.dot(&ahead) <= 0.3 || tangent.x.is_nan() {
+            self.follow(whisker, 1, (ahead, self.target * side), (now, heading), senses)
+        } else if touching && senses.whisker(whisker, WhiskerScalar::ContourReady) > 0.5 {
+            let target = if deflection == 0.0 { 0.0 } else { self.target * deflection.signum() };
+            self.follow(whisker, 0, (tangent, target), (now, heading), senses)
+        } else {
+            Action::Hold
+        };
+        let memory = &mut self.memory;
+        let (edge, way) = (
+            senses.whisker_vector(whisker, WhiskerVector::ContourEnd),
+            senses.contour_at(whisker, 0.005, ContourVector::Tangent),
+        );
+        (memory.edge, memory.way) = if deflection.abs() < memory.bend - self.spring / 3.0 {
+            (memory.last_edge, memory.last_way)
+        } else {
+            (edge, way)
+        };
+        (memory.last_edge, memory.last_way, memory.bend) = (edge, way, deflection.abs());
+        Some(action)
     }
+
+    fn follow<S: Senses>(
+        &mut self,
+        whisker: usize,
+        controller: usize,
+        (tangent, target): (Vector2, f64),
+        (now, heading): (f64, f64),
+        senses: &S,
+    ) -> Action {
+        let off = turn_between(heading, tangent.y.atan2(tangent.x));
+        let gain = (self.speed / 0.025).min(2.0);
+        let limit = (self.speed / 0.06).min(FRAC_PI_4);
+        let rate = self.memory.yaw[controller].next(now, off, [gain, gain * gain / 5.0, limit]);
+        let wanted = senses.tip_at(whisker, target);
+        let yaw = senses.whisker(whisker, WhiskerScalar::Yaw);
+        let offset = rotate(senses.whisker_vector(whisker, WhiskerVector::TipBase) - wanted, yaw);
+        let pull = (1.5 * offset.norm() / (wanted - senses.tip_at(whisker, 0.0)).norm()).clamp(0.0, 0.6);
+        let towards = offset.try_normalize(0.0).unwrap_or_default();
+        let along_world = tangent * (1.0 - pull) + towards * pull;
+        Action::Steer { mover: Mover::Whisker(whisker), along_world, speed: self.speed, turn: Turn::Rate(rate) }
+    }
+}
+
+/// Whether a condition has held for a time; `since` is when it began to.
+fn lasts(since: &mut Option<f64>, holds: bool, now: f64, time: f64) -> bool {
+    *since = if holds { Some(since.unwrap_or(now)) } else { None };
+    since.is_some_and(|since| now - since >= time - 1e-9)
 }

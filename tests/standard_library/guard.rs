@@ -9,7 +9,7 @@ use vibrissa::policy::{Checked, check};
 use super::felt::{Felt, swiping};
 use super::law::machine;
 
-fn holds(guard: &str, whisker: usize, felt: &Felt) -> bool {
+pub(crate) fn holds(guard: &str, whisker: usize, felt: &Felt) -> bool {
     let mut machine = machine(whisker, &format!("stop when {guard} -> Yes }} state Yes {{ stop"));
     machine.tick(&mut { *felt });
     machine.state_name() == "Yes"

@@ -28,7 +28,7 @@ proptest! {
 
     #[test]
     fn in_a_mirror_every_law_commands_the_mirrored(
-        felt in felt(), whisker in 0_usize..2, px in -1.0..1.0_f64, py in -1.0..1.0_f64, direction in -PI..PI, law in 0_usize..9,
+        felt in felt(), whisker in 0_usize..2, px in -1.0..1.0_f64, py in -1.0..1.0_f64, direction in -PI..PI, law in 0_usize..10,
     ) {
         let (point, along) = (Point2::new(px, py), unit(direction));
         let does = |point: Point2, along: Vector2| {
@@ -40,9 +40,10 @@ proptest! {
                 format!("do detach(w, {along}, 50 mm/s)"),
                 format!("do return_to_edge(w, {point}, {along}, 20 mm, 50 mm/s)"),
                 format!("do reach_around(w, {point}, {along}, 10 mm, 40 deg, 20 deg, 50 mm/s)"),
-                format!("do whisk_back(w, w.tip, {point}, 50 mm/s)"),
+                format!("do whisk_back(w, w.tip, {point}, 60 urad, 50 mm/s)"),
                 format!("do reposition(w, {point}, {along}, 20 mm, 20 deg, 50 mm/s)"),
-                format!("do approach(w, {point}, {along}, 25 mm, 25 mm, 20 deg, 50 mm/s)"),
+                format!("do approach(w, {along}, 50 mm/s)"),
+                format!("do follow(w, {along}, 300 urad * w.side, 50 mm/s, 10 deg)"),
             ][law].clone()
         };
         let (mover, along_world, speed, turn) = commanded(whisker, &does(point, along), &felt);

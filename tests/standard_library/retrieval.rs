@@ -9,6 +9,7 @@ use vibrissa::motion::Steering;
 use vibrissa::rig::Rig;
 
 use super::felt::{Felt, swiping};
+use super::guard::holds;
 use super::law::{commanded, is_near, machine, place, vector};
 
 #[test]
@@ -23,10 +24,38 @@ fn detaching_lifts_the_whisker_off_its_surface_without_turning() {
 
 #[test]
 fn whisking_back_goes_straight_from_the_contact_to_the_edge() {
-    let law = "do whisk_back(w, vector(0.1 m, 0.2 m), vector(0.1 m, 0.19 m), 40 mm/s)";
-    let (mover, along, speed, turn) = commanded(0, law, &swiping(0, 1.0));
+    let law = "do whisk_back(w, vector(0.1 m, 0.2 m), vector(0.1 m, 0.19 m), 60 urad, 40 mm/s)";
+    let (mover, along, speed, turn) = commanded(0, law, &swiping(0, 0.2));
     assert_eq!((mover, speed, turn), (Mover::Whisker(0), 0.04, Turn::Rate(0.0)));
     assert!(is_near(along.normalize(), Vector2::new(0.0, -1.0)));
+}
+
+#[test]
+fn an_approach_goes_ahead_and_as_much_towards_the_object() {
+    for whisker in [0, 1] {
+        let law = "do approach(w, vector(1, 0), 40 mm/s)";
+        let (mover, along, speed, turn) = commanded(whisker, law, &Felt::at(Pose::default()));
+        assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.04, Turn::Rate(0.0)));
+        assert!(is_near(along, Vector2::new(1.0, Felt::side(whisker))));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn a_corner_is_where_two_surfaces_meet_and_not_far_from_its_edge(
+        (x, y) in (-1.0..1.0_f64, -1.0..1.0_f64), way in -PI..PI, around in 0.5..2.6_f64, short in -0.02..0.02_f64, beyond in 0.0..0.02_f64,
+    ) {
+        let (true_corner, way, surface) = (Point2::new(x, y), unit(way), unit(way - around));
+        let (edge, contact) = (true_corner - short * way, true_corner + beyond * surface);
+        let near = true_corner + (short.clamp(-0.006, 0.006) - short) * way;
+        let [edge, contact, near] = [edge, contact, near].map(place);
+        let guard = format!(
+            "is_near(corner({edge}, {}, {contact}, {}, 6 mm), {near}, 0.001 mm)", vector(way), vector(surface)
+        );
+        prop_assert!(holds(&guard, 0, &Felt::at(Pose::default())));
+    }
 }
 
 /// The platform after a law has been done for some seconds by the reference rig's steering, with nothing in its way.
@@ -49,7 +78,7 @@ proptest! {
     /// The edge of an object on the whisker's side, the way along x up to it; for a whisker on the left all in a mirror.
     #[test]
     fn the_unbent_tip_comes_to_where_the_steps_of_retrieval_want_it(
-        whisker in 0_usize..2, heading in -1.0..1.0_f64, x in -0.1..0.1_f64, y in -0.1..0.1_f64, around in 0.0..PI, step in 0_usize..4,
+        whisker in 0_usize..2, heading in -1.0..1.0_f64, x in -0.1..0.1_f64, y in -0.1..0.1_f64, around in 0.0..PI, step in 0_usize..3,
     ) {
         let side = Felt::side(whisker);
         // Where and along what the new surface goes from the edge: turned towards the object.
@@ -69,14 +98,9 @@ proptest! {
                 edge + 0.01 * surface,
                 side * around + tilt,
             ),
-            2 => (
-                format!("do reposition(w, {at}, {new}, 20 mm, 20 deg, 50 mm/s)"),
-                edge + 0.02 * off,
-                side * around + tilt,
-            ),
             _ => (
-                format!("do approach(w, {at}, {new}, 30 mm, 25 mm, 20 deg, 50 mm/s)"),
-                edge + 0.03 * surface - 0.025 * off,
+                format!("do reposition(w, {at}, {new}, 20 mm, 20 deg, 50 mm/s)"),
+                edge + 0.02 * off - 0.012 * surface,
                 side * around + tilt,
             ),
         };

@@ -12,7 +12,7 @@ fn swiping_goes_along_the_surface_nearer_when_bent_too_little_and_off_when_bent_
     for whisker in [0, 1] {
         let off = |bend| {
             let (mover, along, speed, turn) = commanded(whisker, law, &swiping(whisker, bend));
-            assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.05, Turn::Facing(0.0)));
+            assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.05, Turn::Rate(0.0)));
             // Away from the object, which is on the whisker's side.
             -along.y * Felt::side(whisker)
         };
@@ -26,11 +26,39 @@ fn swiping_goes_along_the_surface_nearer_when_bent_too_little_and_off_when_bent_
 }
 
 #[test]
+fn a_whisker_that_is_hardly_bent_gets_on_along_the_surface() {
+    for whisker in [0, 1] {
+        let (_, along, ..) = commanded(whisker, "do swipe(w, 300 urad, 50 mm/s)", &swiping(whisker, 0.1));
+        assert!(along.normalize().x > 0.4, "{along}");
+    }
+}
+
+#[test]
+fn a_whisker_follows_a_surface_that_it_does_not_feel_yet_and_comes_nearer() {
+    for whisker in [0, 1] {
+        let law = "do follow(w, vector(1, 0), 300 urad * w.side, 50 mm/s, 0 deg)";
+        let (mover, along, speed, turn) = commanded(whisker, law, &Felt::at(Pose::default()));
+        assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.05, Turn::Rate(0.0)));
+        assert!(along.x > 0.0 && along.y * Felt::side(whisker) > 0.0);
+    }
+}
+
+#[test]
 fn a_tilt_turns_the_body_towards_the_object() {
     for whisker in [0, 1] {
         let (.., turn) = commanded(whisker, "do swipe_tilted(w, 300 urad, 50 mm/s, 10 deg)", &swiping(whisker, 1.0));
-        let Turn::Facing(heading) = turn else { panic!() };
-        assert!((heading - 10_f64.to_radians() * Felt::side(whisker)).abs() < 1e-12);
+        let Turn::Rate(rate) = turn else { panic!() };
+        assert!(rate * Felt::side(whisker) > 0.0);
+    }
+}
+
+#[test]
+fn the_body_turns_as_fast_as_its_speed_bears_and_no_faster() {
+    let felt = Felt { body: Pose { heading: 2.0, ..Pose::default() }, ..swiping(0, 1.0) };
+    for (speed, limit) in [(0.01, 0.01 / 0.06), (0.03, 0.5), (0.1, 45_f64.to_radians())] {
+        let (.., turn) = commanded(0, &format!("do swipe(w, 300 urad, {speed:?} m/s)"), &felt);
+        let Turn::Rate(rate) = turn else { panic!() };
+        assert!((rate + limit).abs() < 1e-9, "{rate} {limit}");
     }
 }
 
