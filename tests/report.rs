@@ -35,7 +35,7 @@ fn result(run: &Run) -> RunResult {
         seed: 7,
         hash: Hashes { scenario, policy, engine },
     };
-    RunResult::new(identity, run, &Score::new(run, &disk()))
+    RunResult::new(identity, run, &Score::new(run, &disk().into()))
 }
 
 fn snapshots(assert: impl FnOnce()) {
@@ -131,7 +131,7 @@ fn a_table_has_a_line_a_run() {
 fn scene() -> Scene {
     let text = "
 name: disk
-object: {circle: {centre: [0 m, 0 m], radius: 0.3 m}}
+objects: [{circle: {centre: [0 m, 0 m], radius: 0.3 m}}]
 start: {position: [0 m, -0.6 m], heading: 90 deg}
 stop: {time: 120 s}
 ";
@@ -139,7 +139,7 @@ stop: {time: 120 s}
 }
 
 fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
-    picture(scene, policy, run, &Score::new(run, &scene.object))
+    picture(scene, policy, run, &Score::new(run, &scene.truth))
 }
 
 /// A text of a picture and the box that it takes up at most: left, top, right, bottom (px).

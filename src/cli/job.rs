@@ -104,7 +104,7 @@ impl Job {
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
     ) -> Result<Self, Failure> {
-        let engine = engine_hash(&scene).map_err(|cause| Failure::Solid { scenario: path.to_owned(), cause })?;
+        let engine = engine_hash(&scene);
         let identity = Identity {
             scenario: scene.name.clone(),
             policy: program.name.clone(),
@@ -157,7 +157,7 @@ impl Job {
         }
         if let Some(touched) = body_contact(run) {
             let touched = touched.as_secs_f64();
-            output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
+            output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
         }
         let result = RunResult::new(self.identity.clone(), run, score);
         tell_failsafes(&result);

@@ -1,7 +1,7 @@
 //! Whether two contours overlap.
 
-use super::simple::{around, meeting};
 use super::Contour;
+use super::simple::{around, meeting};
 
 impl Contour {
     /// Whether two contours cross or touch, or one lies inside the other.

@@ -9,7 +9,8 @@ use super::{Arc, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendic
 /// joint are for [`turn`](super::joint::turn) to find.
 pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
     for (first, piece) in pieces.iter().enumerate() {
-        for second in tree.locate_in_envelope_intersecting(around(piece)).map(|leaf| leaf.index).filter(|&i| i > first) {
+        for second in tree.locate_in_envelope_intersecting(around(piece)).map(|leaf| leaf.index).filter(|&i| i > first)
+        {
             let joints = shared_joints(pieces, closed, first, second);
             if let Some(at) = meeting(piece, &pieces[second], &joints) {
                 return Err(ContourError::SelfIntersection { first, second, at });

@@ -140,7 +140,8 @@ fn moved(piece: &Piece, distance: f64) -> Option<Piece> {
 
 /// Where the corner between two straight pieces comes to when both are moved to their right.
 fn corner(into: &Piece, out: &Piece, distance: f64) -> Option<super::Point2> {
-    let normals = straight(into).zip(straight(out)).map(|(into, out)| (right_of(into.tangent()), right_of(out.tangent())));
+    let normals =
+        straight(into).zip(straight(out)).map(|(into, out)| (right_of(into.tangent()), right_of(out.tangent())));
     let (before, after) = normals?;
     let share = 1.0 + before.dot(&after);
     // Two pieces that go back on each other have no corner that is anywhere near.

@@ -66,7 +66,9 @@ pub enum ShapeError {
     #[error("the tunnel bends too tightly for its width: make it narrower, or its bends wider")]
     TooTight,
     /// The opening of a round tunnel leaves no wall for its funnel.
-    #[error("the opening and its funnel do not fit into the wall: `from` must be below `to`, and the funnels need room beside it")]
+    #[error(
+        "the opening and its funnel do not fit into the wall: `from` must be below `to`, and the funnels need room beside it"
+    )]
     Opening,
     /// A wall does not stand its thickness.
     #[error(transparent)]

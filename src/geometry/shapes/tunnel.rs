@@ -163,7 +163,8 @@ fn polyline(runs: &[(f64, f64)], aside: f64) -> Result<Contour, ShapeError> {
     }
     vertices.extend(runs.last().map(|&(_, heading)| corner + aside * right_of(heading)));
     // A run between two corners may be used up.
-    let forward = vertices.windows(2).zip(runs).all(|(ends, &(_, heading))| (ends[1] - ends[0]).dot(&unit(heading)) > 0.0);
+    let forward =
+        vertices.windows(2).zip(runs).all(|(ends, &(_, heading))| (ends[1] - ends[0]).dot(&unit(heading)) > 0.0);
     if !forward {
         return Err(ShapeError::TooTight);
     }
@@ -202,7 +203,8 @@ impl Ring {
         // On from the end of the opening, all the way round to its beginning.
         let start = angle(opening.to);
         let beyond = |share: f64| start + (angle(share.rem_euclid(1.0)) - start).rem_euclid(TAU);
-        let (straight, bends) = (beyond(opening.to + opening.funnel_length), beyond(opening.from - opening.funnel_length));
+        let (straight, bends) =
+            (beyond(opening.to + opening.funnel_length), beyond(opening.from - opening.funnel_length));
         let end = beyond(opening.from);
         let curve = |angle: f64| {
             let (mut radius, mut growth) = self.at(angle);
