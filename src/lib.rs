@@ -1,5 +1,8 @@
 //! Scenarios, benchmarks and a policy language for whisker-based active touch.
 
+// What pest writes for a grammar without `std` names it.
+extern crate alloc;
+
 pub mod cli;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]

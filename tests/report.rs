@@ -37,7 +37,7 @@ fn result(run: &Run) -> RunResult {
         seed: 7,
         hash: Hashes { scenario, policy, engine },
     };
-    RunResult::new(identity, run, &Score::new(run, &disk()))
+    RunResult::new(identity, run, &Score::new(run, &disk().into()))
 }
 
 fn snapshots(assert: impl FnOnce()) {
@@ -133,7 +133,7 @@ fn a_table_has_a_line_a_run() {
 fn scene() -> Scene {
     let text = "
 name: disk
-object: {circle: {centre: [0 m, 0 m], radius: 0.3 m}}
+objects: [{circle: {centre: [0 m, 0 m], radius: 0.3 m}}]
 start: {position: [0 m, -0.6 m], heading: 90 deg}
 stop: {time: 120 s}
 ";
@@ -141,7 +141,7 @@ stop: {time: 120 s}
 }
 
 fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
-    picture(scene, policy, run, &Score::new(run, &scene.object))
+    picture(scene, policy, run, &Score::new(run, &scene.truth))
 }
 
 fn texts_stand_clear(picture: &str) {

@@ -55,7 +55,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     for (source, jobs) in &prepared {
         for (test, job) in jobs {
             let run = job.execute_with_bar()?;
-            let score = Score::new(&run, &job.scene.object);
+            let score = Score::new(&run, &job.scene.truth);
             let result = job.result(&run, &score);
             let faults = violations(test, &job.program, &run, &score);
             if let Some(directory) = &arguments.out {
@@ -105,7 +105,8 @@ fn job(
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let seed = scene.seed;
-    Job::with(&path, scene, program, arguments.world.into(), seed, (hash.finalize(), policy_hash.finalize()))
+    let hashes = (hash.finalize(), policy_hash.finalize());
+    Ok(Job::with(&path, scene, program, arguments.world.into(), seed, hashes))
 }
 
 fn tell(

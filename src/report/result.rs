@@ -32,17 +32,17 @@ pub struct RunResult {
     pub wall_s: f64,
     /// Simulated time over wall time; `None` if the clock saw none pass.
     pub realtime: Option<f64>,
-    /// Distance of the tip estimates from the reference contour.
+    /// Distance of the tip estimates from the nearest surface.
     pub error_mm: ErrorMm,
-    /// Share of the reference contour that was traced, 0 to 1.
+    /// Share of the reference that was traced, 0 to 1.
     pub coverage: f64,
-    /// Symmetric Hausdorff distance between the estimated and the reference contour.
+    /// Symmetric Hausdorff distance between the estimated contour and the reference.
     pub hausdorff_mm: Option<f64>,
     /// The states that were left by their failsafe.
     pub failsafes: Failsafes,
     /// The retrievals of whiskers that had lost the object; `None` if the policy made no marks.
     pub retrieval: Option<Retrieval>,
-    /// Distance from the axis of a tunnel; `None` outside of one.
+    /// Distance of the midpoints between two whiskers' tips from the axis of a tunnel; `None` outside of one.
     pub axis_mm: Option<MeanStd>,
     /// Wall time of a control tick.
     pub tick_us: TickUs,
@@ -76,7 +76,7 @@ pub struct Hashes {
     pub engine: String,
 }
 
-/// Distance of the tip estimates from the reference contour (mm).
+/// Distance of the tip estimates from the nearest surface (mm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ErrorMm {
     /// Mean.
@@ -169,8 +169,7 @@ impl RunResult {
             hausdorff_mm: score.hausdorff.map(millimetres),
             failsafes: failsafes(&run.trace),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),
-            // There are no tunnels.
-            axis_mm: None,
+            axis_mm: score.axis.map(|axis| MeanStd::new(Some(axis), 1e3)),
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
                 p99: latency.map(|latency| microseconds(latency.p99)),

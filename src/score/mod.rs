@@ -1,8 +1,9 @@
-//! How well a run traced its object: figures from what happened and the exact outline.
+//! How well a run traced what is there: figures from what happened and the exact geometry.
 //!
 //! Lengths are metres, times seconds. Only tips whose coordinates are finite numbers count; the others are treated as not
 //! recorded.
 
+mod axis;
 mod coverage;
 mod error;
 mod estimate;
@@ -15,6 +16,7 @@ mod score;
 mod statistics;
 mod tip;
 
+pub use axis::axis_error;
 pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage, traced};
 pub use error::ErrorFigures;
 pub use estimate::{Estimate, LONGEST_BREAK, LONGEST_STEP};

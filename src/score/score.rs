@@ -1,36 +1,38 @@
 //! All figures of a run.
 
-use super::{ErrorFigures, Estimate, Latency, RetrievalFigures, coverage, hausdorff, tips};
-use crate::geometry::Contour;
+use super::{ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, axis_error, coverage, hausdorff, tips};
 use crate::run::Run;
-use crate::scene::Metric;
+use crate::scene::{Metric, Truth};
 
 /// All figures of a run; lengths in metres, times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Score {
-    /// How far the tip estimates are from the reference contour; `None` if no tip was recorded.
+    /// How far the tip estimates are from what is there; `None` if no tip was recorded.
     pub error: Option<ErrorFigures>,
-    /// The [share of the reference contour](coverage) that was traced, 0 to 1.
+    /// The [share of the reference](coverage) that was traced, 0 to 1.
     pub coverage: f64,
-    /// The symmetric [Hausdorff distance](hausdorff) between the estimated and the reference contour; `None` if no tip
+    /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference; `None` if no tip
     /// was recorded.
     pub hausdorff: Option<f64>,
     /// Retrievals; `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
+    /// The [distance of the midpoints from a tunnel's axis](axis_error); `None` without a tunnel or midpoints.
+    pub axis: Option<Spread>,
     /// Wall time of the control ticks; `None` if there was none.
     pub latency: Option<Latency>,
 }
 
 impl Score {
-    /// The figures of `run` against the exact outline of its object, `reference`.
+    /// The figures of `run` against what is true of its scene.
     #[must_use]
-    pub fn new(run: &Run, reference: &Contour) -> Self {
+    pub fn new(run: &Run, truth: &Truth) -> Self {
         let estimate = Estimate::new(&run.trace);
         Self {
-            error: ErrorFigures::of(&tips(&run.trace, reference)),
-            coverage: coverage(&estimate, reference),
-            hausdorff: hausdorff(&estimate, reference),
+            error: ErrorFigures::of(&tips(&run.trace, &truth.surfaces)),
+            coverage: coverage(&estimate, &truth.reference),
+            hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
+            axis: truth.axis.as_ref().and_then(|axis| axis_error(&run.trace, axis)),
             latency: Latency::of(&run.tick_times),
         }
     }

@@ -1,6 +1,6 @@
 //! The laws for going along surfaces.
 
-use vibrissa::geometry::{Vector2, unit};
+use vibrissa::geometry::{Pose, Vector2, unit};
 use vibrissa::machine::{Action, Mover, Turn};
 
 use super::felt::{Felt, Whisker, swiping};
