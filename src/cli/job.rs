@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::{Digest, Sha256};
@@ -155,8 +154,8 @@ impl Job {
         if let Some(reason) = &run.reason {
             output::message(format_args!("{scenario}: {}: {reason}", run.outcome));
         }
-        if let Some(touched) = body_contact(run) {
-            let touched = touched.as_secs_f64();
+        if score.collisions.count > 0 {
+            let touched = score.collisions.time;
             output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
         }
         let result = RunResult::new(self.identity.clone(), run, score);
@@ -217,10 +216,4 @@ fn tell_failsafes(result: &RunResult) {
         "{}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}",
         result.scenario
     ));
-}
-
-/// For how long the platform's body touched something; `None` if it did not.
-fn body_contact(run: &Run) -> Option<Duration> {
-    let ticks = run.trace.ticks.iter().filter(|tick| tick.body_touches).count();
-    (ticks > 0).then(|| Duration::from_secs_f64(ticks as f64 * run.trace.period))
 }

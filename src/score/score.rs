@@ -1,12 +1,15 @@
 //! All figures of a run.
 
-use super::{ErrorFigures, Estimate, Latency, RetrievalFigures, coverage, hausdorff, tips};
+use super::{
+    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, StateShare, body_path,
+    coverage, hausdorff, state_shares, tips,
+};
 use crate::geometry::Contour;
 use crate::run::Run;
 use crate::scene::Metric;
 
 /// All figures of a run; lengths in metres, times in seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Score {
     /// How far the tip estimates are from the reference contour; `None` if no tip was recorded.
     pub error: Option<ErrorFigures>,
@@ -17,6 +20,18 @@ pub struct Score {
     pub hausdorff: Option<f64>,
     /// Retrievals; `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
+    /// [Distance of the estimated midpoints from the tunnel's axis](super::axis_error); `None` without a tunnel.
+    pub axis: Option<Spread>,
+    /// Corners; `None` if the reference contour has no sharp one.
+    pub corners: Option<CornerFigures>,
+    /// What the time went into.
+    pub states: Vec<StateShare>,
+    /// Length of the path of the platform's centre of mass (m).
+    pub path: f64,
+    /// That length over the reference contour's.
+    pub path_ratio: f64,
+    /// What the platform's body ran into.
+    pub collisions: Collisions,
     /// Wall time of the control ticks; `None` if there was none.
     pub latency: Option<Latency>,
 }
@@ -26,11 +41,19 @@ impl Score {
     #[must_use]
     pub fn new(run: &Run, reference: &Contour) -> Self {
         let estimate = Estimate::new(&run.trace);
+        let path = body_path(&run.trace.ticks);
         Self {
             error: ErrorFigures::of(&tips(&run.trace, reference)),
             coverage: coverage(&estimate, reference),
             hausdorff: hausdorff(&estimate, reference),
             retrieval: RetrievalFigures::new(&run.trace),
+            // A scene has no tunnel yet.
+            axis: None,
+            corners: CornerFigures::new(&run.trace, &[reference]),
+            states: state_shares(&run.trace),
+            path,
+            path_ratio: path / reference.length(),
+            collisions: Collisions::of(&run.trace),
             latency: Latency::of(&run.tick_times),
         }
     }
@@ -44,6 +67,12 @@ impl Score {
             Metric::ErrorMax => self.error.map(|error| error.max),
             Metric::Hausdorff => self.hausdorff,
             Metric::Coverage => Some(self.coverage),
+            Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
+            Metric::AxisMean => self.axis.map(|axis| axis.mean),
+            Metric::CornerPlaceMax => self.corners?.place.map(|place| place.max),
+            Metric::CornerTimeMax => self.corners?.time.map(|time| time.max),
+            Metric::CornerPathMax => self.corners?.path.map(|path| path.max),
+            Metric::Collisions => Some(self.collisions.count as f64),
         }
     }
 }
