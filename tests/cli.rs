@@ -46,7 +46,7 @@ fn directory(name: &str) -> PathBuf {
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
+    for command in ["run", "bench", "compare", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -171,6 +171,16 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, disk], "both called `disk`"),
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
+        (vec!["bench", "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
+        (vec!["bench", "--jobs", "0"], "--jobs"),
+        (vec!["compare", "policies/thesis.fsm"], "1 policy is given; give two or more"),
+        (vec!["compare", disk], "0 policies are given"),
+        (vec!["compare", "policies/thesis.fsm", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["compare", "policies/thesis.fsm", "policies/bang.fsm", "a.yaml"], "cannot read a.yaml"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter", "5 deg"], "a length"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter=-5 mm"], "not negative"),
+        (vec!["compare", "a.fsm", "b.fsm", "--seeds", "0"], "--seeds"),
         (vec!["fmt"], "POLICY"),
         (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
@@ -210,7 +220,7 @@ fn of_a_compiled_machine_the_text_is_asked_for_where_it_is_needed() {
 
 #[test]
 fn every_command_that_writes_takes_the_place_alike() {
-    for command in ["run", "compile", "graph"] {
+    for command in ["run", "bench", "compile", "graph"] {
         assert!(stdout(&vibrissa(&[command, "--help"])).contains("-o, --out <"), "{command}");
     }
 }
@@ -466,6 +476,60 @@ mod with_simulation {
         let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "limit=300 urad"]);
         assert_eq!(output.status.code(), Some(1));
         assert!(stderr(&output).contains("the outcome is failed, expected completed"), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn the_bench_runs_its_scenes_and_reports_them() {
+        let out = directory("bench");
+        let slow = directory("bench-policy").join("slow.machine").display().to_string();
+        let compile = ["compile", "policies/thesis.fsm", "-o", &slow, "--set", "speed=60 mm/s"];
+        assert_eq!(vibrissa(&compile).status.code(), Some(0));
+        let shown = out.display().to_string();
+        let output = vibrissa(&["bench", "--policy", &slow, "--out", &shown, "--json", "--jobs", "2"]);
+        let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let rows = rows.as_array().unwrap();
+        let passed = rows.iter().all(|row| row["passed"] == true);
+        assert_eq!(output.status.code(), Some(i32::from(!passed)), "{}", stderr(&output));
+        let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
+        assert_eq!(
+            (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),
+            (&0.8.into(), &"better".into())
+        );
+        let mut files: Vec<_> =
+            out.read_dir().unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+        files.sort();
+        assert_eq!(files.len(), rows.len() + 2, "{files:?}");
+        assert!(files.contains(&"disk-thesis.svg".to_owned()) && files.contains(&"index.html".to_owned()));
+        let written = std::fs::read_to_string(out.join("results.json")).unwrap();
+        assert_eq!(&serde_json::from_str::<Vec<Value>>(&written).unwrap(), rows);
+    }
+
+    #[test]
+    fn compare_does_the_same_runs_under_every_policy_on_however_many_threads() {
+        let compared = |jobs: &str| {
+            let disk = "scenarios/disk.yaml";
+            let jitter = ["--seeds", "3", "--jitter", "10 mm", "--jitter-heading", "2 deg"];
+            let arguments = ["compare", "policies/bang.fsm", "policies/thesis.fsm", disk, "--json", "--jobs", jobs];
+            let output = vibrissa(&[&arguments[..], &jitter].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            stdout(&output)
+        };
+        let text = compared("2");
+        assert_eq!(text, compared("1"));
+        let comparison: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(comparison["policies"][0]["runs"], 3);
+        let figures = comparison["figures"].as_array().unwrap();
+        let time = figures.iter().find(|figure| figure["figure"] == "sim_s").unwrap();
+        assert_eq!((&time["policy"], &time["outlook"]), (&"policies/thesis.fsm".into(), &"better".into()));
+    }
+
+    #[test]
+    fn compare_does_a_run_once_that_no_seed_can_change() {
+        let output =
+            vibrissa(&["compare", "policies/thesis.fsm", "policies/thesis.fsm", "scenarios/disk.yaml", "--seeds", "9"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stderr(&output).contains("all seeds are the same run"), "{}", stderr(&output));
+        assert!(stdout(&output).contains("the same"), "{}", stdout(&output));
     }
 
     #[test]

@@ -19,7 +19,7 @@ use crate::study::{WorldKind, engine_hash, execute};
 use super::arguments::RunArguments;
 use super::exit::Failure;
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::output;
+use super::{file, output};
 
 /// A run that is ready to begin.
 pub(super) struct Job {
@@ -148,19 +148,9 @@ impl Job {
         run.map_err(|cause| Failure::Execute { scenario: self.path.clone(), cause })
     }
 
-    /// The result of its run; what is to be noticed about it goes to standard error.
+    /// The result of its run.
     pub(super) fn result(&self, run: &Run, score: &Score) -> RunResult {
-        let scenario = &self.identity.scenario;
-        if let Some(reason) = &run.reason {
-            output::message(format_args!("{scenario}: {}: {reason}", run.outcome));
-        }
-        if score.collisions.count > 0 {
-            let touched = score.collisions.time;
-            output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
-        }
-        let result = RunResult::new(self.identity.clone(), run, score);
-        tell_failsafes(&result);
-        result
+        RunResult::new(self.identity.clone(), run, score)
     }
 
     /// Writes a picture and the result of its run to `stem` with their extensions.
@@ -173,10 +163,10 @@ impl Job {
     ) -> Result<(), Failure> {
         let picture_path = extended(stem, "svg");
         let drawn = picture(&self.scene, &result.policy, run, score);
-        std::fs::write(&picture_path, drawn).map_err(Failure::write(&picture_path))?;
+        file::write(&picture_path, drawn)?;
         let json_path = extended(stem, "json");
         let json = serde_json::to_string_pretty(result)? + "\n";
-        std::fs::write(&json_path, json).map_err(Failure::write(&json_path))
+        file::write(&json_path, json)
     }
 }
 
@@ -202,6 +192,19 @@ fn milliseconds(seconds: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive time, only to be shown")]
     let milliseconds = (seconds * 1e3) as u64;
     milliseconds
+}
+
+/// Tells what is to be noticed about a run.
+pub(super) fn tell(result: &RunResult) {
+    let RunResult { scenario, outcome, reason, collisions, .. } = result;
+    if let Some(reason) = reason {
+        output::message(format_args!("{scenario}: {outcome}: {reason}"));
+    }
+    if collisions.count > 0 {
+        let touched = collisions.time_s;
+        output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
+    }
+    tell_failsafes(result);
 }
 
 /// Tells that states were left by their failsafe.

@@ -14,3 +14,6 @@ pub use result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanStd, MeanStdMax, Retrieval, RunResult, TickUs,
 };
 pub use table::table;
+
+pub(crate) use number::{mean_std, millimetres};
+pub(crate) use table::{NONE, ruled};

@@ -6,7 +6,7 @@ use super::number::{mean_std, millimetres};
 use super::{MeanStd, RunResult};
 
 /// What stands for a figure that a run does not have.
-const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 /// A column: its heading, what it shows of a run, and whether it is there even if no run has it.
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
@@ -24,9 +24,9 @@ const COLUMNS: [Column; 18] = [
     ("retrieval mm", |result| spread(result.retrieval?.radius_mm), false),
     ("axis mm", |result| spread(result.axis_mm?), false),
     ("corners", |result| result.corners.map(|corners| format!("{} of {}", corners.traced, corners.count)), false),
-    ("off mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
-    ("each s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
-    ("each m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
+    ("corner mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
+    ("corner s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
+    ("corner m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
     ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
     ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
     ("× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),

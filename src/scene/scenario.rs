@@ -1,5 +1,6 @@
 //! A scenario as a whole.
 
+use super::clearance::overlap;
 use super::{Expectation, Stop, yaml};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::geometry::{Contour, Pose};
@@ -50,6 +51,12 @@ impl Scene {
     /// ```
     pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
         yaml::read(source)
+    }
+
+    /// Whether the rig, its whiskers straight, would stand clear of the object if it started at `start`.
+    #[must_use]
+    pub fn is_clear_at(&self, start: &Pose) -> bool {
+        overlap(&self.rig, start, &self.object).is_none()
     }
 }
 
