@@ -18,7 +18,7 @@ fn result(scenario: &str, off: f64) -> RunResult {
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
     let identity = Identity { scenario, policy, world, seed: 0, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap()))
+    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into()))
 }
 
 fn spread(mean: f64) -> MeanStd {

@@ -95,7 +95,7 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let [scenario, policy, world] = ["disk", "m", "mujoco"].map(str::to_owned);
     let identity = Identity { scenario, policy, world, seed, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap()))
+    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into()))
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_is_told() {
 fn close_by() -> Scene {
     let text = "
 name: disk
-object: {circle: {centre: [0 m, 0.418 m], radius: 0.3 m}}
+objects: [{circle: {centre: [0 m, 0.418 m], radius: 0.3 m}}]
 start: {position: [0 m, 0 m], heading: 90 deg}
 stop: {time: 120 s}
 ";

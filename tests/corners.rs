@@ -46,7 +46,7 @@ proptest! {
     ) {
         let outline = regular_polygon(Point2::origin(), 0.2, sides, 0.1).unwrap();
         let outline = outline.transformed(&Pose { position: Point2::new(x, y), heading });
-        let (corners, count) = traced_corners(&trace(tips_along(&outline, |_, _| 0.0)), &[&outline]);
+        let (corners, count) = traced_corners(&trace(tips_along(&outline, |_, _| 0.0)), &outline.clone().into());
         prop_assert_eq!((corners.len(), count), (sides, sides));
         for corner in corners {
             prop_assert!(corner.place_error() < 1e-9 && corner.turn_error.abs() < 1e-9);
@@ -57,7 +57,7 @@ proptest! {
     #[test]
     fn sides_that_are_off_move_their_corners_by_as_much(off in prop::array::uniform4(-1e-3..1e-3_f64)) {
         let outline = square();
-        let (corners, _) = traced_corners(&trace(tips_along(&outline, |side, _| off[side])), &[&outline]);
+        let (corners, _) = traced_corners(&trace(tips_along(&outline, |side, _| off[side])), &outline.clone().into());
         prop_assert_eq!(corners.len(), 4);
         for (index, corner) in corners.iter().enumerate() {
             // The corner at the start of a side is where this side and the one before it meet.
@@ -70,7 +70,7 @@ proptest! {
     fn a_side_that_is_turned_turns_both_its_corners(slope in -0.02..0.02_f64) {
         let outline = square();
         let trace = trace(tips_along(&outline, |side, along| if side == 0 { slope * along } else { 0.0 }));
-        let (corners, _) = traced_corners(&trace, &[&outline]);
+        let (corners, _) = traced_corners(&trace, &outline.clone().into());
         // To the right means that the corner where the side begins turns less.
         prop_assert!((corners[0].turn_error + slope.atan()).abs() < 1e-9);
         prop_assert!((corners[1].turn_error - slope.atan()).abs() < 1e-9);
@@ -86,7 +86,7 @@ proptest! {
             Piece::segment(Point2::new(0.0, -radius), Point2::origin()),
             Piece::segment(Point2::origin(), Point2::new(radius, 0.0)),
         ]).unwrap();
-        let (corners, count) = traced_corners(&trace(tips_along(&outline, |_, _| off)), &[&outline]);
+        let (corners, count) = traced_corners(&trace(tips_along(&outline, |_, _| off)), &outline.clone().into());
         prop_assert_eq!((corners.len(), count), (3, 3));
         let concave = corners.iter().filter(|corner| corner.corner.turn < 0.0).count();
         prop_assert_eq!(concave, 1);
@@ -99,9 +99,9 @@ proptest! {
 #[test]
 fn smooth_outlines_and_slight_corners_have_no_figures() {
     let many = regular_polygon(Point2::origin(), 0.2, 19, 0.0).unwrap();
-    assert_eq!(CornerFigures::new(&trace(tips_along(&many, |_, _| 0.0)), &[&many]), None);
+    assert_eq!(CornerFigures::new(&trace(tips_along(&many, |_, _| 0.0)), &many.clone().into()), None);
     let run = run_with(&[]);
-    let figures = Score::new(&run, &square()).corners.unwrap();
+    let figures = Score::new(&run, &square().into()).corners.unwrap();
     assert_eq!((figures.count, figures.traced, figures.place, figures.time), (4, 0, None, None));
 }
 
@@ -110,7 +110,7 @@ fn a_corner_that_was_traced_on_one_side_only_does_not_count() {
     let outline = square();
     let tips = tips_along(&outline, |_, _| 0.0);
     let half = tips.len() / 2;
-    let (corners, count) = traced_corners(&trace(tips[..half].to_vec()), &[&outline]);
+    let (corners, count) = traced_corners(&trace(tips[..half].to_vec()), &outline.clone().into());
     assert_eq!((corners.len(), count), (1, 4));
     assert!((corners[0].corner.point - Point2::new(0.2, 0.0)).norm() < 1e-12);
 }
@@ -118,7 +118,7 @@ fn a_corner_that_was_traced_on_one_side_only_does_not_count() {
 #[test]
 fn the_ends_of_a_thin_wall_have_two_corners_each() {
     let wall = polygon(&[(0.0, 0.0), (0.3, 0.0), (0.3, 0.01), (0.0, 0.01)].map(|(x, y)| Point2::new(x, y))).unwrap();
-    let (corners, _) = traced_corners(&trace(tips_along(&wall, |_, _| 0.0)), &[&wall]);
+    let (corners, _) = traced_corners(&trace(tips_along(&wall, |_, _| 0.0)), &wall.clone().into());
     assert_eq!(corners.len(), 4);
 }
 
@@ -133,7 +133,7 @@ fn broken(missing: usize) -> (Trace, usize) {
 #[test]
 fn a_break_in_the_tips_at_a_corner_is_what_the_corner_costs() {
     let (trace, last) = broken(59);
-    let (corners, _) = traced_corners(&trace, &[&square()]);
+    let (corners, _) = traced_corners(&trace, &square().into());
     let costly: Vec<_> = corners.iter().filter(|corner| corner.edge.is_some()).collect();
     assert_eq!(costly.len(), 1);
     assert!((costly[0].corner.point - Point2::new(0.2, 0.0)).norm() < 1e-12);
@@ -141,7 +141,7 @@ fn a_break_in_the_tips_at_a_corner_is_what_the_corner_costs() {
     assert!((costly[0].time - 2.0).abs() < 1e-9 && (costly[0].path - 0.1).abs() < 1e-9);
     let edge = trace.ticks[last].tips[0].unwrap();
     assert!((costly[0].edge.unwrap() - (0.2 - edge.x)).abs() < 1e-12);
-    let figures = CornerFigures::new(&trace, &[&square()]).unwrap();
+    let figures = CornerFigures::new(&trace, &square().into()).unwrap();
     assert!((figures.time.unwrap().spread.mean - 0.5).abs() < 1e-9 && (figures.time.unwrap().max - 2.0).abs() < 1e-9);
     assert_eq!(excursions(&broken(2).0), []);
 }
@@ -167,7 +167,7 @@ fn an_estimate_turned_about_a_corner_keeps_its_place_and_its_angle() {
     let about = Point2::new(0.2, 0.0);
     let turned = |tip: Point2| about + rotate(tip - about, 0.02);
     let tips = tips_along(&outline, |_, _| 0.0).into_iter().map(|tip| tip.map(turned)).collect();
-    let (corners, _) = traced_corners(&trace(tips), &[&outline]);
+    let (corners, _) = traced_corners(&trace(tips), &outline.clone().into());
     assert!(corners[1].place_error() < 1e-9 && corners[1].turn_error.abs() < 1e-9);
     assert!((corners[1].corner.turn - FRAC_PI_2).abs() < 1e-12);
 }

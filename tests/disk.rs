@@ -30,7 +30,7 @@ fn thesis() -> Program {
 
 fn run(scene: &Scene, program: Program, seed: u64) -> (Run, Score) {
     let run = execute(scene, Arc::new(program), WorldKind::Mujoco, seed, |_| ControlFlow::Continue(())).unwrap();
-    let score = Score::new(&run, &scene.object);
+    let score = Score::new(&run, &scene.truth);
     (run, score)
 }
 
@@ -121,4 +121,30 @@ fn a_policy_that_loses_the_object_fails_and_says_why() {
     assert_eq!(run.outcome, Outcome::Failed);
     assert_eq!(run.reason.as_deref(), Some("a whisker at its limit"));
     assert_eq!(run.final_state, "Failure");
+}
+
+#[test]
+fn a_run_that_gets_nowhere_fails_and_says_so() {
+    let text = read("scenarios/disk.yaml").text.replace("stop:\n", "stop:\n  stalled: {after: 3 s}\n");
+    let still = "machine still whisker r0 initial Still state Still { stop }";
+    let (run, _) = run(&scene(&text), compile(&Source::new("still.fsm", still)).unwrap(), 0);
+    assert_eq!(run.outcome, Outcome::Failed);
+    assert!(run.reason.unwrap().starts_with("no progress for 3 s"));
+    assert!((run.trace.ticks.last().unwrap().time - 3.0).abs() < 0.1);
+}
+
+#[test]
+fn a_run_is_completed_where_the_platform_is_to_get_to() {
+    let reaching = |place: &str, time: &str| {
+        let reached = format!("reached: {{place: {place}, within: 5 mm, after: 500 ms}}");
+        let text = read("scenarios/disk.yaml").text.replace("loop_closed: {within: 5 mm, after: 5 s}", &reached);
+        run(&scene(&text.replace("time: 120 s", time)), thesis(), 0).0
+    };
+    let there = reaching("[0 m, 0.12 m]", "time: 120 s");
+    assert_eq!(there.outcome, Outcome::Completed);
+    let end = there.trace.ticks.last().unwrap();
+    assert!((end.body.position.y - 0.12).abs() <= 0.005 && end.time >= 0.5);
+    let elsewhere = reaching("[5 m, 0 m]", "time: 2 s");
+    assert_eq!(elsewhere.outcome, Outcome::Timeout);
+    assert_eq!(elsewhere.reason.as_deref(), Some("the place was not reached within 2 s"));
 }

@@ -27,7 +27,7 @@ fn half_round() -> Run {
 }
 
 fn result(run: &Run) -> RunResult {
-    RunResult::new(identity(), run, &Score::new(run, &disk()))
+    RunResult::new(identity(), run, &Score::new(run, &disk().into()))
 }
 
 fn identity() -> Identity {
@@ -121,7 +121,7 @@ fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
     run.trace.ticks[9].body_touches = true;
     let mut square = result(&run);
     let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
-    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline)).corners;
+    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into())).corners;
     let full = table(&[result(&half_round()), square]);
     assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval mm"), "{full}");
 }
@@ -147,7 +147,7 @@ fn a_table_has_a_line_a_run() {
 fn scene() -> Scene {
     let text = "
 name: disk
-object: {circle: {centre: [0 m, 0 m], radius: 0.3 m}}
+objects: [{circle: {centre: [0 m, 0 m], radius: 0.3 m}}]
 start: {position: [0 m, -0.6 m], heading: 90 deg}
 stop: {time: 120 s}
 ";
@@ -155,7 +155,7 @@ stop: {time: 120 s}
 }
 
 fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
-    picture(scene, policy, run, &Score::new(run, &scene.object))
+    picture(scene, policy, run, &Score::new(run, &scene.truth))
 }
 
 /// A text of a picture and the box that it takes up at most: left, top, right, bottom (px).

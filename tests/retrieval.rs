@@ -179,8 +179,8 @@ fn a_policy_that_loses_an_edge_and_finds_it_again_is_measured_from_its_last_touc
     let sample = Sample { time: 0.0, body, whiskers: [Reading::default(); MAX_WHISKERS] };
     let bent = |tick| !(60..90).contains(&tick);
     let mut stage = Stage { bent, tick: 0, body, samples: [sample; 10] };
-    let run =
-        drive(&mut stage, control, &Stop { time: 5.0, loop_closed: None }, 1.0 / 30.0, |_| ControlFlow::Continue(()));
+    let stop = Stop { time: 5.0, loop_closed: None, reached: None, stalled: None };
+    let run = drive(&mut stage, control, &stop, 1.0 / 30.0, |_| ControlFlow::Continue(()));
     let run = run.unwrap();
     let found = retrievals(&run.trace);
     assert_eq!(found.len(), 1);

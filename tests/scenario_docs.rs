@@ -16,7 +16,7 @@ fn scenarios() -> Vec<Scene> {
 #[test]
 fn the_rig_that_is_written_out_is_the_reference_rig() {
     let scenarios = scenarios();
-    assert_eq!(scenarios.len(), 2);
+    assert_eq!(scenarios.len(), 3);
     for scenario in scenarios {
         assert_eq!(scenario.rig, Rig::default(), "{}", scenario.name);
     }

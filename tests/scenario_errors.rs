@@ -93,10 +93,10 @@ fn a_large_text_is_refused_whatever_is_in_it() {
 
 /// The disk's scenario with a polygon of these vertices in its place, each on a line of its own.
 fn with_polygon(vertices: impl Iterator<Item = String>) -> Source {
-    let lines = vertices.fold(String::new(), |lines, vertex| lines + "      - " + &vertex + "\n");
-    let disk = "  circle: {centre: [0.4 m, 0.4 m], radius: 0.3 m}\n";
+    let lines = vertices.fold(String::new(), |lines, vertex| lines + "        - " + &vertex + "\n");
+    let disk = "  - circle: {centre: [0.4 m, 0.4 m], radius: 0.3 m}\n";
     assert!(DISK.contains(disk));
-    Source::new("scenario.yaml", DISK.replace(disk, &format!("  polygon:\n    vertices:\n{lines}")))
+    Source::new("scenario.yaml", DISK.replace(disk, &format!("  - polygon:\n      vertices:\n{lines}")))
 }
 
 #[test]

@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use runs::{arc_of_tips, run_with};
-use vibrissa::geometry::{Contour, Point2, Pose, circle, polygon, unit};
-use vibrissa::scene::Metric;
+use vibrissa::geometry::{Contour, Piece, Point2, Pose, circle, polygon, unit};
+use vibrissa::scene::{Metric, Truth};
 use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, LONGEST_STEP, Score};
 
 /// How far tips go in a tick at 50 mm/s and 30 Hz (m).
@@ -20,7 +20,7 @@ fn disk(radius: f64) -> Contour {
 }
 
 fn score(tips: &[Vec<Option<Point2>>], reference: &Contour) -> Score {
-    Score::new(&run_with(tips), reference)
+    Score::new(&run_with(tips), &Truth::from(reference.clone()))
 }
 
 fn moved(tips: &[Option<Point2>], pose: &Pose) -> Vec<Option<Point2>> {
@@ -189,13 +189,26 @@ fn whiskers_are_not_joined_but_pooled() {
     let (left, right) = (Some(Point2::new(0.0, 0.051)), Some(Point2::new(0.0, -0.053)));
     let run = run_with(&[vec![left, left], vec![right, right]]);
     assert_eq!(Estimate::new(&run.trace).strokes().len(), 2);
-    let error = Score::new(&run, &disk(0.05)).error.unwrap();
+    let error = Score::new(&run, &disk(0.05).into()).error.unwrap();
     assert_eq!(error.count, 4);
     assert!((error.mean - 2e-3).abs() < 1e-12);
     assert_eq!(
         [0.5e-3, 1e-3, 5e-3].map(|d| error.against_mean(d)),
         [Ordering::Less, Ordering::Equal, Ordering::Greater]
     );
+}
+
+#[test]
+fn the_axis_error_is_that_of_the_midpoints_between_two_tips() {
+    // The platform goes up the y axis, between them.
+    let line = Contour::open(vec![Piece::segment(Point2::new(0.0, 0.0), Point2::new(0.0, 1.0))]).unwrap();
+    let truth = Truth { axis: Some(line.into()), ..disk(0.05).into() };
+    let left = [Some(Point2::new(-0.104, 0.1)), None, Some(Point2::new(-0.1, 0.3)), Some(Point2::new(f64::NAN, 0.4))];
+    let right = [0.1, 0.1, 0.102, 0.1].map(|x| Some(Point2::new(x, 0.2)));
+    let axis = Score::new(&run_with(&[left.to_vec(), right.to_vec()]), &truth).axis.unwrap();
+    assert!((axis.mean - 1.5e-3).abs() < 1e-15 && (axis.std.unwrap() - 0.5e-3 * 2_f64.sqrt()).abs() < 1e-15);
+    assert_eq!(Score::new(&run_with(&[left.to_vec()]), &truth).axis, None, "one whisker has no midpoint");
+    assert_eq!(score(&[left.to_vec(), right.to_vec()], &disk(0.05)).axis, None, "no tunnel");
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn between(left: f64, right: f64, count: usize) -> Trace {
 proptest! {
     #[test]
     fn the_axis_error_is_that_of_the_midpoints(left in -0.2..-0.01_f64, right in 0.01..0.2_f64) {
-        let error = axis_error(&between(left, right, 60), &[&axis()]).unwrap();
+        let error = axis_error(&between(left, right, 60), &axis().into()).unwrap();
         prop_assert!((error.mean - 0.5 * (left + right).abs()).abs() < 1e-12);
         prop_assert!(error.std.unwrap() < 1e-12);
     }
@@ -34,7 +34,7 @@ proptest! {
         for tick in &mut trace.ticks {
             tick.tips[2] = tick.tips[0].map(|tip| Point2::new(extra, tip.y));
         }
-        let error = axis_error(&trace, &[&axis()]).unwrap();
+        let error = axis_error(&trace, &axis().into()).unwrap();
         prop_assert!((error.mean - 0.5 * (0.5 * (0.1 + extra) - 0.1).abs()).abs() < 1e-12);
     }
 }
@@ -48,13 +48,12 @@ fn only_ticks_with_both_walls_and_beside_the_axis_count() {
     for tick in &mut trace.ticks[30..40] {
         tick.tips[0] = tick.tips[0].map(|tip| Point2::new(0.3, tip.y));
     }
-    let error = axis_error(&trace, &[&axis()]).unwrap();
+    let error = axis_error(&trace, &axis().into()).unwrap();
     assert!((error.mean - (10.0 * 0.1 + 20.0 * 0.01) / 30.0).abs() < 1e-12);
     let beyond = between(-0.1, 0.12, 900);
-    let inside = axis_error(&beyond, &[&axis()]).unwrap();
+    let inside = axis_error(&beyond, &axis().into()).unwrap();
     assert!((inside.mean - 0.01).abs() < 1e-12, "what lies beyond its end does not count");
-    assert_eq!(axis_error(&beyond, &[]), None);
-    assert_eq!(axis_error(&run_with(&[vec![Some(Point2::new(0.1, 0.1)); 9]]).trace, &[&axis()]), None);
+    assert_eq!(axis_error(&run_with(&[vec![Some(Point2::new(0.1, 0.1)); 9]]).trace, &axis().into()), None);
 }
 
 #[test]
@@ -63,7 +62,7 @@ fn a_left_side_is_that_of_the_body_whichever_way_it_goes() {
     for tick in &mut trace.ticks {
         tick.body.heading = -std::f64::consts::FRAC_PI_2;
     }
-    assert!((axis_error(&trace, &[&axis()]).unwrap().mean - 0.01).abs() < 1e-12);
+    assert!((axis_error(&trace, &axis().into()).unwrap().mean - 0.01).abs() < 1e-12);
 }
 
 #[test]
@@ -72,7 +71,7 @@ fn the_way_is_that_of_the_centre_of_mass_and_leaves_out_what_is_no_pose() {
     let due = 0.05 * (run.trace.ticks.len() - 1) as f64 / 30.0;
     assert!((body_path(&run.trace.ticks) - due).abs() < 1e-12);
     run.trace.ticks[7].body = Pose::UNKNOWN;
-    let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap());
+    let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into());
     assert!((score.path - due).abs() < 1e-12);
     assert!((score.path_ratio - due / (0.6 * std::f64::consts::PI)).abs() < 1e-12);
     assert!(body_path(&[]).is_sign_positive());

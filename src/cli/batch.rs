@@ -32,7 +32,7 @@ pub(super) fn run_all(
     }
     let run = |job: &Job| {
         let run = job.execute(|_| ControlFlow::Continue(()))?;
-        let score = Score::new(&run, &job.scene.object);
+        let score = Score::new(&run, &job.scene.truth);
         let result = job.result(&run, &score);
         let picture = with_pictures.then(|| picture(&job.scene, &result.policy, &run, &score));
         Ok(Finished { result, picture })

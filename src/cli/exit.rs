@@ -6,7 +6,6 @@ use std::process::ExitCode;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ArtifactError, SetError};
 use crate::report::ChartTooLarge;
-use crate::scene::SolidError;
 use crate::study::ExecuteError;
 
 use super::output;
@@ -70,8 +69,6 @@ pub(super) enum Failure {
     Set(#[from] SetError),
     #[error("{}: {cause}", scenario.display())]
     Execute { scenario: PathBuf, cause: ExecuteError },
-    #[error("{}: {cause}", scenario.display())]
-    Solid { scenario: PathBuf, cause: SolidError },
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]

@@ -103,7 +103,7 @@ impl Job {
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
     ) -> Result<Self, Failure> {
-        let engine = engine_hash(&scene).map_err(|cause| Failure::Solid { scenario: path.to_owned(), cause })?;
+        let engine = engine_hash(&scene);
         let identity = Identity {
             scenario: scene.name.clone(),
             policy: program.name.clone(),
@@ -202,7 +202,7 @@ pub(super) fn tell(result: &RunResult) {
     }
     if collisions.count > 0 {
         let touched = collisions.time_s;
-        output::message(format_args!("{scenario}: the platform's body touched the object for {touched:.1} s"));
+        output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
     }
     tell_failsafes(result);
 }

@@ -37,7 +37,7 @@ pub(super) fn make_directory(directory: Option<&Path>) -> Result<(), Failure> {
 
 /// Scores a run, says which of the scenario's expectations do not hold, and writes the report; whether all held.
 pub(super) fn finish(job: &Job, run: &crate::run::Run, directory: Option<&Path>) -> Result<(RunResult, bool), Failure> {
-    let score = Score::new(run, &job.scene.object);
+    let score = Score::new(run, &job.scene.truth);
     let result = job.result(run, &score);
     tell(&result);
     let mut held = true;

@@ -55,7 +55,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     for (source, jobs) in &prepared {
         for (test, job) in jobs {
             let run = job.execute_with_bar()?;
-            let score = Score::new(&run, &job.scene.object);
+            let score = Score::new(&run, &job.scene.truth);
             let result = job.result(&run, &score);
             job::tell(&result);
             let faults = violations(test, &job.program, &run, &score);

@@ -63,7 +63,8 @@ fn tell(job: &Job, trace: &Trace) -> Result<(), Failure> {
     let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state?)).map_or("Failure", String::as_str);
     let now = seconds(trace);
     let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
-    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| job.scene.object.nearest(tip).distance);
+    let surfaces = &job.scene.truth.surfaces;
+    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| surfaces.nearest(tip).distance);
     let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
         format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
     });

@@ -23,4 +23,16 @@ impl BoundingBox {
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
+
+    /// Distance (m) of a point from the box; 0 inside.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        (point - point.sup(&self.min).inf(&self.max)).norm()
+    }
+
+    /// Whether the boxes share a point.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min <= other.max && other.min <= self.max
+    }
 }

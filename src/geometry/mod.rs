@@ -8,21 +8,26 @@ mod angle;
 mod arc;
 mod bounding_box;
 mod contour;
+mod contour_set;
 mod distance;
 mod error;
+mod fit;
 mod joint;
 mod offset;
+mod overlap;
 mod piece;
 mod pose;
 mod sample;
 mod segment;
 mod shapes;
 mod simple;
+mod strip;
 
 pub use angle::{turn_between, wrap};
 pub use arc::Arc;
 pub use bounding_box::BoundingBox;
 pub use contour::{Contour, JOIN_TOLERANCE, SHORTEST_PIECE};
+pub use contour_set::ContourSet;
 pub use distance::Nearest;
 pub use error::ContourError;
 pub use joint::Corner;
@@ -31,7 +36,8 @@ pub use piece::Piece;
 pub use pose::{Pose, perpendicular, rotate, unit};
 pub use sample::ContourPoint;
 pub use segment::Segment;
-pub use shapes::{Path, ShapeError, circle, polygon, regular_polygon, rounded_rectangle};
+pub use shapes::{CentreLine, Opening, Path, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle};
+pub use strip::{Side, Strip, StripError};
 
 /// A point of the plane: coordinates in metres.
 pub type Point2 = nalgebra::Point2<f64>;

@@ -9,12 +9,8 @@ use super::{Arc, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendic
 /// joint are for [`turn`](super::joint::turn) to find.
 pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
     for (first, piece) in pieces.iter().enumerate() {
-        let bounds = piece.bounding_box();
-        let around = AABB::from_corners(
-            [bounds.min.x - JOIN_TOLERANCE, bounds.min.y - JOIN_TOLERANCE],
-            [bounds.max.x + JOIN_TOLERANCE, bounds.max.y + JOIN_TOLERANCE],
-        );
-        for second in tree.locate_in_envelope_intersecting(around).map(|leaf| leaf.index).filter(|&i| i > first) {
+        for second in tree.locate_in_envelope_intersecting(around(piece)).map(|leaf| leaf.index).filter(|&i| i > first)
+        {
             let joints = shared_joints(pieces, closed, first, second);
             if let Some(at) = meeting(piece, &pieces[second], &joints) {
                 return Err(ContourError::SelfIntersection { first, second, at });
@@ -22,6 +18,15 @@ pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Resul
         }
     }
     Ok(())
+}
+
+/// The box of all that is within the tolerance of a piece's own box.
+pub(super) fn around(piece: &Piece) -> AABB<[f64; 2]> {
+    let bounds = piece.bounding_box();
+    AABB::from_corners(
+        [bounds.min.x - JOIN_TOLERANCE, bounds.min.y - JOIN_TOLERANCE],
+        [bounds.max.x + JOIN_TOLERANCE, bounds.max.y + JOIN_TOLERANCE],
+    )
 }
 
 /// The joints that two pieces of a chain share.
@@ -39,7 +44,7 @@ fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) ->
 /// A point that two pieces share apart from their joints.
 ///
 /// Pieces that meet cross, or touch, or an end of one lies on the other; where they cover each other, an end of one does.
-fn meeting(a: &Piece, b: &Piece, joints: &[Point2]) -> Option<Point2> {
+pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2]) -> Option<Point2> {
     let ends = [a.start(), a.end(), b.start(), b.end()];
     let crossings = match joints.first() {
         Some(&joint) => [second_crossing(a, b, joint), None],

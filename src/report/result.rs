@@ -32,11 +32,11 @@ pub struct RunResult {
     pub wall_s: f64,
     /// Simulated time over wall time; `None` if the clock saw none pass.
     pub realtime: Option<f64>,
-    /// Distance of the tip estimates from the reference contour.
+    /// Distance of the tip estimates from the nearest surface.
     pub error_mm: ErrorMm,
-    /// Share of the reference contour that was traced, 0 to 1.
+    /// Share of the reference that was traced, 0 to 1.
     pub coverage: f64,
-    /// Symmetric Hausdorff distance between the estimated and the reference contour.
+    /// Symmetric Hausdorff distance between the estimated contour and the reference.
     pub hausdorff_mm: Option<f64>,
     /// The states that were left by their failsafe.
     pub failsafes: Failsafes,
@@ -87,7 +87,7 @@ pub struct Hashes {
     pub engine: String,
 }
 
-/// Distance of the tip estimates from the reference contour (mm).
+/// Distance of the tip estimates from the nearest surface (mm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ErrorMm {
     /// Mean.

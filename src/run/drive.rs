@@ -4,12 +4,13 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::machine::{Failsafe, Status};
-use crate::scene::{Outcome, Stop};
+use crate::scene::{Outcome, Reached, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
 
 use super::control::Control;
 use super::loop_watch::LoopWatch;
+use super::stall_watch::StallWatch;
 use super::trace::{MarkRecord, TickRecord, Trace};
 
 /// What a run gave.
@@ -54,6 +55,7 @@ pub fn drive(
     };
     let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
     let mut watches = [LoopWatch::default(); MAX_WHISKERS];
+    let mut stall_watch = stop.stalled.map(StallWatch::new);
     let mut command = Command::STOP;
     let start = Instant::now();
     let (outcome, reason) = loop {
@@ -84,15 +86,29 @@ pub fn drive(
         {
             break (Outcome::Completed, None);
         }
+        if stop.reached.is_some_and(|aim| is_reached(&tick, &aim)) {
+            break (Outcome::Completed, None);
+        }
+        if let Some(reason) = stall_watch.as_mut().and_then(|watch| watch.stalls(&tick)) {
+            break (Outcome::Failed, Some(reason));
+        }
         if trace.ticks.len() >= most_ticks {
-            break match &stop.loop_closed {
-                None => (Outcome::Completed, None),
-                Some(_) => (Outcome::Timeout, Some(format!("the loop did not close within {} s", stop.time))),
+            break match stop {
+                Stop { loop_closed: None, reached: None, .. } => (Outcome::Completed, None),
+                Stop { loop_closed: None, .. } => {
+                    (Outcome::Timeout, Some(format!("the place was not reached within {} s", stop.time)))
+                }
+                Stop { .. } => (Outcome::Timeout, Some(format!("the loop did not close within {} s", stop.time))),
             };
         }
     };
     let final_state = control.machine().state_name().to_owned();
     Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times })
+}
+
+/// Whether the platform is where it is to get to.
+fn is_reached(tick: &TickRecord, aim: &Reached) -> bool {
+    tick.time >= aim.after && (tick.body.position - aim.place).norm() <= aim.within
 }
 
 /// What the tick with this index marked.

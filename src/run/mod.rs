@@ -3,6 +3,7 @@
 mod control;
 mod drive;
 mod loop_watch;
+mod stall_watch;
 mod trace;
 
 pub use control::{BindError, Control};

@@ -1,13 +1,13 @@
-//! Whether a rig stands clear of an object.
+//! Whether a rig stands clear of a solid.
 
 use super::gap::gap;
 use crate::geometry::{Contour, Point2, Pose, Segment, unit};
 use crate::rig::Rig;
 
-/// Parts nearer to the object than this (m) touch it.
+/// Parts nearer to a solid than this (m) touch it.
 const TOUCHING: f64 = 1e-5;
 
-/// A part of a rig that overlaps an object.
+/// A part of a rig that overlaps a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Overlap {
     /// The platform.
@@ -16,7 +16,7 @@ pub(super) enum Overlap {
     Whisker(usize),
 }
 
-/// The first part of the rig that overlaps or touches the object when the rig stands at `pose`, its whiskers straight.
+/// The first part of the rig that overlaps or touches the inside of `object` when the rig stands at `pose`, its whiskers straight.
 pub(super) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
     let outline = rig.platform.outline_body().map(|corner| pose.point_to_world(corner));
     let sides = (0..4).map(|side| (outline[side], outline[(side + 1) % 4]));

@@ -1,4 +1,4 @@
-//! The MuJoCo model of a rig before an object, as MJCF.
+//! The MuJoCo model of a rig before solids, as MJCF.
 //!
 //! The platform is one body on two slides and a hinge, driven by velocity servos. Every whisker is a chain of rigid links on
 //! planar hinges whose springs stand for the shaft's bending stiffness. The springs follow the trapezoid rule: `EI / l`
@@ -7,10 +7,12 @@
 
 use std::fmt::{self, Write};
 
-use crate::geometry::{Contour, Pose};
+use crate::geometry::Pose;
 use crate::rig::{Platform, Rig, Shaft, Whisker};
 
-use super::solid::{Solid, SolidError};
+use super::contacts::Contacts;
+use super::part::Part;
+use super::solid::Solid;
 
 /// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
 const HALF_HEIGHT: f64 = 0.01;
@@ -18,23 +20,22 @@ const HALF_HEIGHT: f64 = 0.01;
 /// The least moment of inertia (kg m²) that MuJoCo takes for a body.
 pub(super) const LEAST_INERTIA: f64 = 1e-15;
 
-/// Writes the MuJoCo model of `rig` at `start` before `object`, whose inside is solid.
+/// Writes the MuJoCo model of `rig` at `start` before `solids`.
 ///
 /// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
 /// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
-/// the shaft; the geom `object`; the keyframe `start`.
-///
-/// # Errors
-/// [`SolidError`] when the object has no exact solid in MuJoCo.
-pub fn mjcf(rig: &Rig, object: Option<&Contour>, start: Pose) -> Result<String, SolidError> {
-    let solid = object.map(Solid::from_contour).transpose()?;
+/// the shaft; the geom `object`, or where the solids have several convex parts the geoms `object/0`, `object/1`, …; the keyframe
+/// `start`.
+#[must_use]
+pub fn mjcf(rig: &Rig, solids: &[Solid], start: Pose) -> String {
+    let parts: Vec<&Part> = solids.iter().flat_map(Solid::parts).collect();
     let mut xml = String::new();
     // Writing to a string cannot fail.
-    let _ = write_model(&mut xml, rig, solid.as_ref(), start);
-    Ok(xml)
+    let _ = write_model(&mut xml, rig, &parts, start);
+    xml
 }
 
-fn write_model(xml: &mut String, rig: &Rig, solid: Option<&Solid>, start: Pose) -> fmt::Result {
+fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt::Result {
     let physics = &rig.physics;
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false"/>"#)?;
@@ -49,13 +50,17 @@ fn write_model(xml: &mut String, rig: &Rig, solid: Option<&Solid>, start: Pose) 
     // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
     writeln!(xml, r"  </option>")?;
-    write_assets(xml, &rig.platform, solid)?;
+    let contacts = Contacts::with(parts.len());
+    contacts.write_defaults(xml, physics)?;
+    write_assets(xml, &rig.platform, parts)?;
     writeln!(xml, r"  <worldbody>")?;
-    write_object(xml, solid)?;
-    write_platform(xml, rig)?;
+    for (index, part) in parts.iter().enumerate() {
+        write_part(xml, &part_name(index, parts), part, contacts)?;
+    }
+    write_platform(xml, rig, contacts)?;
     writeln!(xml, r"  </worldbody>")?;
-    if solid.is_some() {
-        write_contacts(xml, rig)?;
+    if !parts.is_empty() {
+        contacts.write_pairs(xml, rig)?;
     }
     write_actuators(xml, &rig.platform)?;
     if rig.sensing.forces {
@@ -69,11 +74,18 @@ fn write_model(xml: &mut String, rig: &Rig, solid: Option<&Solid>, start: Pose) 
     writeln!(xml, r"</mujoco>")
 }
 
-fn write_assets(xml: &mut String, platform: &Platform, solid: Option<&Solid>) -> fmt::Result {
+/// What a part is called; a name that no link of a whisker can have.
+fn part_name(index: usize, parts: &[&Part]) -> String {
+    if parts.len() == 1 { "object".to_owned() } else { format!("object/{index}") }
+}
+
+fn write_assets(xml: &mut String, platform: &Platform, parts: &[&Part]) -> fmt::Result {
     writeln!(xml, r"  <asset>")?;
     write_prism(xml, "platform", platform.outline_body().iter().map(|corner| (corner.x, corner.y)))?;
-    if let Some(Solid::Prism { outline }) = solid {
-        write_prism(xml, "object", outline.iter().map(|corner| (corner.x, corner.y)))?;
+    for (index, part) in parts.iter().enumerate() {
+        if let Part::Prism { outline } = part {
+            write_prism(xml, &part_name(index, parts), outline.iter().map(|corner| (corner.x, corner.y)))?;
+        }
     }
     writeln!(xml, r"  </asset>")
 }
@@ -86,35 +98,34 @@ fn write_prism(xml: &mut String, name: &str, outline: impl Iterator<Item = (f64,
     writeln!(xml, r#""/>"#)
 }
 
-fn write_object(xml: &mut String, solid: Option<&Solid>) -> fmt::Result {
-    match solid {
-        None => Ok(()),
-        Some(Solid::Cylinder { centre, radius }) => writeln!(
+fn write_part(xml: &mut String, name: &str, part: &Part, contacts: Contacts) -> fmt::Result {
+    let mask = contacts.of_part();
+    match part {
+        Part::Cylinder { centre, radius } => writeln!(
             xml,
-            r#"    <geom name="object" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" contype="0" conaffinity="0"/>"#,
+            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" {mask}/>"#,
             centre.x, centre.y
         ),
-        Some(Solid::Prism { .. }) => {
-            writeln!(xml, r#"    <geom name="object" type="mesh" mesh="object" contype="0" conaffinity="0"/>"#)
-        }
+        Part::Prism { .. } => writeln!(xml, r#"    <geom name="{name}" type="mesh" mesh="{name}" {mask}/>"#),
     }
 }
 
-fn write_platform(xml: &mut String, rig: &Rig) -> fmt::Result {
+fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts) -> fmt::Result {
     let Platform { mass, inertia, .. } = rig.platform;
     writeln!(xml, r#"    <body name="platform/body">"#)?;
     writeln!(xml, r#"      <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#)?;
     writeln!(xml, r#"      <joint name="platform/x" type="slide" axis="1 0 0"/>"#)?;
     writeln!(xml, r#"      <joint name="platform/y" type="slide" axis="0 1 0"/>"#)?;
     writeln!(xml, r#"      <joint name="platform/yaw" type="hinge" axis="0 0 1"/>"#)?;
-    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" contype="0" conaffinity="0"/>"#)?;
+    let mask = contacts.of_rig();
+    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" {mask}/>"#)?;
     for whisker in &rig.whiskers {
-        write_whisker(xml, whisker)?;
+        write_whisker(xml, whisker, mask)?;
     }
     writeln!(xml, r"    </body>")
 }
 
-fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
+fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result {
     let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
     let length = shaft.link_length();
     let mass = shaft.link_mass();
@@ -147,7 +158,7 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
         )?;
         writeln!(
             xml,
-            r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" contype="0" conaffinity="0"/>"#,
+            r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" {mask}/>"#,
             shaft.radius
         )?;
     }
@@ -160,27 +171,6 @@ fn write_whisker(xml: &mut String, whisker: &Whisker) -> fmt::Result {
 /// axis would be below [`LEAST_INERTIA`].
 pub(super) fn link_inertia(shaft: &Shaft) -> f64 {
     shaft.link_mass() * shaft.link_length().powi(2) / 12.0
-}
-
-/// What can touch what, pair by pair: the object, and every link of a whisker or the platform. Geoms that collide by
-/// default would make the engine look at every two bodies in every step, and take the larger friction of the two.
-fn write_contacts(xml: &mut String, rig: &Rig) -> fmt::Result {
-    let physics = &rig.physics;
-    let [surface, full, depth] = physics.contact_impedance;
-    let condim = if physics.friction > 0.0 { 3 } else { 1 };
-    let links = rig
-        .whiskers
-        .iter()
-        .flat_map(|whisker| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
-    writeln!(xml, r"  <contact>")?;
-    for geom in links.chain(["platform/body".to_owned()]) {
-        writeln!(
-            xml,
-            r#"    <pair geom1="object" geom2="{geom}" condim="{condim}" friction="{1} {1}" solref="{0} 1" solimp="{surface} {full} {depth}"/>"#,
-            physics.contact_time, physics.friction
-        )?;
-    }
-    writeln!(xml, r"  </contact>")
 }
 
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
@@ -224,7 +214,7 @@ mod tests {
             name.clone_into(&mut whisker.name);
         }
         rig.sensing.forces = true;
-        let xml = mjcf(&rig, None, Pose::default()).unwrap();
+        let xml = mjcf(&rig, &[], Pose::default());
         for element in ["<body", "<joint", "<geom", "<site", "<force", "<velocity"] {
             let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
             let mut names = values(&tags, "name");
@@ -243,7 +233,7 @@ mod tests {
         for (radius, links) in [(0.06e-3, 16), (0.075e-3, 64), (0.02e-3, 64)] {
             let mut rig = Rig::default();
             (rig.whiskers[0].shaft.radius, rig.whiskers[0].shaft.links) = (radius, links);
-            let xml = mjcf(&rig, None, Pose::default()).unwrap();
+            let xml = mjcf(&rig, &[], Pose::default());
             for inertias in values(&xml, "diaginertia") {
                 let moments: Vec<f64> = inertias.split(' ').map(|moment| moment.parse().unwrap()).collect();
                 let [x, y, z] = moments[..] else { panic!("three moments, found {inertias}") };

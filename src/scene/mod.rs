@@ -1,20 +1,27 @@
-//! Scenarios: a rig, an object, a start, when to stop, what must hold; and the MuJoCo model that they become.
+//! Scenarios: a rig, objects, a start, when to stop, what must hold; and the MuJoCo model that they become.
 //!
 //! A scenario is written in YAML, with a unit on every quantity, and becomes a [`Scene`]: exact geometry and SI numbers,
 //! checked as a whole. What is wrong with the text is told in [diagnostics](crate::diagnostic), all at once where that is
 //! possible.
 
 mod clearance;
+mod contacts;
+mod decompose;
 mod expectation;
 mod gap;
 mod mjcf;
+mod part;
 mod scenario;
 mod solid;
 mod stop;
+mod truth;
+mod wall;
 mod yaml;
 
 pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use mjcf::mjcf;
+pub use part::Part;
 pub use scenario::Scene;
-pub use solid::SolidError;
-pub use stop::{LoopClosed, Stop};
+pub use solid::{Solid, SolidError};
+pub use stop::{LoopClosed, Reached, Stalled, Stop};
+pub use truth::Truth;

@@ -1,9 +1,9 @@
 //! A scenario as a whole.
 
 use super::clearance::overlap;
-use super::{Expectation, Stop, yaml};
+use super::{Expectation, Solid, Stop, Truth, yaml};
 use crate::diagnostic::{Diagnostic, Source};
-use crate::geometry::{Contour, Pose};
+use crate::geometry::Pose;
 use crate::rig::Rig;
 use std::path::PathBuf;
 
@@ -16,8 +16,10 @@ pub struct Scene {
     pub description: String,
     /// The platform, its whiskers, and how they are simulated.
     pub rig: Rig,
-    /// The outline of the object, in world coordinates. The exact reference that estimates are measured against.
-    pub object: Contour,
+    /// What is there to be touched; at least one solid, none overlapping another.
+    pub solids: Vec<Solid>,
+    /// The exact geometry that estimates are measured against.
+    pub truth: Truth,
     /// Where the platform starts, at rest: its centre of mass and its heading, in the world.
     pub start: Pose,
     /// When a run ends.
@@ -42,21 +44,21 @@ impl Scene {
     /// use vibrissa::scene::Scene;
     /// let text = "
     /// name: disk
-    /// object: {circle: {centre: [40 cm, 40 cm], radius: 30 cm}}
+    /// objects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]
     /// start: {position: [0 mm, 72 mm], heading: 90 deg}
     /// stop: {time: 120 s}
     /// ";
     /// let scene = Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap();
-    /// assert!((scene.object.length() - 0.6 * std::f64::consts::PI).abs() < 1e-12);
+    /// assert!((scene.truth.reference.length() - 0.6 * std::f64::consts::PI).abs() < 1e-12);
     /// ```
     pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
         yaml::read(source)
     }
 
-    /// Whether the rig, its whiskers straight, would stand clear of the object if it started at `start`.
+    /// Whether the rig, its whiskers straight, would stand clear of all solids if it started at `start`.
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {
-        overlap(&self.rig, start, &self.object).is_none()
+        self.solids.iter().all(|solid| overlap(&self.rig, start, solid.outline()).is_none())
     }
 }
 
@@ -67,7 +69,7 @@ mod tests {
     use crate::diagnostic::{Colour, terminal};
     use crate::geometry::Point2;
     use crate::rig::{Hinge, Physics, Platform, Sensing, Shaft, Whisker, YawController};
-    use crate::scene::{LoopClosed, Metric, Outcome};
+    use crate::scene::{LoopClosed, Metric, Outcome, Stalled};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn read(text: &str) -> Scene {
@@ -75,13 +77,13 @@ mod tests {
         Scene::from_yaml(&source).map_err(|faults| terminal(&source, &faults, Colour::Plain)).unwrap()
     }
 
-    fn with_object(object: &str) -> Contour {
+    fn with_object(object: &str) -> Solid {
         let start = "start: {position: [-1 m, 0 m], heading: 180 deg}";
-        read(&format!("name: x\n{start}\nstop: {{time: 1 s}}\nobject: {object}\n")).object
+        read(&format!("name: x\n{start}\nstop: {{time: 1 s}}\nobjects: [{object}]\n")).solids.remove(0)
     }
 
     fn with_rig(rig: &str) -> Rig {
-        let object = "object: {circle: {centre: [4 m, 4 m], radius: 3 cm}}";
+        let object = "objects: [{circle: {centre: [4 m, 4 m], radius: 3 cm}}]";
         let start = "start: {position: [0 m, 0 m], heading: 0 deg}";
         read(&format!("name: x\n{start}\nstop: {{time: 1 s}}\n{object}\nrig: {rig}\n")).rig
     }
@@ -91,10 +93,14 @@ mod tests {
         let scene = read(include_str!("../../scenarios/disk.yaml"));
         assert_eq!(scene.name, "disk");
         assert_eq!(scene.rig, Rig::default());
-        assert!((scene.object.length() - 0.6 * PI).abs() < 1e-12);
-        assert!(scene.object.signed_distance(Point2::new(0.1, 0.4)).abs() < 1e-15);
+        assert_eq!(scene.solids.len(), 1);
+        let outline = scene.solids[0].outline();
+        assert!((outline.length() - 0.6 * PI).abs() < 1e-12);
+        assert!(outline.signed_distance(Point2::new(0.1, 0.4)).abs() < 1e-15);
         assert_eq!(scene.start, Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 });
-        assert_eq!(scene.stop, Stop { time: 120.0, loop_closed: Some(LoopClosed { within: 0.005, after: 5.0 }) });
+        let loop_closed = Some(LoopClosed { within: 0.005, after: 5.0 });
+        let stop = Stop { time: 120.0, loop_closed, reached: None, stalled: Some(Stalled::default()) };
+        assert_eq!(scene.stop, stop);
         assert_eq!(
             scene.expect,
             [
@@ -110,7 +116,7 @@ mod tests {
     #[test]
     fn every_kind_of_object_is_the_contour_of_its_name() {
         let centre = "centre: [40 cm, 40 cm]";
-        let area = |object: &str| with_object(object).area();
+        let area = |object: &str| with_object(object).outline().area();
         let square = "[[0 cm, 0 cm], [20 cm, 0 cm], [20 cm, 20 cm], [0 cm, 20 cm]]";
         assert!((area(&format!("{{circle: {{{centre}, radius: 10 cm}}}}")) - 0.01 * PI).abs() < 1e-12);
         assert!((area(&format!("{{polygon: {{vertices: {square}}}}}")) - 0.04).abs() < 1e-12);

@@ -1,45 +1,26 @@
-//! The solids that a contour becomes in MuJoCo.
+//! The solids of a scene.
 
-use std::f64::consts::TAU;
+use crate::geometry::{Contour, Side, Strip, StripError};
 
-use crate::geometry::{Contour, Piece, Point2};
+use super::part::Part;
+use super::{decompose, wall};
 
-/// The furthest (m) that a prism's chord lies from the arc that it stands for, unless that took more than
-/// [`CHORDS_PER_TURN`].
-const SAGITTA: f64 = 1e-6;
-/// The most chords that stand for a full turn. It counts for radii above 0.2 m, where the furthest that a chord lies from its
-/// arc is then 4.7 millionths of the radius: 1.4 µm at 0.3 m, 0.24 mm at 50 m.
-const CHORDS_PER_TURN: f64 = 1024.0;
-/// The most corners of a prism: the time in which MuJoCo builds one grows with their square, to a second or two here.
-const MOST_CORNERS: usize = 2048;
+/// The most parts of a solid: MuJoCo takes some 70 µs to build each.
+const MOST_PARTS: usize = 4096;
 
-/// A solid that MuJoCo can hold: a circle and a polygon exactly, any other contour by chords for its arcs, which lie within
-/// [`SAGITTA`] of them up to a radius of 0.2 m, and within 4.7 millionths of the radius beyond.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Solid {
-    /// An upright cylinder.
-    Cylinder {
-        /// Its axis (m, world frame).
-        centre: Point2,
-        /// Its radius (m).
-        radius: f64,
-    },
-    /// An upright convex prism.
-    Prism {
-        /// Its corners, counter-clockwise (m, world frame).
-        outline: Vec<Point2>,
-    },
+/// Something solid: its exact outline, and what stands for it in MuJoCo.
+#[derive(Debug, Clone)]
+pub struct Solid {
+    outline: Contour,
+    parts: Vec<Part>,
 }
 
 /// Why a contour has no solid.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// The contour has ends, so that it has no inside.
     #[error("an open contour has no inside that could be solid; close it")]
     Open,
-    /// The contour is concave somewhere.
-    #[error("a concave contour cannot be simulated as one solid yet; use a convex outline")]
-    Concave,
     /// The contour has too many pieces.
     #[error("a contour of {count} corners, arcs as chords, is too large to be simulated; use at most {limit}")]
     Corners {
@@ -48,81 +29,65 @@ pub enum SolidError {
         /// The most that there may be.
         limit: usize,
     },
+    /// Chords that stand for arcs meet each other, where the arcs come nearer to each other than that.
+    #[error("the contour comes within micrometres of itself; move its sides apart")]
+    Chords,
+    /// A wall has too many parts.
+    #[error("a wall of {count} parts is too large to be simulated; use at most {limit}: make it shorter")]
+    Parts {
+        /// How many parts it would have.
+        count: usize,
+        /// The most that there may be.
+        limit: usize,
+    },
+    /// A wall has no outline.
+    #[error(transparent)]
+    Strip(#[from] StripError),
 }
 
 impl Solid {
-    /// The solid inside of `contour`.
+    /// The solid inside of `outline` (world frame).
+    ///
+    /// A convex one is one part: a circle and a polygon exactly, any other with chords for its arcs, which lie within 1 µm of
+    /// them up to a radius of 0.2 m, and within 4.7 millionths of the radius beyond. A concave one is several parts that share
+    /// edges, with chords within 5 µm up to a radius of 1 m.
     ///
     /// # Errors
-    /// [`SolidError`] when the contour is open, concave, or of too many pieces.
-    pub(super) fn from_contour(contour: &Contour) -> Result<Self, SolidError> {
-        if !contour.is_closed() {
+    /// [`SolidError`] when the contour is open, of too many pieces, or comes too near to itself.
+    pub fn inside(outline: Contour) -> Result<Self, SolidError> {
+        if !outline.is_closed() {
             return Err(SolidError::Open);
         }
-        if let [Piece::Arc(arc)] = contour.pieces() {
-            return Ok(Self::Cylinder { centre: arc.centre, radius: arc.radius });
-        }
-        if !contour.is_convex() {
-            return Err(SolidError::Concave);
-        }
-        let outline: Vec<Point2> = contour.pieces().iter().flat_map(chords).collect();
-        if outline.len() > MOST_CORNERS {
-            return Err(SolidError::Corners { count: outline.len(), limit: MOST_CORNERS });
-        }
-        Ok(Self::Prism { outline })
-    }
-}
-
-/// The starts of the chords that stand for a piece.
-fn chords(piece: &Piece) -> impl Iterator<Item = Point2> {
-    let count = match piece {
-        Piece::Segment(_) => 1,
-        Piece::Arc(arc) => {
-            let widest = (2.0 * (1.0 - SAGITTA / arc.radius).clamp(-1.0, 1.0).acos()).max(TAU / CHORDS_PER_TURN);
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-            let count = (arc.sweep.abs() / widest).ceil().max(1.0) as usize;
-            count
-        }
-    };
-    let length = piece.length();
-    (0..count).map(move |chord| piece.point_at(length * chord as f64 / count as f64))
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test may panic")]
-    use super::*;
-    use crate::geometry::{Segment, regular_polygon, rounded_rectangle};
-    use proptest::prelude::*;
-
-    fn prism(contour: &Contour) -> Vec<Point2> {
-        match Solid::from_contour(contour) {
-            Ok(Solid::Prism { outline }) => outline,
-            other => panic!("expected a prism, found {other:?}"),
-        }
+        let parts = if outline.is_convex() { vec![Part::inside(&outline)?] } else { decompose::parts(&outline)? };
+        Ok(Self { outline, parts })
     }
 
-    proptest! {
-        #[test]
-        fn chords_are_as_near_to_their_arcs_as_promised_and_bounded_in_number(exponent in -3.0..1.7_f64) {
-            let radius = 10_f64.powf(exponent);
-            let side = 2.0 * radius;
-            let contour = rounded_rectangle(Point2::origin(), side, 1.5 * side, radius, 0.0).unwrap();
-            let outline = prism(&contour);
-            prop_assert!(outline.len() < 1100);
-            let furthest = (0..outline.len()).map(|corner| {
-                let chord = Segment { start: outline[corner], end: outline[(corner + 1) % outline.len()] };
-                -contour.signed_distance(chord.point_at(0.5 * chord.length()))
-            });
-            prop_assert!(furthest.fold(0.0, f64::max) < 1.01 * SAGITTA.max(4.7e-6 * radius));
+    /// A wall (world frame), whose `face` is the side that is to be touched: chords for its bends lie within 10 µm of it, and
+    /// within 50 µm of the other side.
+    ///
+    /// A wall along a closed line has its face for its outline: what it encloses cannot be reached, and counts as solid.
+    ///
+    /// # Errors
+    /// [`SolidError`] when the wall meets itself, or is too long.
+    pub fn wall(wall: &Strip, face: Side) -> Result<Self, SolidError> {
+        let side = wall.side(face);
+        let outline = if side.is_closed() { side.clone() } else { wall.outline()? };
+        let parts = wall::parts(wall, face);
+        if parts.len() > MOST_PARTS {
+            return Err(SolidError::Parts { count: parts.len(), limit: MOST_PARTS });
         }
+        Ok(Self { outline, parts })
     }
 
-    #[test]
-    fn a_polygon_of_too_many_corners_is_refused_with_the_limit() {
-        let polygon = |sides| regular_polygon(Point2::origin(), 0.3, sides, 0.0).unwrap();
-        assert_eq!(prism(&polygon(MOST_CORNERS)).len(), MOST_CORNERS);
-        let error = Solid::from_contour(&polygon(MOST_CORNERS + 1)).unwrap_err();
-        assert_eq!(error, SolidError::Corners { count: MOST_CORNERS + 1, limit: MOST_CORNERS });
+    /// The exact outline (world frame).
+    #[must_use]
+    pub fn outline(&self) -> &Contour {
+        &self.outline
+    }
+
+    /// What stands for it in MuJoCo: convex parts that share edges. Those of a wall overlap a little.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
     }
 }

@@ -1,6 +1,6 @@
 //! How well a run kept to the middle of a tunnel.
 
-use crate::geometry::{Contour, Point2, Vector2};
+use crate::geometry::{ContourSet, Point2, Vector2};
 use crate::run::{TickRecord, Trace};
 
 use super::tip::is_finite;
@@ -13,10 +13,10 @@ use super::{Spread, Statistics};
 /// transition at the start is part of the thesis's figure. Midpoints before the beginning and beyond the end of the axis
 /// do not count.
 ///
-/// `None` if there is no midpoint that counts, or no axis.
+/// `None` if there is no midpoint that counts.
 #[must_use]
-pub fn axis_error(trace: &Trace, axes: &[&Contour]) -> Option<Spread> {
-    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(|midpoint| distance(midpoint, axes));
+pub fn axis_error(trace: &Trace, axis: &ContourSet) -> Option<Spread> {
+    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(|midpoint| distance(midpoint, axis));
     Statistics::of(errors.collect()).map(|errors| Spread { mean: errors.mean(), std: errors.std() })
 }
 
@@ -37,8 +37,8 @@ fn midpoint(tick: &TickRecord) -> Option<Point2> {
 }
 
 /// The distance (m) of a midpoint from the nearest axis; `None` if it is beyond the end of it.
-fn distance(midpoint: Point2, axes: &[&Contour]) -> Option<f64> {
-    let nearest = axes.iter().map(|axis| (axis, axis.nearest(midpoint)));
+fn distance(midpoint: Point2, axis: &ContourSet) -> Option<f64> {
+    let nearest = axis.contours().map(|axis| (axis, axis.nearest(midpoint)));
     let (axis, nearest) = nearest.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance))?;
     let is_inside = nearest.arc_length > 0.0 && nearest.arc_length < axis.length();
     (axis.is_closed() || is_inside).then_some(nearest.distance)

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::geometry::{Contour, Corner, Point2, Vector2, perpendicular, rotate, turn_between};
+use crate::geometry::{Contour, ContourSet, Corner, Point2, Vector2, perpendicular, rotate, turn_between};
 use crate::run::Trace;
 
 use super::tip::{valid_tips, whiskers};
@@ -60,13 +60,14 @@ impl TracedCorner {
 /// The sharp corners of `outlines` that a run traced on both sides, in the order of the outlines; with the number of all of
 /// them. The tips of all whiskers count, and every time the run passed.
 #[must_use]
-pub fn traced_corners(trace: &Trace, outlines: &[&Contour]) -> (Vec<TracedCorner>, usize) {
+pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner>, usize) {
+    let outlines: Vec<&Contour> = outlines.contours().collect();
     let sharp: Vec<Vec<Corner>> = outlines.iter().map(|outline| sharp(outline)).collect();
     let count = sharp.iter().map(Vec::len).sum();
     if count == 0 {
         return (Vec::new(), 0);
     }
-    let felt = felt(trace, outlines);
+    let felt = felt(trace, &outlines);
     let all =
         sharp.iter().enumerate().flat_map(|(outline, corners)| corners.iter().map(move |corner| (outline, *corner)));
     let all: Vec<(usize, Corner)> = all.collect();
@@ -227,7 +228,7 @@ pub struct CornerSpread {
 impl CornerFigures {
     /// The figures of a run; `None` if the outlines have no sharp corner.
     #[must_use]
-    pub fn new(trace: &Trace, outlines: &[&Contour]) -> Option<Self> {
+    pub fn new(trace: &Trace, outlines: &ContourSet) -> Option<Self> {
         let (traced, count) = traced_corners(trace, outlines);
         let figure = |of: fn(&TracedCorner) -> Option<f64>| {
             let statistics = Statistics::of(traced.iter().filter_map(of).collect())?;

@@ -1,10 +1,10 @@
-//! How much of the object was traced.
+//! How much of what there is was traced.
 
 use super::Estimate;
 use std::ops::Range;
 
 use super::lipschitz::stretches_below;
-use crate::geometry::Contour;
+use crate::geometry::{Contour, ContourSet};
 
 /// How near (m) the estimated contour must be for a point of the reference to count as traced.
 pub const COVERAGE_TOLERANCE: f64 = 1e-3;
@@ -12,7 +12,7 @@ pub const COVERAGE_TOLERANCE: f64 = 1e-3;
 /// Where a traced stretch of the reference ends is known to half of this (m).
 pub const COVERAGE_RESOLUTION: f64 = 2e-5;
 
-/// The stretches of the reference contour (arc lengths in m, ascending) that lie within [`COVERAGE_TOLERANCE`] of the
+/// The stretches of a reference contour (arc lengths in m, ascending) that lie within [`COVERAGE_TOLERANCE`] of the
 /// estimate; none if there is no estimate. One that goes over the start of a closed contour comes in two parts.
 #[must_use]
 pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
@@ -21,13 +21,14 @@ pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
     })
 }
 
-/// The share of the reference contour's length (0 to 1) that is [traced].
+/// The share of the reference's length (0 to 1) that is [traced].
 ///
-/// It counts the whole contour: a rig can go all the way round a single solid. The share is exact up to half of
-/// [`COVERAGE_RESOLUTION`] over the contour's length, for every end of a traced stretch.
+/// It counts all of it, whether or not a rig can get there. The share is exact up to half of [`COVERAGE_RESOLUTION`] over the
+/// length, for every end of a traced stretch.
 #[must_use]
-pub fn coverage(estimate: &Estimate, reference: &Contour) -> f64 {
+pub fn coverage(estimate: &Estimate, reference: &ContourSet) -> f64 {
+    let stretches = reference.contours().flat_map(|contour| traced(estimate, contour));
     // Not `sum`, whose nothing is negative zero.
-    let length = traced(estimate, reference).iter().fold(0.0, |sum, stretch| sum + stretch.end - stretch.start);
+    let length = stretches.fold(0.0, |sum, stretch| sum + stretch.end - stretch.start);
     (length / reference.length()).min(1.0)
 }

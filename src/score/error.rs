@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::{Statistics, Tip};
 
-/// How far a run's tip estimates are from the reference contour, whiskers pooled; lengths in metres.
+/// How far a run's tip estimates are from the nearest surface, whiskers pooled; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorFigures {
     /// Mean: the thesis's mean absolute error.

@@ -1,4 +1,4 @@
-//! How well a run traced its object: figures from what happened and the exact outline.
+//! How well a run traced what is there: figures from what happened and the exact geometry.
 //!
 //! Lengths are metres, times seconds. Only tips whose coordinates are finite numbers count; the others are treated as not
 //! recorded.

@@ -1,34 +1,33 @@
 //! All figures of a run.
 
 use super::{
-    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, StateShare, body_path,
-    coverage, hausdorff, state_shares, tips,
+    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, StateShare, axis_error,
+    body_path, coverage, hausdorff, state_shares, tips,
 };
-use crate::geometry::Contour;
 use crate::run::Run;
-use crate::scene::Metric;
+use crate::scene::{Metric, Truth};
 
 /// All figures of a run; lengths in metres, times in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Score {
-    /// How far the tip estimates are from the reference contour; `None` if no tip was recorded.
+    /// How far the tip estimates are from what is there; `None` if no tip was recorded.
     pub error: Option<ErrorFigures>,
-    /// The [share of the reference contour](coverage) that was traced, 0 to 1.
+    /// The [share of the reference](coverage) that was traced, 0 to 1.
     pub coverage: f64,
-    /// The symmetric [Hausdorff distance](hausdorff) between the estimated and the reference contour; `None` if no tip
+    /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference; `None` if no tip
     /// was recorded.
     pub hausdorff: Option<f64>,
     /// Retrievals; `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
-    /// [Distance of the estimated midpoints from the tunnel's axis](super::axis_error); `None` without a tunnel.
+    /// [Distance of the estimated midpoints from the tunnel's axis](axis_error); `None` without a tunnel.
     pub axis: Option<Spread>,
-    /// Corners; `None` if the reference contour has no sharp one.
+    /// Corners; `None` if the reference has no sharp one.
     pub corners: Option<CornerFigures>,
     /// What the time went into.
     pub states: Vec<StateShare>,
     /// Length of the path of the platform's centre of mass (m).
     pub path: f64,
-    /// That length over the reference contour's.
+    /// That length over the reference's.
     pub path_ratio: f64,
     /// What the platform's body ran into.
     pub collisions: Collisions,
@@ -37,22 +36,21 @@ pub struct Score {
 }
 
 impl Score {
-    /// The figures of `run` against the exact outline of its object, `reference`.
+    /// The figures of `run` against what is true of its scene.
     #[must_use]
-    pub fn new(run: &Run, reference: &Contour) -> Self {
+    pub fn new(run: &Run, truth: &Truth) -> Self {
         let estimate = Estimate::new(&run.trace);
         let path = body_path(&run.trace.ticks);
         Self {
-            error: ErrorFigures::of(&tips(&run.trace, reference)),
-            coverage: coverage(&estimate, reference),
-            hausdorff: hausdorff(&estimate, reference),
+            error: ErrorFigures::of(&tips(&run.trace, &truth.surfaces)),
+            coverage: coverage(&estimate, &truth.reference),
+            hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
-            // A scene has no tunnel yet.
-            axis: None,
-            corners: CornerFigures::new(&run.trace, &[reference]),
+            axis: truth.axis.as_ref().and_then(|axis| axis_error(&run.trace, axis)),
+            corners: CornerFigures::new(&run.trace, &truth.reference),
             states: state_shares(&run.trace),
             path,
-            path_ratio: path / reference.length(),
+            path_ratio: path / truth.reference.length(),
             collisions: Collisions::of(&run.trace),
             latency: Latency::of(&run.tick_times),
         }

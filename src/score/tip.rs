@@ -1,6 +1,6 @@
-//! Recorded tips, and how far they are from the object.
+//! Recorded tips, and how far they are from what is there.
 
-use crate::geometry::{Contour, Point2};
+use crate::geometry::{ContourSet, Point2};
 use crate::run::Trace;
 use crate::signal::MAX_WHISKERS;
 
@@ -13,21 +13,16 @@ pub struct Tip {
     pub whisker: usize,
     /// Where it is estimated to be (m, world frame).
     pub tip_world: Point2,
-    /// Its distance from the reference contour (m), never negative: the thesis's absolute error (section 5.1).
+    /// Its distance from the nearest surface (m), never negative: the thesis's absolute error (section 5.1).
     pub error: f64,
 }
 
-/// Every valid tip estimate of a run, whisker by whisker and in the order of time, against the contour `reference`.
+/// Every valid tip estimate of a run, whisker by whisker and in the order of time, against the exact `surfaces`.
 #[must_use]
-pub fn tips(trace: &Trace, reference: &Contour) -> Vec<Tip> {
+pub fn tips(trace: &Trace, surfaces: &ContourSet) -> Vec<Tip> {
     whiskers(trace)
         .flat_map(|whisker| valid_tips(trace, whisker).map(move |(tick, tip_world)| (tick, whisker, tip_world)))
-        .map(|(tick, whisker, tip_world)| Tip {
-            tick,
-            whisker,
-            tip_world,
-            error: reference.nearest(tip_world).distance,
-        })
+        .map(|(tick, whisker, tip_world)| Tip { tick, whisker, tip_world, error: surfaces.nearest(tip_world).distance })
         .collect()
 }
 

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
 use crate::run::{BindError, Control, Run, Trace, drive};
-use crate::scene::{Scene, SolidError, mjcf};
+use crate::scene::{Scene, mjcf};
 
 /// The worlds that a run can take place in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub fn execute(
 fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
     match kind {
         WorldKind::Mujoco => {
-            let world = crate::world::MujocoWorld::new(&scene.rig, Some(&scene.object), scene.start, seed)?;
+            let world = crate::world::MujocoWorld::new(&scene.rig, &scene.solids, scene.start, seed)?;
             Ok(Box::new(world))
         }
     }
@@ -79,10 +79,8 @@ fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::Wor
 
 /// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the
 /// model that it is given.
-///
-/// # Errors
-/// [`SolidError`] when the scene has no model.
-pub fn engine_hash(scene: &Scene) -> Result<[u8; 32], SolidError> {
+#[must_use]
+pub fn engine_hash(scene: &Scene) -> [u8; 32] {
     #[cfg(feature = "sim")]
     let engine = crate::world::engine_version();
     #[cfg(not(feature = "sim"))]
@@ -92,6 +90,6 @@ pub fn engine_hash(scene: &Scene) -> Result<[u8; 32], SolidError> {
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
-    hash.update(mjcf(&scene.rig, Some(&scene.object), scene.start)?);
-    Ok(hash.finalize().into())
+    hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
+    hash.finalize().into()
 }

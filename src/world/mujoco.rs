@@ -10,9 +10,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 
-use crate::geometry::{Contour, Point2, Pose};
+use crate::geometry::{Point2, Pose};
 use crate::rig::Rig;
-use crate::scene::{SolidError, mjcf};
+use crate::scene::{Solid, mjcf};
 use crate::signal::{Command, Sample};
 
 use super::{Fault, World};
@@ -31,17 +31,14 @@ const WARNINGS: [&str; 7] = [
 /// Why a MuJoCo world could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum MujocoError {
-    /// The object has no solid.
-    #[error(transparent)]
-    Solid(#[from] SolidError),
     /// MuJoCo refused the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
     Model(String),
 }
 
-/// A rig before an object, simulated by MuJoCo.
+/// A rig before solids, simulated by MuJoCo.
 ///
-/// The same rig, object, start, seed and commands give the same samples, bit for bit.
+/// The same rig, solids, start, seed and commands give the same samples, bit for bit.
 pub struct MujocoWorld {
     data: MjData<Arc<MjModel>>,
     rig: Rig,
@@ -56,14 +53,14 @@ pub struct MujocoWorld {
 }
 
 impl MujocoWorld {
-    /// Builds the world with the platform at rest at `start` before `object`; `seed` fixes the sensors' noise.
+    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise.
     ///
     /// # Errors
-    /// [`MujocoError`] when the object has no solid or MuJoCo refuses the model.
-    pub fn new(rig: &Rig, object: Option<&Contour>, start: Pose, seed: u64) -> Result<Self, MujocoError> {
+    /// [`MujocoError`] when MuJoCo refuses the model.
+    pub fn new(rig: &Rig, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
         route_engine_messages();
         let refused = |error: &dyn std::fmt::Display| MujocoError::Model(error.to_string());
-        let xml = mjcf(rig, object, start)?;
+        let xml = mjcf(rig, solids, start);
         let model = MjModel::from_xml_string(&xml).map_err(|error| refused(&error))?;
         let platform_geom = model
             .name_to_id(MjtObjBase::mjOBJ_GEOM, "platform/body")

@@ -8,4 +8,5 @@ mod motion;
 mod offset;
 mod oracle;
 mod random;
+mod set;
 mod simple;

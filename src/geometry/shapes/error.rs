@@ -1,6 +1,6 @@
 //! Why a shape cannot be made.
 
-use crate::geometry::{ContourError, SHORTEST_PIECE};
+use crate::geometry::{ContourError, SHORTEST_PIECE, StripError};
 
 /// Why a shape cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -62,6 +62,17 @@ pub enum ShapeError {
         /// Its length (m).
         length: f64,
     },
+    /// A tunnel bends too tightly for its width.
+    #[error("the tunnel bends too tightly for its width: make it narrower, or its bends wider")]
+    TooTight,
+    /// The opening of a round tunnel leaves no wall for its funnel.
+    #[error(
+        "the opening and its funnel do not fit into the wall: `from` must be below `to`, and the funnels need room beside it"
+    )]
+    Opening,
+    /// A wall does not stand its thickness.
+    #[error(transparent)]
+    Strip(#[from] StripError),
     /// The pieces do not make a contour.
     #[error(transparent)]
     Contour(#[from] ContourError),

@@ -6,6 +6,7 @@ mod path;
 mod polygon;
 mod regular_polygon;
 mod rounded_rectangle;
+mod tunnel;
 
 pub use circle::circle;
 pub use error::ShapeError;
@@ -13,3 +14,4 @@ pub use path::Path;
 pub use polygon::polygon;
 pub use regular_polygon::regular_polygon;
 pub use rounded_rectangle::rounded_rectangle;
+pub use tunnel::{CentreLine, Opening, Tunnel};

@@ -1,4 +1,4 @@
-//! The scene from above: object, estimate, platform.
+//! The scene from above: objects, estimate, platform.
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
+use super::Untraced;
 use super::scale::Scale;
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
 use crate::machine::Mark;
@@ -20,7 +21,7 @@ use crate::score::{ErrorFigures, Tip, mark_places};
 /// Diameter of an estimate's dot (px).
 pub(super) const DOT: f64 = 5.0;
 
-/// Width of the object's outline (px).
+/// Width of an outline (px).
 pub(super) const OUTLINE: f64 = 0.7;
 
 /// Width of a stretch that was not traced (px).
@@ -43,7 +44,7 @@ pub(super) struct Map {
 }
 
 impl Map {
-    /// A panel of `width` (px) with its upper left corner at (`left`, `top`), on which the object and the platform's way have
+    /// A panel of `width` (px) with its upper left corner at (`left`, `top`), on which the objects and the platform's way have
     /// room; its height is between `least` and `most`.
     pub(super) fn new(
         scene: &Scene,
@@ -53,8 +54,8 @@ impl Map {
         (least, most): (f64, f64),
     ) -> Self {
         let shown = poses(trace).into_iter().flat_map(|pose| footprint(&scene.rig, &pose)).chain(way(trace));
-        let shown =
-            shown.fold(scene.object.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
+        let shown = shown
+            .fold(scene.truth.surfaces.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
         let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
         let scale = 0.94 * (width / extent.x).min(most / extent.y);
         let height = (scale * extent.y / 0.94).clamp(least, most);
@@ -72,7 +73,7 @@ impl Map {
         &self,
         scene: &Scene,
         trace: &Trace,
-        untraced: &[Range<f64>],
+        untraced: &[Untraced<'_>],
         tips: &[Tip],
         error: Option<&ErrorFigures>,
     ) -> Group {
@@ -84,10 +85,11 @@ impl Map {
                 .set("height", px(self.height))
         };
         let mut inside = Group::new().set("clip-path", "url(#map)");
-        if scene.object.is_closed() {
-            inside = inside.add(self.object(&scene.object).filled(style::SOLID));
+        let solids = || scene.solids.iter().map(|solid| self.outline(solid.outline()));
+        inside = solids().fold(inside, |inside, solid| inside.add(solid.filled(style::SOLID)));
+        for Untraced { contour, stretches } in untraced {
+            inside = inside.add(self.stretches(contour, stretches).stroked(style::UNTRACED, UNTRACED));
         }
-        inside = inside.add(self.stretches(&scene.object, untraced).stroked(style::UNTRACED, UNTRACED));
         inside = inside.add(self.platform(&scene.rig, trace));
         for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
             let mut dots = Outline::default();
@@ -96,7 +98,7 @@ impl Map {
             places.filter(|place| self.shows(*place)).for_each(|place| dots.dot(place));
             inside = inside.add(dots.dots(style::error_colour(class), DOT));
         }
-        inside = inside.add(self.object(&scene.object).stroked(style::INK, OUTLINE));
+        inside = solids().fold(inside, |inside, solid| inside.add(solid.stroked(style::INK, OUTLINE)));
         for mark in Mark::ALL {
             let mut diamonds = Outline::default();
             let places = mark_places(trace).into_iter().filter(|place| place.mark == mark);
@@ -126,7 +128,7 @@ impl Map {
     }
 
     /// The exact outline: segments as lines, arcs as arcs.
-    fn object(&self, contour: &Contour) -> Outline {
+    fn outline(&self, contour: &Contour) -> Outline {
         let mut outline = Outline::default();
         outline.move_to(self.place(contour.point_at(0.0)));
         for piece in contour.pieces() {
@@ -147,7 +149,7 @@ impl Map {
         outline
     }
 
-    /// Stretches of the outline, close enough to it for a wide line.
+    /// Stretches of a contour, close enough to it for a wide line.
     fn stretches(&self, contour: &Contour, stretches: &[Range<f64>]) -> Outline {
         let mut outline = Outline::default();
         for stretch in stretches {

@@ -14,6 +14,7 @@ use self::legend::Legend;
 use self::map::Map;
 use self::timeline::Timeline;
 use super::style::{self, Anchor, px, text};
+use crate::geometry::Contour;
 use crate::run::{Run, Trace};
 use crate::scene::{Outcome, Scene};
 use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};
@@ -35,7 +36,7 @@ const LINE: usize = 130;
 
 /// A picture of `run`, the run of `scene` under the policy named so, that got this `score`: a self-contained SVG.
 ///
-/// Above, the scene from above: the object's exact outline, the tip estimates, the platform's way and some of its poses.
+/// Above, the scene from above: the exact outlines, the tip estimates, the platform's way and some of its poses.
 /// Estimates are green where their error is within a standard deviation of the mean, as in the thesis's figure 5.1, red
 /// where it is greater and blue where it is smaller. Below, along time: the state, the error, the deflections.
 ///
@@ -43,7 +44,7 @@ const LINE: usize = 130;
 #[must_use]
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
     let trace = &run.trace;
-    let tips = tips(trace, &scene.object);
+    let tips = tips(trace, &scene.truth.surfaces);
     let untraced = untraced(scene, trace);
     let (head, map_top) = heading(scene, policy, run);
     let least = MAP_HEIGHT.0 + if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
@@ -66,12 +67,22 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     document.add(map.draw(scene, trace, &untraced, &tips, score.error.as_ref())).add(legend).add(strips).to_string()
 }
 
-/// The stretches of the object's outline (arc lengths in m) that the run did not trace.
-fn untraced(scene: &Scene, trace: &Trace) -> Vec<Range<f64>> {
-    let traced = traced(&Estimate::new(trace), &scene.object);
-    let starts = iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
-    let ends = traced.iter().map(|stretch| stretch.start).chain(iter::once(scene.object.length()));
-    starts.zip(ends).map(|(start, end)| start..end).filter(|gap| gap.end - gap.start > COVERAGE_RESOLUTION).collect()
+/// The stretches of a reference contour (arc lengths in m) that a run did not trace.
+struct Untraced<'s> {
+    contour: &'s Contour,
+    stretches: Vec<Range<f64>>,
+}
+
+fn untraced<'s>(scene: &'s Scene, trace: &Trace) -> Vec<Untraced<'s>> {
+    let estimate = Estimate::new(trace);
+    let of_contour = |contour: &'s Contour| {
+        let traced = traced(&estimate, contour);
+        let starts = iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
+        let ends = traced.iter().map(|stretch| stretch.start).chain(iter::once(contour.length()));
+        let gaps = starts.zip(ends).map(|(start, end)| start..end);
+        Untraced { contour, stretches: gaps.filter(|gap| gap.end - gap.start > COVERAGE_RESOLUTION).collect() }
+    };
+    scene.truth.reference.contours().map(of_contour).filter(|untraced| !untraced.stretches.is_empty()).collect()
 }
 
 /// The title and what is told of the run under it, and where the map may start.

@@ -10,6 +10,7 @@ mod key;
 mod node;
 mod number;
 mod object;
+mod objects;
 mod path;
 mod reader;
 mod rig;
@@ -17,6 +18,7 @@ mod scene;
 mod start;
 mod stop;
 mod timing;
+mod tunnel;
 mod whisker;
 
 pub(super) use scene::read;

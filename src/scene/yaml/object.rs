@@ -1,13 +1,15 @@
-//! `object`: the shape of the object.
+//! `objects`: the shapes of what is there.
 
 use super::fields::Fields;
 use super::key::Key;
-use super::node::{Entry, Placed};
+use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
-use super::{fault, path};
+use super::{fault, path, tunnel};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Contour, ContourError, Point2, ShapeError, circle, polygon, regular_polygon, rounded_rectangle};
+use crate::geometry::{
+    Contour, ContourError, Point2, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
+};
 use crate::units::{Dimension, format_si};
 
 const CENTRE: Key = Key { name: "centre", example: "[40 cm, 40 cm]", ..POSITION };
@@ -19,20 +21,46 @@ const WIDTH: Key = Key { name: "width", ..RADIUS };
 const HEIGHT: Key = Key { name: "height", ..RADIUS };
 const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
 
-const KINDS: [&str; 5] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "path"];
+const KINDS: [&str; 6] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "path", "tunnel"];
 
-/// Reads `object`. The contour comes with the place of the key of its kind.
-pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Contour>> {
+/// What one object is.
+pub(super) enum Object {
+    /// The inside of an outline.
+    Plain(Contour),
+    /// Two walls.
+    Tunnel(Box<Tunnel>),
+}
+
+/// What `objects` looks like.
+pub(super) const EXAMPLE: &str = "[{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]";
+
+/// Reads `objects`.
+pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Placed<Object>>> {
+    let items = reader.items(&entry.value, "a list of objects", &format!("objects: {EXAMPLE}"))?;
+    if items.is_empty() {
+        let fault = Diagnostic::error(fault::SHAPE, "there is no object", entry.key.span, "empty");
+        reader.report(fault.hint(format!("add one, such as `objects: {EXAMPLE}`")));
+    }
+    let objects: Vec<_> = items.iter().map(|item| read(reader, item)).collect();
+    objects.into_iter().collect()
+}
+
+/// Reads an object. It comes with the place of the key of its kind.
+fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Placed<Object>> {
     let example = "circle: {centre: [40 cm, 40 cm], radius: 30 cm}";
-    let (kind, entry) = reader.variant(&entry.value, "an object", &KINDS, example)?;
+    let (kind, entry) = reader.variant(item, "an object", &KINDS, example)?;
     let contour = match kind {
         "circle" => read_circle(reader, entry),
         "rounded_rectangle" => read_rounded_rectangle(reader, entry),
         "polygon" => read_polygon(reader, entry),
         "regular_polygon" => read_regular_polygon(reader, entry),
-        _ => path::read(reader, entry),
+        "path" => path::read(reader, entry),
+        _ => {
+            let tunnel = Object::Tunnel(Box::new(tunnel::read(reader, entry)?));
+            return Some(Placed { value: tunnel, span: entry.key.span });
+        }
     };
-    Some(Placed { value: contour?, span: entry.key.span })
+    Some(Placed { value: Object::Plain(contour?), span: entry.key.span })
 }
 
 fn read_circle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {

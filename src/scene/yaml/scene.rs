@@ -2,14 +2,12 @@
 
 use super::fields::Fields;
 use super::node::{Entry, Node, Placed};
+use super::objects::Objects;
 use super::reader::Reader;
 use super::{expect, fault, object, rig, start, stop};
-use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::geometry::{Contour, Pose};
+use crate::diagnostic::{Diagnostic, Source};
 use crate::rig::Rig;
 use crate::scene::Scene;
-use crate::scene::clearance::{Overlap, overlap};
-use crate::scene::solid::{Solid, SolidError};
 use std::path::PathBuf;
 
 /// Reads a scenario. The list of faults is never empty, and in the order of the text.
@@ -29,7 +27,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         Node::Mapping(entries) => entries.first().map_or(tree.span, |first| first.key.span),
         Node::Null => {
             let fault = Diagnostic::error(fault::EMPTY, "the scenario is empty", tree.span, "nothing here");
-            reader.report(fault.hint("write at least `name`, `object`, `start` and `stop`; see scenarios/disk.yaml"));
+            reader.report(fault.hint("write at least `name`, `objects`, `start` and `stop`; see scenarios/disk.yaml"));
             return None;
         }
         _ => tree.span,
@@ -44,8 +42,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         Some(entry) => rig::read(reader, entry),
         None => Some(Rig::default()),
     };
-    let example = "{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}";
-    let object = fields.required("object", example).and_then(|entry| object::read(reader, entry));
+    let objects = fields.required("objects", object::EXAMPLE).and_then(|entry| object::read_all(reader, entry));
     let start = fields.required("start", "{position: [0 mm, 72 mm], heading: 90 deg}");
     let start = start.and_then(|entry| start::pose(reader, entry, "a start"));
     let stop = fields.required("stop", "{time: 120 s}").and_then(|entry| stop::read(reader, entry));
@@ -63,19 +60,18 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     };
     fields.finish(reader);
 
-    if let Some(object) = &object {
-        check_solid(reader, object);
-    }
+    let objects = objects.and_then(|objects| Objects::of(reader, objects));
     if let (Some(rig), Some(stop)) = (&rig, &stop) {
         stop::check(reader, stop, rig.sensing.control_rate);
     }
-    let (rig, object, start) = (rig?, object?, start?);
-    check_clearance(reader, &rig, &start, &object);
+    let (rig, objects, start) = (rig?, objects?, start?);
+    objects.check_clearance(reader, &rig, &start);
     Some(Scene {
         name: name?,
         description: description?,
         rig,
-        object: object.value,
+        truth: objects.truth()?,
+        solids: objects.into_solids(),
         start: start.value,
         stop: stop?.value,
         expect: expect?,
@@ -105,40 +101,4 @@ fn policy(reader: &mut Reader<'_>, entry: &Entry) -> Option<PathBuf> {
         return None;
     }
     Some(path.value.into())
-}
-
-fn check_solid(reader: &mut Reader<'_>, object: &Placed<Contour>) {
-    let (message, label, hint) = match Solid::from_contour(&object.value) {
-        Ok(_) => return,
-        Err(SolidError::Open) => {
-            ("the object has no inside", "an open contour".to_owned(), "close it with `closed: true`")
-        }
-        Err(SolidError::Concave) => (
-            "the object is concave",
-            "turns both ways".to_owned(),
-            "one solid can only be convex yet; fill the hollows",
-        ),
-        Err(SolidError::Corners { count, limit }) => (
-            "the object has too many corners to be simulated",
-            format!("{count} corners, must be at most {limit}"),
-            "leave out vertices that hardly turn, or use arcs",
-        ),
-    };
-    reader.report(Diagnostic::error(fault::SHAPE, message, object.span, label).hint(hint));
-}
-
-fn check_clearance(reader: &mut Reader<'_>, rig: &Rig, start: &Placed<Pose>, object: &Placed<Contour>) {
-    let report = |reader: &mut Reader<'_>, part: String, place: Span| {
-        let message = format!("{part} starts in the object");
-        let fault = Diagnostic::error(fault::OVERLAP, message, start.span, "the rig starts here");
-        reader.report(fault.note(place, "inside or touching this").hint("move `position` away from the object"));
-    };
-    match overlap(rig, &start.value, &object.value) {
-        None => {}
-        Some(Overlap::Platform) => report(reader, "the platform".to_owned(), object.span),
-        Some(Overlap::Whisker(index)) => {
-            let name = rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
-            report(reader, format!("whisker `{name}`"), object.span);
-        }
-    }
 }

@@ -5,13 +5,15 @@ use super::fields::Fields;
 use super::key::Key;
 use super::node::{Entry, Placed};
 use super::reader::Reader;
+use super::start::POSITION;
 use crate::diagnostic::Diagnostic;
-use crate::scene::{LoopClosed, Stop};
+use crate::scene::{LoopClosed, Reached, Stalled, Stop};
 use crate::units::{Dimension, format_si};
 
 const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
 const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");
 const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
+const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 
 /// The most control ticks of a run: the trace keeps every one of them. Ninety hours at 30 Hz.
 const MOST_TICKS: f64 = 1e7;
@@ -20,26 +22,63 @@ const MOST_TICKS: f64 = 1e7;
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
     let mut fields = Fields::of(reader, &entry.value, "a stop", entry.key.span)?;
     let time = fields.number(reader, &TIME);
-    let loop_closed = fields.entry("loop_closed");
+    let [loop_closed, reached, stalled] = ["loop_closed", "reached", "stalled"].map(|name| fields.entry(name));
     fields.finish(reader);
-    let Some(entry) = loop_closed else {
-        let time = time?;
-        return Some(Placed { value: Stop { time: time.value, loop_closed: None }, span: time.span });
-    };
+    let loop_closed = optional(loop_closed, |entry| read_loop_closed(reader, entry, time.as_ref()));
+    let reached = optional(reached, |entry| read_reached(reader, entry, time.as_ref()));
+    let stalled = optional(stalled, |entry| read_stalled(reader, entry));
+    let (time, loop_closed, reached, stalled) = (time?, loop_closed?, reached?, stalled?);
+    // A run that has nothing to get to need not get anywhere.
+    let has_aim = loop_closed.is_some() || reached.is_some();
+    let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
+    Some(Placed { value: Stop { time: time.value, loop_closed, reached, stalled }, span: time.span })
+}
 
+/// What a key that may be left out holds; the outer option is `None` if that cannot be used.
+fn optional<T>(entry: Option<&Entry>, read: impl FnOnce(&Entry) -> Option<T>) -> Option<Option<T>> {
+    entry.map_or(Some(None), |entry| read(entry).map(Some))
+}
+
+fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {
     let mut fields = Fields::of(reader, &entry.value, "the closing of a loop", entry.key.span)?;
     let within = fields.number(reader, &WITHIN);
     let after = fields.number(reader, &AFTER);
     fields.finish(reader);
-    let (time, within, after) = (time?, within?, after?);
-    if after.value >= time.value {
-        let label = format!("not before the end, at {}", format_si(time.value, Dimension::TIME));
-        let fault = Diagnostic::error(fault::TIMING, "the loop can never close", after.span, label);
-        reader.report(fault.note(time.span, "the run ends here").hint("make `after` shorter than `time`"));
-        return None;
+    let (within, after) = (within?, after?);
+    is_in_time(reader, "the loop can never close", &after, end)?;
+    Some(LoopClosed { within: within.value, after: after.value })
+}
+
+fn read_reached(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<Reached> {
+    let mut fields = Fields::of(reader, &entry.value, "the reaching of a place", entry.key.span)?;
+    let place = fields.required(PLACE.name, PLACE.example).and_then(|entry| reader.point(&entry.value, &PLACE));
+    let within = fields.number(reader, &WITHIN);
+    let after = fields.number(reader, &AFTER);
+    fields.finish(reader);
+    let (place, within, after) = (place?, within?, after?);
+    is_in_time(reader, "the place can never be reached", &after, end)?;
+    Some(Reached { place: place.value, within: within.value, after: after.value })
+}
+
+fn read_stalled(reader: &mut Reader<'_>, entry: &Entry) -> Option<Stalled> {
+    let mut stalled = Stalled::default();
+    let mut fields = Fields::of(reader, &entry.value, "a stall", entry.key.span)?;
+    fields.set(reader, &WITHIN, &mut stalled.within);
+    fields.set(reader, &AFTER, &mut stalled.after);
+    fields.finish(reader);
+    Some(stalled)
+}
+
+/// Reports what can only come about after the end of the run.
+fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Option<&Placed<f64>>) -> Option<()> {
+    let end = end?;
+    if after.value < end.value {
+        return Some(());
     }
-    let loop_closed = Some(LoopClosed { within: within.value, after: after.value });
-    Some(Placed { value: Stop { time: time.value, loop_closed }, span: time.span })
+    let label = format!("not before the end, at {}", format_si(end.value, Dimension::TIME));
+    let fault = Diagnostic::error(fault::TIMING, never, after.span, label);
+    reader.report(fault.note(end.span, "the run ends here").hint("make `after` shorter than `time`"));
+    None
 }
 
 /// Checks that a run at `control_rate` (Hz) has no more ticks than can be kept.

@@ -16,7 +16,18 @@ macro_rules! text_file {
 }
 
 /// The scenes of the thesis, in its order.
-pub const SCENARIOS: &[TextFile] = &[text_file!("scenarios/disk.yaml")];
+pub const SCENARIOS: &[TextFile] = &[
+    text_file!("scenarios/disk.yaml"),
+    text_file!("scenarios/rounded-rectangle.yaml"),
+    text_file!("scenarios/complex.yaml"),
+    text_file!("scenarios/octagon.yaml"),
+    text_file!("scenarios/box.yaml"),
+    text_file!("scenarios/prism.yaml"),
+    text_file!("scenarios/wall.yaml"),
+    text_file!("scenarios/smooth-tunnel.yaml"),
+    text_file!("scenarios/zigzag-tunnel.yaml"),
+    text_file!("scenarios/round-tunnel.yaml"),
+];
 
 /// The policies that the bench runs unless it is given others. They use the standard library alone.
 pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm")];

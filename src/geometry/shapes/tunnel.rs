@@ -1,0 +1,231 @@
+//! Tunnels: two walls along a centre line.
+
+use std::f64::consts::TAU;
+
+use super::ShapeError;
+use super::error::{finite, positive};
+use crate::geometry::fit::fit;
+use crate::geometry::{Contour, Piece, Point2, Pose, Strip, Vector2, perpendicular, unit};
+
+/// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CentreLine {
+    /// Straight runs from the frame's origin. The walls' corners lie on the mean of the directions square to the two runs
+    /// that meet.
+    Polyline {
+        /// The length (m) and the heading (rad) of each run.
+        runs: Vec<(f64, f64)>,
+    },
+    /// `y = a sin(k x)` for `x` from 0 to a length. The walls are at a distance square to the line.
+    Sine {
+        /// The amplitude `a` (m).
+        amplitude: f64,
+        /// The wave number `k` (rad/m).
+        wave_number: f64,
+        /// Where it ends along x (m).
+        length: f64,
+    },
+    /// All the way round the frame's origin, counter-clockwise: `r = R + a sin(n θ)`. The walls are at a distance along the
+    /// radius. The outer wall has an opening.
+    Polar {
+        /// The mean radius `R` (m).
+        radius: f64,
+        /// The amplitude `a` (m).
+        amplitude: f64,
+        /// How many waves `n` there are in a turn.
+        waves: u32,
+        /// The way in and out.
+        opening: Opening,
+    },
+}
+
+/// An opening in the outer wall of a round tunnel.
+///
+/// Places are shares of the length of the whole outer wall's middle, counted from θ = 0.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// How much of the wall on either side is bent outwards.
+    pub funnel_length: f64,
+    /// How far the two ends are bent outwards, along the radius (m).
+    pub funnel_depth: f64,
+}
+
+/// Two walls of an even thickness, and the line in the middle between them, in world coordinates.
+#[derive(Clone, Debug)]
+pub struct Tunnel {
+    /// The line in the middle; closed in a round tunnel.
+    pub axis: Contour,
+    /// The wall on the left of it; closed in a round tunnel.
+    pub left: Strip,
+    /// The wall on the right of it.
+    pub right: Strip,
+}
+
+impl Tunnel {
+    /// A tunnel in the frame of `pose`, with the middles of its walls a `width` (m) apart and walls of a `thickness` (m).
+    ///
+    /// Curves are fitted by arcs to a micrometre; the sides of a wall are exactly parallel.
+    ///
+    /// ```
+    /// use vibrissa::geometry::{CentreLine, Point2, Pose, Side, Tunnel};
+    /// let straight = CentreLine::Polyline { runs: vec![(1.0, 0.0)] };
+    /// let tunnel = Tunnel::new(&straight, 0.22, 0.02, &Pose::default())?;
+    /// // The side of a wall that faces the tunnel.
+    /// assert!((tunnel.left.side(Side::Right).signed_distance(Point2::new(0.5, 0.0)) - 0.1).abs() < 1e-15);
+    /// # Ok::<(), vibrissa::geometry::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a number is not finite or not positive where it must be, or the tunnel is too tight for its width.
+    pub fn new(line: &CentreLine, width: f64, thickness: f64, pose: &Pose) -> Result<Self, ShapeError> {
+        positive("width", width)?;
+        positive("thickness", thickness)?;
+        line.check()?;
+        let wall = |aside: f64| -> Result<Strip, ShapeError> {
+            let middle = line.aside(aside, aside > 0.0)?;
+            Ok(Strip::new(&middle.transformed(pose), thickness)?)
+        };
+        Ok(Self {
+            axis: line.aside(0.0, false)?.transformed(pose),
+            left: wall(-0.5 * width)?,
+            right: wall(0.5 * width)?,
+        })
+    }
+}
+
+impl CentreLine {
+    fn check(&self) -> Result<(), ShapeError> {
+        match self {
+            Self::Polyline { runs } => runs.iter().try_for_each(|&(length, heading)| {
+                positive("length of a run", length)?;
+                finite("heading of a run", heading)
+            }),
+            Self::Sine { amplitude, wave_number, length } => {
+                finite("amplitude", *amplitude)?;
+                finite("wave number", *wave_number)?;
+                positive("length", *length)
+            }
+            Self::Polar { radius, amplitude, opening: Opening { from, to, funnel_length, funnel_depth }, .. } => {
+                positive("radius", *radius)?;
+                finite("amplitude", *amplitude)?;
+                finite("depth of the funnel", *funnel_depth)?;
+                for share in [from, to, funnel_length] {
+                    finite("place of the opening", *share)?;
+                }
+                // What is left of the wall has room for both funnels.
+                let fits = 0.0 <= *from && from < to && *to <= 1.0 && *funnel_length > 0.0;
+                let room = from + 1.0 - to - 2.0 * funnel_length;
+                if fits && room > 0.0 { Ok(()) } else { Err(ShapeError::Opening) }
+            }
+        }
+    }
+
+    /// The line at a distance (m) to the right of the centre line; with or without the opening that a round tunnel has.
+    fn aside(&self, aside: f64, opened: bool) -> Result<Contour, ShapeError> {
+        match self {
+            Self::Polyline { runs } => polyline(runs, aside),
+            Self::Sine { amplitude, wave_number, length } => {
+                let curve = |x: f64| {
+                    let (sin, cos) = (wave_number * x).sin_cos();
+                    let slope = amplitude * wave_number * cos;
+                    let along = Vector2::new(1.0, slope);
+                    let bend = -amplitude * wave_number * wave_number * sin / (1.0 + slope * slope).powf(1.5);
+                    // Beyond the centre of its curvature a parallel goes backwards.
+                    let direction = along * (1.0 + aside * bend);
+                    (Point2::new(x, amplitude * sin) - aside * perpendicular(along.normalize()), direction)
+                };
+                let forward = (0..=1000).all(|k| curve(length * f64::from(k) / 1000.0).1.x > 0.0);
+                let pieces = fit(curve, 0.0, *length).filter(|_| forward).ok_or(ShapeError::TooTight)?;
+                Ok(Contour::open(pieces)?)
+            }
+            Self::Polar { radius, amplitude, waves, opening } => {
+                let ring = Ring { radius: radius + aside, amplitude: *amplitude, waves: f64::from(*waves) };
+                let whole = ring.whole()?;
+                if opened { ring.opened(&whole, opening) } else { Ok(whole) }
+            }
+        }
+    }
+}
+
+fn polyline(runs: &[(f64, f64)], aside: f64) -> Result<Contour, ShapeError> {
+    let right_of = |heading: f64| -perpendicular(unit(heading));
+    let mut corner = Point2::origin();
+    let mut vertices = Vec::with_capacity(runs.len() + 1);
+    for (index, &(length, heading)) in runs.iter().enumerate() {
+        let before = if index == 0 { heading } else { runs[index - 1].1 };
+        let mean = right_of(before) + right_of(heading);
+        vertices.push(corner + aside * mean.try_normalize(1e-6).ok_or(ShapeError::TooTight)?);
+        corner += length * unit(heading);
+    }
+    vertices.extend(runs.last().map(|&(_, heading)| corner + aside * right_of(heading)));
+    // A run between two corners may be used up.
+    let forward =
+        vertices.windows(2).zip(runs).all(|(ends, &(_, heading))| (ends[1] - ends[0]).dot(&unit(heading)) > 0.0);
+    if !forward {
+        return Err(ShapeError::TooTight);
+    }
+    Ok(Contour::open(vertices.windows(2).map(|ends| Piece::segment(ends[0], ends[1])).collect())?)
+}
+
+/// `r = R + a sin(n θ)`.
+struct Ring {
+    radius: f64,
+    amplitude: f64,
+    waves: f64,
+}
+
+impl Ring {
+    /// The radius at an angle, and how fast it grows with it.
+    fn at(&self, angle: f64) -> (f64, f64) {
+        let (sin, cos) = (self.waves * angle).sin_cos();
+        (self.radius + self.amplitude * sin, self.amplitude * self.waves * cos)
+    }
+
+    fn whole(&self) -> Result<Contour, ShapeError> {
+        if self.radius <= self.amplitude.abs() {
+            return Err(ShapeError::TooTight);
+        }
+        let curve = |angle| place(angle, self.at(angle));
+        let pieces = fit(curve, 0.0, TAU).ok_or(ShapeError::TooTight)?;
+        Ok(Contour::closed(pieces)?)
+    }
+
+    /// The ring without what is open, its two ends bent outwards.
+    fn opened(&self, whole: &Contour, opening: &Opening) -> Result<Contour, ShapeError> {
+        let angle = |share: f64| {
+            let point = whole.point_at(share * whole.length());
+            point.y.atan2(point.x).rem_euclid(TAU)
+        };
+        // On from the end of the opening, all the way round to its beginning.
+        let start = angle(opening.to);
+        let beyond = |share: f64| start + (angle(share.rem_euclid(1.0)) - start).rem_euclid(TAU);
+        let (straight, bends) =
+            (beyond(opening.to + opening.funnel_length), beyond(opening.from - opening.funnel_length));
+        let end = beyond(opening.from);
+        let curve = |angle: f64| {
+            let (mut radius, mut growth) = self.at(angle);
+            for (tip, foot) in [(start, straight), (end, bends)] {
+                let share = (angle - foot) / (tip - foot);
+                if share > 0.0 {
+                    radius += opening.funnel_depth * share * share;
+                    growth += 2.0 * opening.funnel_depth * share / (tip - foot);
+                }
+            }
+            place(angle, (radius, growth))
+        };
+        let mut pieces = Vec::new();
+        for (from, to) in [(start, straight), (straight, bends), (bends, end)] {
+            pieces.extend(fit(curve, from, to).ok_or(ShapeError::TooTight)?);
+        }
+        Ok(Contour::open(pieces)?)
+    }
+}
+
+fn place(angle: f64, (radius, growth): (f64, f64)) -> (Point2, Vector2) {
+    let outward = unit(angle);
+    (Point2::from(radius * outward), growth * outward + radius * perpendicular(outward))
+}

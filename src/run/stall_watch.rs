@@ -1,0 +1,133 @@
+//! When a run gets nowhere.
+
+use std::collections::HashMap;
+
+use crate::geometry::Point2;
+use crate::scene::Stalled;
+use crate::signal::MAX_WHISKERS;
+
+use super::trace::TickRecord;
+
+/// Watches a run for progress: the platform or a recorded tip comes to a place where it has not been.
+#[derive(Debug)]
+pub(super) struct StallWatch {
+    limit: Stalled,
+    body: Places,
+    tips: [Places; MAX_WHISKERS],
+    /// When there was progress last (s).
+    newest: f64,
+}
+
+impl StallWatch {
+    pub(super) fn new(limit: Stalled) -> Self {
+        Self { limit, body: Places::default(), tips: Default::default(), newest: 0.0 }
+    }
+
+    /// Takes a tick, and says why the run is given up with it, if it is.
+    pub(super) fn stalls(&mut self, tick: &TickRecord) -> Option<String> {
+        let Stalled { within, after } = self.limit;
+        let mut is_new = self.body.add(tick.body.position, within);
+        for (places, tip) in self.tips.iter_mut().zip(tick.tips) {
+            is_new |= tip.is_some_and(|tip| places.add(tip, within));
+        }
+        if is_new {
+            self.newest = tick.time;
+        }
+        (tick.time - self.newest >= after).then(|| {
+            let millimetres = within * 1e3;
+            format!("no progress for {after} s: neither the platform nor a recorded tip came {millimetres} mm from where it had been")
+        })
+    }
+}
+
+/// Places, by squares of the plane.
+#[derive(Debug, Default)]
+struct Places(HashMap<(i64, i64), Vec<Point2>>);
+
+impl Places {
+    /// Adds a place that is further than `within` (m) from all that are there; whether it is.
+    fn add(&mut self, place: Point2, within: f64) -> bool {
+        if !(place.x.is_finite() && place.y.is_finite()) {
+            return false;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "a place that far off shares its square with others")]
+        let (column, row) = ((place.x / within).floor() as i64, (place.y / within).floor() as i64);
+        let around = |square: i64| [square.saturating_sub(1), square, square.saturating_add(1)];
+        let mut squares = around(column).into_iter().flat_map(|x| around(row).map(|y| (x, y)));
+        let is_known = squares.any(|square| {
+            let places = self.0.get(&square);
+            places.is_some_and(|places| places.iter().any(|known| (place - known).norm() <= within))
+        });
+        if !is_known {
+            self.0.entry((column, row)).or_default().push(place);
+        }
+        !is_known
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose, Vector2, unit};
+    use crate::signal::Command;
+
+    const LIMIT: Stalled = Stalled { within: 0.02, after: 10.0 };
+
+    /// The time (s) at which a run is given up that goes through these places of the platform and these tips, ten a second.
+    fn given_up(ticks: impl Iterator<Item = (Point2, Option<Point2>)>) -> Option<f64> {
+        let mut watch = StallWatch::new(LIMIT);
+        let mut ticks = ticks.enumerate().map(|(index, (position, tip))| {
+            let mut tips = [None; MAX_WHISKERS];
+            tips[0] = tip;
+            TickRecord {
+                time: index as f64 * 0.1,
+                body: Pose { position, heading: 0.0 },
+                state: None,
+                deflections: [0.0; MAX_WHISKERS],
+                tips,
+                command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
+                failsafe: None,
+                body_touches: false,
+            }
+        });
+        ticks.find(|tick| watch.stalls(tick).is_some()).map(|tick| tick.time)
+    }
+
+    fn circle(radius: f64, index: u32) -> Point2 {
+        Point2::from(radius * unit(0.05 * f64::from(index)))
+    }
+
+    #[test]
+    fn a_platform_that_stays_is_given_up() {
+        assert_eq!(given_up((0..500).map(|_| (Point2::origin(), None))), Some(10.0));
+    }
+
+    #[test]
+    fn a_platform_that_goes_on_is_not() {
+        assert_eq!(given_up((0..2000).map(|k| (Point2::new(0.0025 * f64::from(k), 0.0), None))), None);
+    }
+
+    #[test]
+    fn a_tip_that_goes_on_is_progress_where_the_platform_stays() {
+        assert_eq!(
+            given_up((0..1000).map(|k| (Point2::origin(), Some(Point2::new(0.0025 * f64::from(k), 0.0))))),
+            None
+        );
+    }
+
+    #[test]
+    fn going_round_in_circles_is_none_in_the_air_or_along_what_has_been_traced() {
+        // A turn takes 12.6 s.
+        for tip in [None, Some(0.3)] {
+            let ticks = (0..1000).map(|k| (circle(0.2, k), tip.map(|radius| circle(radius, k))));
+            let time = given_up(ticks);
+            assert!(time.is_some_and(|time| (22.0..23.0).contains(&time)), "{time:?}");
+        }
+    }
+
+    #[test]
+    fn places_that_are_no_numbers_are_nowhere_new() {
+        let nowhere = Point2::new(f64::NAN, f64::INFINITY);
+        assert_eq!(given_up((0..500).map(|_| (nowhere, Some(nowhere)))), Some(10.0));
+    }
+}

@@ -1,0 +1,39 @@
+//! Concave outlines as convex parts.
+
+use i_triangle::float::triangulatable::Triangulatable;
+
+use crate::geometry::{Contour, Point2};
+
+use super::part::{MOST_CORNERS, Part, chords};
+use super::solid::SolidError;
+
+/// The furthest (m) that a chord lies from its arc.
+const SAGITTA: f64 = 5e-6;
+/// How much of the area may get lost: what the rounding of coordinates to a grid takes.
+const AREA_TOLERANCE: f64 = 1e-9;
+
+/// Convex parts that together are the inside of a closed contour: triangles between its corners, Delaunay's, joined as long
+/// as they stay convex.
+pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
+    let corners: Vec<Point2> = contour.pieces().iter().flat_map(|piece| chords(piece, SAGITTA)).collect();
+    if corners.len() > MOST_CORNERS {
+        return Err(SolidError::Corners { count: corners.len(), limit: MOST_CORNERS });
+    }
+    let outline: Vec<[f64; 2]> = corners.iter().map(|corner| [corner.x, corner.y]).collect();
+    let polygons = outline.as_slice().triangulate_as::<i64>().into_delaunay().to_convex_polygons();
+    let parts: Vec<Vec<Point2>> =
+        polygons.into_iter().map(|part| part.into_iter().map(Point2::from).collect()).collect();
+    let whole = area(&corners);
+    let lost = whole - parts.iter().map(|part| area(part)).sum::<f64>();
+    // An outline whose chords meet where its arcs do not is not what the parts are of.
+    if lost.abs() > AREA_TOLERANCE * whole {
+        return Err(SolidError::Chords);
+    }
+    Ok(parts.into_iter().map(|outline| Part::Prism { outline }).collect())
+}
+
+/// The area (m²) of a polygon, positive counter-clockwise.
+fn area(corners: &[Point2]) -> f64 {
+    let Some(first) = corners.first() else { return 0.0 };
+    corners.windows(2).map(|side| 0.5 * (side[0] - first).perp(&(side[1] - first))).sum()
+}
