@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use runs::run_with;
-use vibrissa::geometry::{Contour, Piece, Point2, Pose, perpendicular, polygon, regular_polygon, rotate};
+use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, perpendicular, polygon, regular_polygon, rotate};
 use vibrissa::machine::Mark;
 use vibrissa::run::{MarkRecord, Trace};
 use vibrissa::score::{CornerFigures, Score, excursions, traced_corners};
@@ -94,6 +94,17 @@ proptest! {
             prop_assert!((corner.place_error() - off.abs() * 2.0_f64.sqrt()).abs() < 1e-6, "{corner:?}");
         }
     }
+}
+
+#[test]
+fn a_few_tips_that_are_far_off_do_not_move_a_corner() {
+    let outline = square();
+    let mut tips = tips_along(&outline, |_, _| 0.0);
+    for tip in tips.iter_mut().step_by(6) {
+        *tip = tip.map(|tip| tip + Vector2::new(0.003, 0.004));
+    }
+    let (corners, _) = traced_corners(&trace(tips), &outline.clone().into());
+    assert!(corners.iter().all(|corner| corner.place_error() < 1e-4 && corner.turn_error.abs() < 1e-3), "{corners:?}");
 }
 
 #[test]

@@ -22,6 +22,9 @@ const SHORT_SIDE: f64 = 0.2;
 const LEAST_TIPS: usize = 3;
 const LEAST_REACH: f64 = 0.3;
 
+/// Of more tips than this on a side, only as many are taken: the work grows with their square.
+const MOST_TIPS: usize = 300;
+
 /// Two lines at a smaller angle (rad) do not meet in a definite place.
 const LEAST_ANGLE: f64 = 0.1;
 
@@ -35,7 +38,7 @@ pub struct TracedCorner {
     pub corner: Corner,
     /// Where the estimate has it (m, world frame): where its two sides meet.
     ///
-    /// A side is a line through the tips recorded [near the corner](SIDE), by least squares. Where the outline is curved the
+    /// A side is a line through the tips recorded [near the corner](SIDE), by the median of the slopes of all pairs. Where the outline is curved the
     /// line is that of the tips' offsets from it: what is fitted is how far the estimate is off and how it is turned.
     pub place_world: Point2,
     /// How much more than the exact corner the estimated one turns (rad), in the direction of the exact turn.
@@ -178,23 +181,24 @@ impl Line {
         if along.len() < LEAST_TIPS || most - least < LEAST_REACH * (farthest - nearest) {
             return None;
         }
-        let (offset, slope) = regression(&along, &off);
+        let (offset, slope) = line(&along, &off)?;
         let right = -perpendicular(tangent);
         Some(Self { point: corner.point + offset * right, direction: (tangent + slope * right).normalize() })
     }
 }
 
-/// Value at 0 and slope of the line through (`x`, `y`), by least squares.
-fn regression(x: &[f64], y: &[f64]) -> (f64, f64) {
-    let count = x.len() as f64;
-    let (mean_x, mean_y) = (x.iter().sum::<f64>() / count, y.iter().sum::<f64>() / count);
-    let (mut products, mut squares) = (0.0, 0.0);
-    for (x, y) in x.iter().zip(y) {
-        products += (x - mean_x) * (y - mean_y);
-        squares += (x - mean_x).powi(2);
-    }
-    let slope = products / squares;
-    (mean_y - slope * mean_x, slope)
+/// Value at 0 and slope of the line through (`x`, `y`), by the medians of the pairs' slopes and of the values less it (Theil
+/// and Sen): a few tips that are far off, which the error tells of, do not turn it. `None` without two different `x`.
+fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
+    let stride = x.len() / MOST_TIPS + 1;
+    let points: Vec<_> = x.iter().zip(y).step_by(stride).collect();
+    let slope = |(index, (x, y)): (usize, &(&f64, &f64))| {
+        let pairs = points[..index].iter().filter(|(other, _)| other != x);
+        pairs.map(|(other_x, other_y)| (*y - *other_y) / (*x - *other_x)).collect::<Vec<_>>()
+    };
+    let slope = Statistics::of(points.iter().enumerate().flat_map(slope).collect())?.percentile(50.0);
+    let rest = Statistics::of(points.iter().map(|(x, y)| *y - slope * *x).collect())?;
+    Some((rest.percentile(50.0), slope))
 }
 
 /// The figures of all corners of a run; those of no corner are `None`.
