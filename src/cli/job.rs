@@ -91,7 +91,7 @@ impl Job {
         let policy_hash = with_settings(policy_hash, settings);
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
-        Self::with(path, scene, program, arguments.world.into(), seed, hashes)
+        Ok(Self::with(path, scene, program, arguments.world.into(), seed, hashes))
     }
 
     /// A run of `program` in a `scene` that was read from `path`, with the hashes of both.
@@ -102,7 +102,7 @@ impl Job {
         world: WorldKind,
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
-    ) -> Result<Self, Failure> {
+    ) -> Self {
         let engine = engine_hash(&scene);
         let identity = Identity {
             scenario: scene.name.clone(),
@@ -115,7 +115,7 @@ impl Job {
                 engine: input::short(&engine),
             },
         };
-        Ok(Self { path: path.to_owned(), scene, program: Arc::new(program), world, seed, identity })
+        Self { path: path.to_owned(), scene, program: Arc::new(program), world, seed, identity }
     }
 
     /// Runs it, and shows a bar on standard error if that is a terminal.

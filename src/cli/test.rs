@@ -106,7 +106,8 @@ fn job_of(
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let seed = scene.seed;
-    Job::with(&path, scene, program, arguments.world.into(), seed, (hash.finalize(), policy_hash.finalize()))
+    let hashes = (hash.finalize(), policy_hash.finalize());
+    Ok(Job::with(&path, scene, program, arguments.world.into(), seed, hashes))
 }
 
 fn tell(

@@ -9,7 +9,7 @@ const TOLERANCE: f64 = 1e-6;
 const LEAST_PARTS: u32 = 32;
 
 /// How often a part is halved at most; a smooth curve needs a fraction of it.
-const MOST_HALVINGS: u32 = 20;
+const MOST_HALVINGS: u32 = 12;
 
 /// Places between the ends of a part at which its arcs are checked.
 const CHECKS: u32 = 7;
@@ -32,8 +32,8 @@ pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64) -> Option<Ve
         let arcs = biarc(curve(start), curve(end));
         let strays = |index| {
             let (point, _) = curve(start + (end - start) * (f64::from(index) / f64::from(CHECKS + 1)));
-            // Not `>`, which is false for what is no number.
-            !(arcs.iter().map(|arc| arc.distance(point)).fold(f64::INFINITY, f64::min) <= TOLERANCE)
+            // What is no number is not close.
+            !arcs.iter().any(|arc| arc.distance(point) <= TOLERANCE)
         };
         if !(1..=CHECKS).any(strays) {
             pieces.extend(arcs);
@@ -64,7 +64,7 @@ fn arc(start: Point2, out: Vector2, end: Point2) -> Piece {
     let chord = end - start;
     let half_sweep = out.perp(&chord).atan2(out.dot(&chord));
     let to_centre = chord.norm_squared() / (2.0 * perpendicular(out).dot(&chord));
-    if !(to_centre.abs() < LARGEST_RADIUS) {
+    if to_centre.is_nan() || to_centre.abs() > LARGEST_RADIUS {
         return Piece::segment(start, end);
     }
     let centre = start + to_centre * perpendicular(out);

@@ -114,7 +114,7 @@ fn bends(side: &Contour) -> impl Iterator<Item = Bend> {
     let mut start = 0;
     iter::from_fn(move || {
         let way = sense(pieces.get(start)?);
-        let rest = pieces[start + 1..].iter().take_while(|piece| way != 0.0 && sense(piece) == way);
+        let rest = pieces[start + 1..].iter().take_while(|piece| way * sense(piece) > 0.0);
         let bend = start..start + 1 + rest.count();
         start = bend.end;
         Some(bend)
@@ -128,7 +128,7 @@ fn sense(piece: &Piece) -> f64 {
 
 impl Sides<'_> {
     fn blocks(&self, bend: Bend) -> Vec<Block> {
-        let is_round = sense(&self.face.pieces()[bend.start]) == self.round;
+        let is_round = sense(&self.face.pieces()[bend.start]) * self.round > 0.0;
         let face_chords = chords(self.face, &bend, FACE_SAGITTA);
         // Where the face is round its back is hollow, and the back's chords cut the bend into parts.
         let (count, each) = if is_round {

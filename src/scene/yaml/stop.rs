@@ -24,19 +24,15 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop
     let time = fields.number(reader, &TIME);
     let [loop_closed, reached, stalled] = ["loop_closed", "reached", "stalled"].map(|name| fields.entry(name));
     fields.finish(reader);
-    let loop_closed = optional(loop_closed, |entry| read_loop_closed(reader, entry, time.as_ref()));
-    let reached = optional(reached, |entry| read_reached(reader, entry, time.as_ref()));
-    let stalled = optional(stalled, |entry| read_stalled(reader, entry));
-    let (time, loop_closed, reached, stalled) = (time?, loop_closed?, reached?, stalled?);
+    // A key that is there and cannot be used has been reported: the scenario is refused.
+    let loop_closed = loop_closed.and_then(|entry| read_loop_closed(reader, entry, time.as_ref()));
+    let reached = reached.and_then(|entry| read_reached(reader, entry, time.as_ref()));
+    let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
+    let time = time?;
     // A run that has nothing to get to need not get anywhere.
     let has_aim = loop_closed.is_some() || reached.is_some();
     let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
     Some(Placed { value: Stop { time: time.value, loop_closed, reached, stalled }, span: time.span })
-}
-
-/// What a key that may be left out holds; the outer option is `None` if that cannot be used.
-fn optional<T>(entry: Option<&Entry>, read: impl FnOnce(&Entry) -> Option<T>) -> Option<Option<T>> {
-    entry.map_or(Some(None), |entry| read(entry).map(Some))
 }
 
 fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {
