@@ -73,7 +73,7 @@ fn jobs(policies: &[(PathBuf, Loaded<Policy>)]) -> Result<Vec<Job>, Failure> {
         let program = policy.value.artifact.program.clone();
         Job::with(Path::new(file.path), scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes)
     };
-    all.map(job).collect()
+    Ok(all.map(job).collect())
 }
 
 fn tell(result: &RunResult) {

@@ -37,7 +37,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         for Setting { path, scene, hash } in &settings {
             let hashes = (hash.clone().finalize(), policy.hash.clone().finalize());
             let program = policy.value.artifact.program.clone();
-            jobs.push(Job::with(path, scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes)?);
+            jobs.push(Job::with(path, scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes));
         }
     }
     let mut results = run_all(&jobs, arguments.jobs, false)?.into_iter().map(|finished| finished.result);

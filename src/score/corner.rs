@@ -193,8 +193,8 @@ fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
     let stride = x.len() / MOST_TIPS + 1;
     let points: Vec<_> = x.iter().zip(y).step_by(stride).collect();
     let slope = |(index, (x, y)): (usize, &(&f64, &f64))| {
-        let pairs = points[..index].iter().filter(|(other, _)| other != x);
-        pairs.map(|(other_x, other_y)| (*y - *other_y) / (*x - *other_x)).collect::<Vec<_>>()
+        let slopes = points[..index].iter().map(|(other_x, other_y)| (*y - *other_y) / (*x - *other_x));
+        slopes.filter(|slope| slope.is_finite()).collect::<Vec<_>>()
     };
     let slope = Statistics::of(points.iter().enumerate().flat_map(slope).collect())?.percentile(50.0);
     let rest = Statistics::of(points.iter().map(|(x, y)| *y - slope * *x).collect())?;
