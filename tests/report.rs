@@ -29,15 +29,18 @@ fn half_round() -> Run {
 }
 
 fn result(run: &Run) -> RunResult {
+    RunResult::new(identity(), run, &Score::new(run, &disk().into()))
+}
+
+fn identity() -> Identity {
     let [scenario, policy, engine] = ["5ce0", "7a11", "3a71"].map(str::to_owned);
-    let identity = Identity {
+    Identity {
         scenario: "disk".to_owned(),
         policy: "thesis".to_owned(),
         world: "mujoco".to_owned(),
         seed: 7,
         hash: Hashes { scenario, policy, engine },
-    };
-    RunResult::new(identity, run, &Score::new(run, &disk().into()))
+    }
 }
 
 fn snapshots(assert: impl FnOnce()) {
@@ -110,6 +113,19 @@ fn a_result_tells_of_retrievals_and_a_picture_shows_them() {
     texts_stand_clear(&picture);
     assert!(picture.contains("edge lost") && picture.contains("contact found again") && picture.contains("retrievals"));
     assert!(!draw(&scene(), "thesis", &half_round()).contains("edge lost"));
+}
+
+#[test]
+fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
+    let bare = table(&[result(&half_round())]);
+    assert!(!bare.contains("corners") && !bare.contains("collisions") && !bare.contains("retrieval"), "{bare}");
+    let mut run = retrieved();
+    run.trace.ticks[9].body_touches = true;
+    let mut square = result(&run);
+    let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
+    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into())).corners;
+    let full = table(&[result(&half_round()), square]);
+    assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval mm"), "{full}");
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! The arguments of every command.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::study::WorldKind;
-use crate::units::{Quantity, parse_quantity};
+use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -22,6 +23,10 @@ const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an e
 pub(super) enum Command {
     /// Run scenarios under a policy, and score what was felt against the exact contour
     Run(RunArguments),
+    /// Run the scenes of the thesis, and put the figures beside the thesis's
+    Bench(BenchArguments),
+    /// Do the same runs under several policies, and say where they differ
+    Compare(CompareArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
     /// Compile a policy into a file that runs without its text
@@ -65,6 +70,53 @@ pub(super) struct RunArguments {
     /// Run again whenever a scenario or policy is saved; print a line for every simulated second
     #[arg(long, conflicts_with = "json")]
     pub(super) watch: bool,
+}
+
+const BENCH_STATUS: &str = "Exit status: 0 all runs completed and no figure is worse than the thesis's; 1 otherwise; \
+                            2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = BENCH_STATUS)]
+pub(super) struct BenchArguments {
+    /// Policy, or compiled machine, to run instead of those that are built in; may be given several times
+    #[arg(long = "policy", value_name = "FILE")]
+    pub(super) policies: Vec<PathBuf>,
+    /// Write all results, a picture of every run and a page that shows them into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: an array of results, each with what the thesis reports
+    #[arg(long)]
+    pub(super) json: bool,
+    /// How many runs to do at a time; as many as there are processors unless given
+    #[arg(short, long, value_name = "J")]
+    pub(super) jobs: Option<NonZeroUsize>,
+}
+
+const COMPARE_STATUS: &str = "Exit status: 0 done, whichever is better; 2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = COMPARE_STATUS)]
+pub(super) struct CompareArguments {
+    /// Two policies or more, the first of which the others are compared with; and scenarios (.yaml), those of the bench
+    /// unless there are any
+    #[arg(value_name = "FILE", required = true)]
+    pub(super) files: Vec<PathBuf>,
+    /// How many runs to do of each scenario: the first as it is, the others with seeds of their own, which fix the noise and
+    /// the start
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub(super) seeds: u64,
+    /// How far starts may be from the scenario's along x and y: --jitter "20 mm"
+    #[arg(long, value_name = "LENGTH", default_value = "0 mm", value_parser = parse_length)]
+    pub(super) jitter: f64,
+    /// How far headings may be from the scenario's: --jitter-heading "10 deg"
+    #[arg(long, value_name = "ANGLE", default_value = "0 deg", value_parser = parse_angle)]
+    pub(super) jitter_heading: f64,
+    /// Print only JSON: the runs that did not complete, and the figures with their intervals
+    #[arg(long)]
+    pub(super) json: bool,
+    /// How many runs to do at a time; as many as there are processors unless given
+    #[arg(short, long, value_name = "J")]
+    pub(super) jobs: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, Args)]
@@ -185,4 +237,20 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
     let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     Ok(Setting { name: name.trim().to_owned(), value })
+}
+
+fn parse_length(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::LENGTH, "20 mm")
+}
+
+fn parse_angle(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::ANGLE, "10 deg")
+}
+
+/// A quantity (SI) of this dimension that is not negative.
+fn parse_size(text: &str, dimension: Dimension, example: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    let fits = quantity.dimension == dimension && quantity.value_si >= 0.0;
+    fits.then_some(quantity.value_si)
+        .ok_or_else(|| format!("write {} that is not negative: \"{example}\"", dimension.phrase()))
 }

@@ -61,6 +61,10 @@ pub(super) enum Failure {
     Watch(#[from] notify::Error),
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
     SameName { first: PathBuf, second: PathBuf, name: String },
+    #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]
+    TooFewPolicies { count: usize },
+    #[error("{}: there is hardly a start within the jitter at which the rig stands clear; make --jitter smaller", scenario.display())]
+    NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
     Set(#[from] SetError),
     #[error("{}: {cause}", scenario.display())]

@@ -11,8 +11,10 @@ use crate::machine::{ARTIFACT_LIMIT, Artifact};
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
 use crate::scene::Scene;
+use crate::study::bench::TextFile;
 
 use super::exit::Failure;
+use super::output;
 
 /// The most bytes that a text may have: as many as the largest scenario may have. Policies are smaller still.
 const SIZE_LIMIT: usize = 1 << 20;
@@ -57,7 +59,15 @@ pub(super) fn read_standard() -> Result<Source, Failure> {
 }
 
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
-    let source = read(path)?;
+    read_scenario(read(path)?)
+}
+
+/// A scenario that is part of the program.
+pub(super) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, Failure> {
+    read_scenario(Source::new(file.path, file.text))
+}
+
+fn read_scenario(source: Source) -> Result<Loaded<Scene>, Failure> {
     let hash = Sha256::new().chain_update(&source.text);
     match Scene::from_yaml(&source) {
         Ok(value) => Ok(Loaded { value, hash }),
@@ -123,6 +133,15 @@ pub(super) struct Policy {
     pub(super) text: Option<PolicyText>,
 }
 
+impl Policy {
+    /// Tells what the compiler warns of.
+    pub(super) fn tell_warnings(&self) {
+        if let Some(PolicyText { source, warnings, .. }) = &self.text {
+            output::diagnostics(source, warnings);
+        }
+    }
+}
+
 /// The text of a policy that compiled.
 pub(super) struct PolicyText {
     pub(super) source: Source,
@@ -133,12 +152,19 @@ pub(super) struct PolicyText {
 /// Reads a policy's text and compiles it, or a compiled machine.
 pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
-    let source = match value {
-        PolicyFile::Machine(artifact) => {
-            return Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash });
-        }
-        PolicyFile::Text(source) => with_libraries(&source),
-    };
+    match value {
+        PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
+        PolicyFile::Text(source) => compiled(with_libraries(&source)),
+    }
+}
+
+/// A policy that is part of the program. It uses the standard library alone.
+pub(super) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, Failure> {
+    let source = Source::new(file.path, file.text);
+    compiled(policy::gather(&source, &mut |_| Err("it is no part of the program".to_owned())))
+}
+
+fn compiled(source: Source) -> Result<Loaded<Policy>, Failure> {
     let hash = Sha256::new().chain_update(&source.text);
     match compile_with_warnings(&source) {
         Ok(Compiled { artifact, tests, warnings }) => {

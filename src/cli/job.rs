@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::{Digest, Sha256};
@@ -20,7 +19,7 @@ use crate::study::{WorldKind, engine_hash, execute};
 use super::arguments::RunArguments;
 use super::exit::Failure;
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::output;
+use super::{file, output};
 
 /// A run that is ready to begin.
 pub(super) struct Job {
@@ -149,19 +148,9 @@ impl Job {
         run.map_err(|cause| Failure::Execute { scenario: self.path.clone(), cause })
     }
 
-    /// The result of its run; what is to be noticed about it goes to standard error.
+    /// The result of its run.
     pub(super) fn result(&self, run: &Run, score: &Score) -> RunResult {
-        let scenario = &self.identity.scenario;
-        if let Some(reason) = &run.reason {
-            output::message(format_args!("{scenario}: {}: {reason}", run.outcome));
-        }
-        if let Some(touched) = body_contact(run) {
-            let touched = touched.as_secs_f64();
-            output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
-        }
-        let result = RunResult::new(self.identity.clone(), run, score);
-        tell_failsafes(&result);
-        result
+        RunResult::new(self.identity.clone(), run, score)
     }
 
     /// Writes a picture and the result of its run to `stem` with their extensions.
@@ -174,10 +163,10 @@ impl Job {
     ) -> Result<(), Failure> {
         let picture_path = extended(stem, "svg");
         let drawn = picture(&self.scene, &result.policy, run, score);
-        std::fs::write(&picture_path, drawn).map_err(Failure::write(&picture_path))?;
+        file::write(&picture_path, drawn)?;
         let json_path = extended(stem, "json");
         let json = serde_json::to_string_pretty(result)? + "\n";
-        std::fs::write(&json_path, json).map_err(Failure::write(&json_path))
+        file::write(&json_path, json)
     }
 }
 
@@ -205,6 +194,19 @@ fn milliseconds(seconds: f64) -> u64 {
     milliseconds
 }
 
+/// Tells what is to be noticed about a run.
+pub(super) fn tell(result: &RunResult) {
+    let RunResult { scenario, outcome, reason, collisions, .. } = result;
+    if let Some(reason) = reason {
+        output::message(format_args!("{scenario}: {outcome}: {reason}"));
+    }
+    if collisions.count > 0 {
+        let touched = collisions.time_s;
+        output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
+    }
+    tell_failsafes(result);
+}
+
 /// Tells that states were left by their failsafe.
 fn tell_failsafes(result: &RunResult) {
     let Failsafes { count, first_s: Some(time), first_state: Some(state), first_cause: Some(cause) } =
@@ -217,10 +219,4 @@ fn tell_failsafes(result: &RunResult) {
         "{}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}",
         result.scenario
     ));
-}
-
-/// For how long the platform's body touched something; `None` if it did not.
-fn body_contact(run: &Run) -> Option<Duration> {
-    let ticks = run.trace.ticks.iter().filter(|tick| tick.body_touches).count();
-    (ticks > 0).then(|| Duration::from_secs_f64(ticks as f64 * run.trace.period))
 }

@@ -1,9 +1,13 @@
 //! The command line: arguments, printing, exit codes. The only room that prints.
 
 mod arguments;
+mod batch;
+mod bench;
 mod check;
+mod compare;
 mod compile;
 mod exit;
+mod file;
 mod fmt;
 mod graph;
 mod input;
@@ -26,6 +30,8 @@ pub fn main(arguments: &Arguments) -> Exit {
     let done = match &arguments.command {
         Command::Run(arguments) if arguments.watch => watch::watch(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),

@@ -7,7 +7,7 @@ use crate::score::Score;
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
-use super::job::{Files, Job, extended};
+use super::job::{Files, Job, extended, tell};
 use super::output;
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
@@ -39,6 +39,7 @@ pub(super) fn make_directory(directory: Option<&Path>) -> Result<(), Failure> {
 pub(super) fn finish(job: &Job, run: &crate::run::Run, directory: Option<&Path>) -> Result<(RunResult, bool), Failure> {
     let score = Score::new(run, &job.scene.truth);
     let result = job.result(run, &score);
+    tell(&result);
     let mut held = true;
     for expectation in &job.scene.expect {
         if let Some(violation) = expectation.violation(run.outcome, |metric| score.figure(metric)) {

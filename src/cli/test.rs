@@ -16,7 +16,7 @@ use super::arguments::TestArguments;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
 use super::job::{Job, with_settings};
-use super::{output, run};
+use super::{job, output, run};
 
 /// What came of one test.
 #[derive(Debug, Serialize)]
@@ -39,7 +39,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
         let wanted =
             |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
         let jobs = text.tests.iter().filter(wanted).map(|test| {
-            let job = job(path, &text, test, artifact.program.clone(), hash.clone(), arguments)?;
+            let job = job_of(path, &text, test, artifact.program.clone(), hash.clone(), arguments)?;
             Ok((test.clone(), job))
         });
         let jobs = jobs.collect::<Result<Vec<_>, Failure>>()?;
@@ -57,6 +57,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
             let run = job.execute_with_bar()?;
             let score = Score::new(&run, &job.scene.truth);
             let result = job.result(&run, &score);
+            job::tell(&result);
             let faults = violations(test, &job.program, &run, &score);
             if let Some(directory) = &arguments.out {
                 job.write_report(&directory.join(file_name(tested.len() + 1, &test.title)), &run, &score, &result)?;
@@ -83,7 +84,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
 }
 
 /// Prepares the run of a test.
-fn job(
+fn job_of(
     policy: &Path,
     text: &PolicyText,
     test: &PolicyTest,

@@ -10,5 +10,10 @@ mod table;
 
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub use picture::picture;
-pub use result::{ErrorMm, Failsafes, Hashes, Identity, MeanStd, Retrieval, RunResult, TickUs};
+pub use result::{
+    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanStd, MeanStdMax, Retrieval, RunResult, TickUs,
+};
 pub use table::table;
+
+pub(crate) use number::{mean_std, millimetres};
+pub(crate) use table::{NONE, ruled};

@@ -1,12 +1,12 @@
 //! Numbers for people.
 
 /// A length in mm with as many decimals as are worth reading, to a thousandth at most.
-pub(super) fn millimetres(value: f64) -> String {
+pub(crate) fn millimetres(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }
 
 /// A mean and a standard deviation in mm, with the decimals of the mean; the mean alone if there is no deviation.
-pub(super) fn mean_std(mean: f64, std: Option<f64>) -> String {
+pub(crate) fn mean_std(mean: f64, std: Option<f64>) -> String {
     let decimals = decimals(mean);
     let mean = format!("{mean:.decimals$}");
     std.map_or_else(|| mean.clone(), |std| format!("{mean} ± {std:.decimals$}"))

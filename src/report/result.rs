@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::{RetrievalFigures, Score, Spread};
+use crate::score::{CornerFigures, CornerSpread, RetrievalFigures, Score, Spread, StateShare};
 
 /// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
 ///
@@ -42,8 +42,19 @@ pub struct RunResult {
     pub failsafes: Failsafes,
     /// The retrievals of whiskers that had lost the object; `None` if the policy made no marks.
     pub retrieval: Option<Retrieval>,
-    /// Distance of the midpoints between two whiskers' tips from the axis of a tunnel; `None` outside of one.
+    /// Distance of the estimated midpoints from the axis of a tunnel; `None` outside of one.
     pub axis_mm: Option<MeanStd>,
+    /// Sharp corners of the reference contour; `None` if it has none.
+    pub corners: Option<Corners>,
+    /// Share of the time in each state that was active, 0 to 1; of nested states the innermost counts.
+    #[serde(serialize_with = "shares")]
+    pub states: Vec<StateShare>,
+    /// Length of the path of the platform's centre of mass.
+    pub path_m: f64,
+    /// That length over the reference contour's.
+    pub path_ratio: f64,
+    /// Contacts of the platform's body.
+    pub collisions: Collisions,
     /// Wall time of a control tick.
     pub tick_us: TickUs,
     /// What the run depends on.
@@ -117,6 +128,45 @@ pub struct Retrieval {
     pub time_s: MeanStd,
 }
 
+/// Sharp corners, which turn by more than 20°: how well they were found, and what they cost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Corners {
+    /// How many there are.
+    pub count: usize,
+    /// How many of them were traced on both sides; the figures are of these.
+    pub traced: usize,
+    /// Distance of the estimated corner, where lines through the tips of its two sides meet, from the exact one.
+    pub place_mm: MeanStdMax,
+    /// How much more or less than the exact corner the estimated one turns, without sign.
+    pub angle_rad: MeanStdMax,
+    /// Distance of the last tip before the whisker left the contour from the corner; `null` if it never did.
+    pub edge_mm: MeanStdMax,
+    /// Time from that tip to the first one when the whisker was back on the contour; 0 if it did not leave it.
+    pub time_s: MeanStdMax,
+    /// Path of the platform's centre of mass in that time.
+    pub path_m: MeanStdMax,
+}
+
+/// Contacts of the platform's body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Collisions {
+    /// How many separate ones.
+    pub count: usize,
+    /// Time in touch.
+    pub time_s: f64,
+}
+
+/// Mean, sample standard deviation and maximum, in the unit of the key that holds them.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct MeanStdMax {
+    /// Mean.
+    pub mean: Option<f64>,
+    /// Sample standard deviation.
+    pub std: Option<f64>,
+    /// Maximum.
+    pub max: Option<f64>,
+}
+
 /// Mean and sample standard deviation, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct MeanStd {
@@ -170,6 +220,11 @@ impl RunResult {
             failsafes: failsafes(&run.trace),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),
             axis_mm: score.axis.map(|axis| MeanStd::new(Some(axis), 1e3)),
+            corners: score.corners.as_ref().map(Corners::new),
+            states: score.states.clone(),
+            path_m: score.path,
+            path_ratio: score.path_ratio,
+            collisions: Collisions { count: score.collisions.count, time_s: score.collisions.time },
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
                 p99: latency.map(|latency| microseconds(latency.p99)),
@@ -191,6 +246,27 @@ impl Retrieval {
     }
 }
 
+impl Corners {
+    fn new(figures: &CornerFigures) -> Self {
+        Self {
+            count: figures.count,
+            traced: figures.traced,
+            place_mm: MeanStdMax::new(figures.place, 1e3),
+            angle_rad: MeanStdMax::new(figures.turn, 1.0),
+            edge_mm: MeanStdMax::new(figures.edge, 1e3),
+            time_s: MeanStdMax::new(figures.time, 1.0),
+            path_m: MeanStdMax::new(figures.path, 1.0),
+        }
+    }
+}
+
+impl MeanStdMax {
+    fn new(figure: Option<CornerSpread>, units: f64) -> Self {
+        let MeanStd { mean, std } = MeanStd::new(figure.map(|figure| figure.spread), units);
+        Self { mean, std, max: figure.map(|figure| figure.max * units) }
+    }
+}
+
 impl MeanStd {
     /// A spread (SI) in a unit of which there are `units` in the SI's.
     fn new(spread: Option<Spread>, units: f64) -> Self {
@@ -199,6 +275,10 @@ impl MeanStd {
             std: spread.and_then(|spread| spread.std).map(|std| std * units),
         }
     }
+}
+
+fn shares<S: Serializer>(states: &[StateShare], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(states.iter().map(|StateShare { state, share }| (state, share)))
 }
 
 fn failsafes(trace: &Trace) -> Failsafes {

@@ -2,55 +2,69 @@
 
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
-use super::RunResult;
 use super::number::{mean_std, millimetres};
+use super::{MeanStd, RunResult};
 
 /// What stands for a figure that a run does not have.
-const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
-/// A table of results, one line each: lengths in mm, times as their headings say. Plain text, as wide as it needs to be.
+/// A column: its heading, what it shows of a run, and whether it is there even if no run has it.
+type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
+
+/// The columns from left to right.
+const COLUMNS: [Column; 18] = [
+    ("scene", |result| Some(result.scenario.clone()), true),
+    ("policy", |result| Some(result.policy.clone()), true),
+    ("outcome", |result| Some(result.outcome.to_string()), true),
+    ("error mm", |result| Some(mean_std(result.error_mm.mean?, result.error_mm.std)), true),
+    ("p95", |result| result.error_mm.p95.map(millimetres), true),
+    ("max", |result| result.error_mm.max.map(millimetres), true),
+    ("coverage", |result| Some(format!("{:.1} %", 100.0 * result.coverage)), true),
+    ("Hausdorff mm", |result| result.hausdorff_mm.map(millimetres), true),
+    ("retrieval mm", |result| spread(result.retrieval?.radius_mm), false),
+    ("axis mm", |result| spread(result.axis_mm?), false),
+    ("corners", |result| result.corners.map(|corners| format!("{} of {}", corners.traced, corners.count)), false),
+    ("corner mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
+    ("corner s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
+    ("corner m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
+    ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
+    ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
+    ("× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),
+    ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
+];
+
+/// A table of results, one line each: lengths in mm, times as their headings say. What not every run has, such as corners,
+/// is there if one has it. Plain text, as wide as it needs to be.
 #[must_use]
 pub fn table(results: &[RunResult]) -> String {
-    let headings = [
-        "scene",
-        "policy",
-        "outcome",
-        "error mm",
-        "p95",
-        "max",
-        "coverage",
-        "Hausdorff mm",
-        "sim s",
-        "× real time",
-        "tick µs",
-    ];
+    let shown = |&&(_, text, always): &&Column| always || results.iter().any(|result| text(result).is_some());
+    let columns: Vec<_> = COLUMNS.iter().filter(shown).collect();
+    let lines = results.iter().map(|result| {
+        columns.iter().map(|(_, text, _)| text(result).unwrap_or_else(|| NONE.to_owned())).collect::<Vec<_>>()
+    });
+    ruled(columns.iter().map(|(heading, ..)| *heading), lines, 3)
+}
+
+/// A table with rules above, below and under its headings; all but the first `names` columns are figures, which stand to the
+/// right.
+pub(crate) fn ruled<'h>(
+    headings: impl IntoIterator<Item = &'h str>,
+    lines: impl IntoIterator<Item = Vec<String>>,
+    names: usize,
+) -> String {
     let mut table = Table::new();
     let rule = LineStyle::none().fill('─').junction('─');
     let style = TableStyle::new().top_border(rule).header_separator(rule).bottom_border(rule);
     table.load_style(style).set_header(headings);
-    for result in results {
-        table.add_row(line(result).map(Cell::new));
+    for line in lines {
+        table.add_row(line.into_iter().map(Cell::new));
     }
-    for column in table.column_iter_mut().skip(3) {
+    for column in table.column_iter_mut().skip(names) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.trim_fmt()
 }
 
-fn line(result: &RunResult) -> [String; 11] {
-    let error = &result.error_mm;
-    let or_none = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
-    [
-        result.scenario.clone(),
-        result.policy.clone(),
-        result.outcome.to_string(),
-        or_none(error.mean.map(|mean| mean_std(mean, error.std))),
-        or_none(error.p95.map(millimetres)),
-        or_none(error.max.map(millimetres)),
-        format!("{:.1} %", 100.0 * result.coverage),
-        or_none(result.hausdorff_mm.map(millimetres)),
-        format!("{:.1}", result.sim_s),
-        or_none(result.realtime.map(|realtime| format!("{realtime:.0}"))),
-        or_none(result.tick_us.mean.map(|mean| format!("{mean:.1}"))),
-    ]
+fn spread(figure: MeanStd) -> Option<String> {
+    Some(mean_std(figure.mean?, figure.std))
 }

@@ -51,6 +51,7 @@ pub fn drive(
         period,
         ticks: Vec::with_capacity(most_ticks.min(ROOM)),
         marks: Vec::new(),
+        crashed: false,
     };
     let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
     let mut watches = [LoopWatch::default(); MAX_WHISKERS];
@@ -61,7 +62,8 @@ pub fn drive(
         let samples = match world.advance(&command) {
             Ok(samples) => samples,
             Err(fault) => {
-                let outcome = if let Fault::Crash { .. } = fault { Outcome::Failed } else { Outcome::Diverged };
+                trace.crashed = matches!(fault, Fault::Crash { .. });
+                let outcome = if trace.crashed { Outcome::Failed } else { Outcome::Diverged };
                 break (outcome, Some(fault.to_string()));
             }
         };

@@ -17,6 +17,8 @@ pub struct Trace {
     pub ticks: Vec<TickRecord>,
     /// What the policy marked, in the order of time; of one tick, whisker by whisker.
     pub marks: Vec<MarkRecord>,
+    /// Whether the run ended because the platform's body was driven into something, after the last tick.
+    pub crashed: bool,
 }
 
 /// One mark.

@@ -29,6 +29,18 @@ pub enum Metric {
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
     Coverage,
+    /// Mean distance between where whiskers lost the object and where they found it again (m).
+    RetrievalRadius,
+    /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
+    AxisMean,
+    /// The greatest distance of an estimated corner from the exact one (m).
+    CornerPlaceMax,
+    /// The longest time that a corner cost (s).
+    CornerTimeMax,
+    /// The longest path of the platform that a corner cost (m).
+    CornerPathMax,
+    /// Number of contacts of the platform's body.
+    Collisions,
 }
 
 /// One thing that must hold at the end of a run.
@@ -90,7 +102,19 @@ impl fmt::Display for Outcome {
 
 impl Metric {
     /// Every metric.
-    pub const ALL: [Self; 5] = [Self::ErrorMean, Self::ErrorP95, Self::ErrorMax, Self::Hausdorff, Self::Coverage];
+    pub const ALL: [Self; 11] = [
+        Self::ErrorMean,
+        Self::ErrorP95,
+        Self::ErrorMax,
+        Self::Hausdorff,
+        Self::Coverage,
+        Self::RetrievalRadius,
+        Self::AxisMean,
+        Self::CornerPlaceMax,
+        Self::CornerTimeMax,
+        Self::CornerPathMax,
+        Self::Collisions,
+    ];
 
     /// The name in scenarios.
     #[must_use]
@@ -101,13 +125,23 @@ impl Metric {
             Self::ErrorMax => "error_max",
             Self::Hausdorff => "hausdorff",
             Self::Coverage => "coverage",
+            Self::RetrievalRadius => "retrieval_radius",
+            Self::AxisMean => "axis_mean",
+            Self::CornerPlaceMax => "corner_place_max",
+            Self::CornerTimeMax => "corner_time_max",
+            Self::CornerPathMax => "corner_path_max",
+            Self::Collisions => "collisions",
         }
     }
 
     /// What it measures.
     #[must_use]
     pub fn dimension(self) -> Dimension {
-        if self == Self::Coverage { Dimension::NUMBER } else { Dimension::LENGTH }
+        match self {
+            Self::Coverage | Self::Collisions => Dimension::NUMBER,
+            Self::CornerTimeMax => Dimension::TIME,
+            _ => Dimension::LENGTH,
+        }
     }
 
     /// Whether it is better the larger it is, so that its bound is one from below.
@@ -120,7 +154,7 @@ impl Metric {
         if self == Self::Coverage {
             format!("{} %", format_si(value * 100.0, Dimension::NUMBER))
         } else {
-            format_si(value, Dimension::LENGTH)
+            format_si(value, self.dimension())
         }
     }
 }

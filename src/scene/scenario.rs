@@ -1,5 +1,6 @@
 //! A scenario as a whole.
 
+use super::clearance::overlap;
 use super::{Expectation, Solid, Stop, Truth, yaml};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::geometry::Pose;
@@ -52,6 +53,12 @@ impl Scene {
     /// ```
     pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
         yaml::read(source)
+    }
+
+    /// Whether the rig, its whiskers straight, would stand clear of all solids if it started at `start`.
+    #[must_use]
+    pub fn is_clear_at(&self, start: &Pose) -> bool {
+        self.solids.iter().all(|solid| overlap(&self.rig, start, solid.outline()).is_none())
     }
 }
 

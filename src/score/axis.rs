@@ -1,20 +1,45 @@
-//! How far a run kept from the middle of a tunnel.
+//! How well a run kept to the middle of a tunnel.
+
+use crate::geometry::{ContourSet, Point2, Vector2};
+use crate::run::{TickRecord, Trace};
 
 use super::tip::is_finite;
 use super::{Spread, Statistics};
-use crate::geometry::{ContourSet, Point2};
-use crate::run::Trace;
 
-/// The thesis's axis error (section 5.3) in metres: the distance from the tunnel's `axis` of the estimated midpoints. There is
-/// one for every tick in which just two whiskers recorded a tip, in the middle between the two. `None` if there is none.
+/// How far the estimated midpoints of a run are from the axis of the tunnel (m): the thesis's axis error (section 5.3).
+///
+/// A midpoint is half-way between the tips that a tick recorded on the left and on the right of the body, of several on a
+/// side between their means. So ticks count in which both walls are recorded, from the first contact with both on: the
+/// transition at the start is part of the thesis's figure. Midpoints before the beginning and beyond the end of the axis
+/// do not count.
+///
+/// `None` if there is no midpoint that counts.
 #[must_use]
 pub fn axis_error(trace: &Trace, axis: &ContourSet) -> Option<Spread> {
-    let midpoint = |tips: &[Option<Point2>]| {
-        let mut tips = tips.iter().flatten().filter(|tip| is_finite(tip));
-        let (first, second) = (tips.next()?, tips.next()?);
-        tips.next().is_none().then(|| nalgebra::center(first, second))
-    };
-    let midpoints = trace.ticks.iter().filter_map(|tick| midpoint(&tick.tips));
-    let statistics = Statistics::of(midpoints.map(|midpoint| axis.nearest(midpoint).distance).collect())?;
-    Some(Spread { mean: statistics.mean(), std: statistics.std() })
+    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(|midpoint| distance(midpoint, axis));
+    Statistics::of(errors.collect()).map(|errors| Spread { mean: errors.mean(), std: errors.std() })
+}
+
+/// The point half-way between what a tick recorded on either side of the body (m, world frame).
+fn midpoint(tick: &TickRecord) -> Option<Point2> {
+    if !tick.body.is_finite() {
+        return None;
+    }
+    let mut sides = [(Vector2::zeros(), 0.0); 2];
+    for tip_world in tick.tips.iter().flatten().filter(|tip| is_finite(tip)) {
+        let is_left = tick.body.point_from_world(*tip_world).y > 0.0;
+        let (sum, count) = &mut sides[usize::from(is_left)];
+        *sum += tip_world.coords;
+        *count += 1.0;
+    }
+    let [(right, of_right), (left, of_left)] = sides;
+    (of_right > 0.0 && of_left > 0.0).then(|| Point2::from(0.5 * (right / of_right + left / of_left)))
+}
+
+/// The distance (m) of a midpoint from the nearest axis; `None` if it is beyond the end of it.
+fn distance(midpoint: Point2, axis: &ContourSet) -> Option<f64> {
+    let nearest = axis.contours().map(|axis| (axis, axis.nearest(midpoint)));
+    let (axis, nearest) = nearest.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance))?;
+    let is_inside = nearest.arc_length > 0.0 && nearest.arc_length < axis.length();
+    (axis.is_closed() || is_inside).then_some(nearest.distance)
 }

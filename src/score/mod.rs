@@ -4,25 +4,35 @@
 //! recorded.
 
 mod axis;
+mod body_path;
+mod collision;
+mod corner;
 mod coverage;
 mod error;
 mod estimate;
+mod excursion;
 mod hausdorff;
 mod latency;
 mod lipschitz;
 mod retrieval;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the room's name")]
 mod score;
+mod state_share;
 mod statistics;
 mod tip;
 
 pub use axis::axis_error;
+pub use body_path::body_path;
+pub use collision::Collisions;
+pub use corner::{CornerFigures, CornerSpread, SHARP, SIDE, TracedCorner, traced_corners};
 pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage, traced};
 pub use error::ErrorFigures;
 pub use estimate::{Estimate, LONGEST_BREAK, LONGEST_STEP};
+pub use excursion::{Excursion, excursions};
 pub use hausdorff::{HAUSDORFF_TOLERANCE, hausdorff};
 pub use latency::Latency;
 pub use retrieval::{MarkPlace, Retrieval, RetrievalFigures, Spread, mark_places, retrievals};
 pub use score::Score;
+pub use state_share::{StateShare, state_shares};
 pub use statistics::Statistics;
 pub use tip::{Tip, tips};

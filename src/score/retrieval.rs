@@ -5,8 +5,8 @@ use crate::machine::Mark;
 use crate::run::{MarkRecord, Trace};
 use crate::signal::MAX_WHISKERS;
 
-use super::Statistics;
 use super::tip::is_finite;
+use super::{Statistics, body_path};
 
 /// One retrieval: from where a whisker lost the object to where it found it again (the thesis's section 5.2).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,15 +102,12 @@ pub fn retrievals(trace: &Trace) -> Vec<Retrieval> {
 }
 
 fn retrieval(trace: &Trace, edge: &MarkPlace, found: &MarkPlace) -> Retrieval {
-    let ticks = &trace.ticks[edge.tick..=found.tick];
-    // A tick without a pose is left out: the path goes straight across it.
-    let way: Vec<Point2> = ticks.iter().filter(|tick| tick.body.is_finite()).map(|tick| tick.body.position).collect();
     Retrieval {
         whisker: edge.whisker,
         edge_world: edge.point_world,
         retrieved_world: found.point_world,
         radius: (found.point_world - edge.point_world).norm(),
-        distance: way.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum(),
+        distance: body_path(&trace.ticks[edge.tick..=found.tick]),
         time: trace.ticks[found.tick].time - trace.ticks[edge.tick].time,
     }
 }

@@ -1,11 +1,14 @@
 //! All figures of a run.
 
-use super::{ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, axis_error, coverage, hausdorff, tips};
+use super::{
+    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, StateShare, axis_error,
+    body_path, coverage, hausdorff, state_shares, tips,
+};
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
 
 /// All figures of a run; lengths in metres, times in seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Score {
     /// How far the tip estimates are from what is there; `None` if no tip was recorded.
     pub error: Option<ErrorFigures>,
@@ -16,8 +19,18 @@ pub struct Score {
     pub hausdorff: Option<f64>,
     /// Retrievals; `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
-    /// The [distance of the midpoints from a tunnel's axis](axis_error); `None` without a tunnel or midpoints.
+    /// [Distance of the estimated midpoints from the tunnel's axis](axis_error); `None` without a tunnel.
     pub axis: Option<Spread>,
+    /// Corners; `None` if the reference has no sharp one.
+    pub corners: Option<CornerFigures>,
+    /// What the time went into.
+    pub states: Vec<StateShare>,
+    /// Length of the path of the platform's centre of mass (m).
+    pub path: f64,
+    /// That length over the reference's.
+    pub path_ratio: f64,
+    /// What the platform's body ran into.
+    pub collisions: Collisions,
     /// Wall time of the control ticks; `None` if there was none.
     pub latency: Option<Latency>,
 }
@@ -27,12 +40,18 @@ impl Score {
     #[must_use]
     pub fn new(run: &Run, truth: &Truth) -> Self {
         let estimate = Estimate::new(&run.trace);
+        let path = body_path(&run.trace.ticks);
         Self {
             error: ErrorFigures::of(&tips(&run.trace, &truth.surfaces)),
             coverage: coverage(&estimate, &truth.reference),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
             axis: truth.axis.as_ref().and_then(|axis| axis_error(&run.trace, axis)),
+            corners: CornerFigures::new(&run.trace, &truth.reference),
+            states: state_shares(&run.trace),
+            path,
+            path_ratio: path / truth.reference.length(),
+            collisions: Collisions::of(&run.trace),
             latency: Latency::of(&run.tick_times),
         }
     }
@@ -46,6 +65,12 @@ impl Score {
             Metric::ErrorMax => self.error.map(|error| error.max),
             Metric::Hausdorff => self.hausdorff,
             Metric::Coverage => Some(self.coverage),
+            Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
+            Metric::AxisMean => self.axis.map(|axis| axis.mean),
+            Metric::CornerPlaceMax => self.corners?.place.map(|place| place.max),
+            Metric::CornerTimeMax => self.corners?.time.map(|time| time.max),
+            Metric::CornerPathMax => self.corners?.path.map(|path| path.max),
+            Metric::Collisions => Some(self.collisions.count as f64),
         }
     }
 }

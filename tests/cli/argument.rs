@@ -5,7 +5,7 @@ use super::program::{bad, stderr, stdout, vibrissa};
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
+    for command in ["run", "bench", "compare", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));
@@ -39,6 +39,16 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, disk], "both called `disk`"),
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
+        (vec!["bench", "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
+        (vec!["bench", "--jobs", "0"], "--jobs"),
+        (vec!["compare", "policies/thesis.fsm"], "1 policy is given; give two or more"),
+        (vec!["compare", disk], "0 policies are given"),
+        (vec!["compare", "policies/thesis.fsm", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
+        (vec!["compare", "policies/thesis.fsm", "policies/bang.fsm", "a.yaml"], "cannot read a.yaml"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter", "5 deg"], "a length"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter=-5 mm"], "not negative"),
+        (vec!["compare", "a.fsm", "b.fsm", "--seeds", "0"], "--seeds"),
         (vec!["fmt"], "POLICY"),
         (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
@@ -54,7 +64,7 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
 
 #[test]
 fn every_command_that_writes_takes_the_place_alike() {
-    for command in ["run", "compile", "graph"] {
+    for command in ["run", "bench", "compile", "graph"] {
         assert!(stdout(&vibrissa(&[command, "--help"])).contains("-o, --out <"), "{command}");
     }
 }

@@ -64,6 +64,15 @@ mod with_simulation {
             "failsafes.first_state",
             "failsafes.first_cause",
             "axis_mm",
+            "corners",
+            "states",
+            "states.Exploring",
+            "states.Swiping",
+            "path_m",
+            "path_ratio",
+            "collisions",
+            "collisions.count",
+            "collisions.time_s",
             "tick_us",
             "tick_us.mean",
             "tick_us.p99",
@@ -98,6 +107,60 @@ mod with_simulation {
         let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "limit=300 urad"]);
         assert_eq!(output.status.code(), Some(1));
         assert!(stderr(&output).contains("the outcome is failed, expected completed"), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn the_bench_runs_its_scenes_and_reports_them() {
+        let out = directory("bench");
+        let slow = directory("bench-policy").join("slow.machine").display().to_string();
+        let compile = ["compile", "policies/thesis.fsm", "-o", &slow, "--set", "speed=60 mm/s"];
+        assert_eq!(vibrissa(&compile).status.code(), Some(0));
+        let shown = out.display().to_string();
+        let output = vibrissa(&["bench", "--policy", &slow, "--out", &shown, "--json", "--jobs", "2"]);
+        let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let rows = rows.as_array().unwrap();
+        let passed = rows.iter().all(|row| row["passed"] == true);
+        assert_eq!(output.status.code(), Some(i32::from(!passed)), "{}", stderr(&output));
+        let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
+        assert_eq!(
+            (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),
+            (&0.8.into(), &"better".into())
+        );
+        let mut files: Vec<_> =
+            out.read_dir().unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+        files.sort();
+        assert_eq!(files.len(), rows.len() + 2, "{files:?}");
+        assert!(files.contains(&"disk-thesis.svg".to_owned()) && files.contains(&"index.html".to_owned()));
+        let written = std::fs::read_to_string(out.join("results.json")).unwrap();
+        assert_eq!(&serde_json::from_str::<Vec<Value>>(&written).unwrap(), rows);
+    }
+
+    #[test]
+    fn compare_does_the_same_runs_under_every_policy_on_however_many_threads() {
+        let compared = |jobs: &str| {
+            let disk = "scenarios/disk.yaml";
+            let jitter = ["--seeds", "3", "--jitter", "10 mm", "--jitter-heading", "2 deg"];
+            let arguments = ["compare", "policies/bang.fsm", "policies/thesis.fsm", disk, "--json", "--jobs", jobs];
+            let output = vibrissa(&[&arguments[..], &jitter].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            stdout(&output)
+        };
+        let text = compared("2");
+        assert_eq!(text, compared("1"));
+        let comparison: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(comparison["policies"][0]["runs"], 3);
+        let figures = comparison["figures"].as_array().unwrap();
+        let time = figures.iter().find(|figure| figure["figure"] == "sim_s").unwrap();
+        assert_eq!((&time["policy"], &time["outlook"]), (&"policies/thesis.fsm".into(), &"better".into()));
+    }
+
+    #[test]
+    fn compare_does_a_run_once_that_no_seed_can_change() {
+        let output =
+            vibrissa(&["compare", "policies/thesis.fsm", "policies/thesis.fsm", "scenarios/disk.yaml", "--seeds", "9"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stderr(&output).contains("all seeds are the same run"), "{}", stderr(&output));
+        assert!(stdout(&output).contains("the same"), "{}", stdout(&output));
     }
 
     #[test]

@@ -43,6 +43,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             period: PERIOD,
             ticks: ticks.collect(),
             marks: vec![],
+            crashed: false,
         },
         wall: Duration::from_millis(8),
         tick_times: (0..count).map(|index| Duration::from_nanos(1000 + index as u64)).collect(),

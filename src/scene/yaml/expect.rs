@@ -5,7 +5,6 @@ use super::key::Key;
 use super::node::Entry;
 use super::reader::Reader;
 use crate::scene::{Expectation, Metric, Outcome};
-use crate::units::Dimension;
 
 /// What a scenario expects that does not say: that its runs complete.
 pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
@@ -21,11 +20,14 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
         expectations.push(COMPLETION);
     }
     for metric in Metric::ALL {
-        let key = if metric.dimension() == Dimension::NUMBER {
-            Key::new(metric.name(), metric.dimension(), (0.0, 1.0), "95 %")
-        } else {
-            Key::new(metric.name(), metric.dimension(), (1e-9, 1.0), "0.8 mm")
+        let (range, example) = match metric {
+            Metric::Coverage => ((0.0, 1.0), "95 %"),
+            Metric::Collisions => ((0.0, 1e6), "0"),
+            Metric::CornerTimeMax => ((1e-3, 86_400.0), "3 s"),
+            Metric::CornerPathMax => ((1e-9, 1e3), "15 cm"),
+            _ => ((1e-9, 1.0), "0.8 mm"),
         };
+        let key = Key::new(metric.name(), metric.dimension(), range, example);
         let mut bound = f64::NAN;
         if fields.set(reader, &key, &mut bound).is_some() {
             expectations.push(Expectation::Bound { metric, bound });

@@ -1,0 +1,49 @@
+//! Many runs at once.
+
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::report::{RunResult, picture};
+use crate::score::Score;
+use crate::study::{in_parallel, processors};
+
+use super::exit::Failure;
+use super::job::Job;
+
+/// What is kept of a run: its trace is large.
+pub(super) struct Finished {
+    pub(super) result: RunResult,
+    /// Its picture, if one was asked for.
+    pub(super) picture: Option<String>,
+}
+
+/// Runs all jobs, on so many threads or on as many as there are processors, and gives what came of them in their order. A bar
+/// on standard error shows how many are done, if that is a terminal.
+pub(super) fn run_all(
+    jobs: &[Job],
+    threads: Option<NonZeroUsize>,
+    with_pictures: bool,
+) -> Result<Vec<Finished>, Failure> {
+    let bar = ProgressBar::new(jobs.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
+        bar.set_style(style);
+    }
+    let run = |job: &Job| {
+        let run = job.execute(|_| ControlFlow::Continue(()))?;
+        let score = Score::new(&run, &job.scene.truth);
+        let result = job.result(&run, &score);
+        let picture = with_pictures.then(|| picture(&job.scene, &result.policy, &run, &score));
+        Ok(Finished { result, picture })
+    };
+    let done = |finished: &Result<Finished, Failure>| {
+        if let Ok(Finished { result, .. }) = finished {
+            bar.set_message(format!("{}: {}", result.scenario, result.outcome));
+        }
+        bar.inc(1);
+    };
+    let finished = in_parallel(jobs, threads.unwrap_or_else(processors), run, done);
+    bar.finish_and_clear();
+    finished.into_iter().collect()
+}

@@ -1,0 +1,252 @@
+//! How well corners were found, and what they cost.
+
+use std::f64::consts::PI;
+
+use crate::geometry::{Contour, ContourSet, Corner, Point2, Vector2, perpendicular, rotate, turn_between};
+use crate::run::Trace;
+
+use super::tip::{valid_tips, whiskers};
+use super::{Spread, Statistics, excursions};
+
+/// A corner is sharp if the outline's direction jumps by more than this (rad), 20°.
+pub const SHARP: f64 = PI / 9.0;
+
+/// The tips that show a side of a corner are those between these distances from it along the outline (m). Nearer to it the
+/// two sides of an estimate that is off by millimetres cannot be told apart.
+pub const SIDE: (f64, f64) = (0.005, 0.03);
+
+/// A short side counts from this share of its length on, and ends as far from its other corner.
+const SHORT_SIDE: f64 = 0.2;
+
+/// The tips that show a side are at least this many, and reach over at least this share of it.
+const LEAST_TIPS: usize = 3;
+const LEAST_REACH: f64 = 0.3;
+
+/// Of more tips than this on a side, only as many are taken: the work grows with their square.
+const MOST_TIPS: usize = 300;
+
+/// Two lines at a smaller angle (rad) do not meet in a definite place.
+const LEAST_ANGLE: f64 = 0.1;
+
+/// A whisker that leaves the outline within this distance of a corner (m) does so because of it.
+const CLAIM: f64 = 0.03;
+
+/// A sharp corner of the exact outline that was traced on both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedCorner {
+    /// The exact corner.
+    pub corner: Corner,
+    /// Where the estimate has it (m, world frame): where its two sides meet.
+    ///
+    /// A side is a line through the tips recorded [near the corner](SIDE), by the median of the slopes of all pairs. Where the outline is curved the
+    /// line is that of the tips' offsets from it: what is fitted is how far the estimate is off and how it is turned.
+    pub place_world: Point2,
+    /// How much more than the exact corner the estimated one turns (rad), in the direction of the exact turn.
+    pub turn_error: f64,
+    /// The distance (m) from the corner of the first edge point that belongs to it, the last tip before the whisker left the
+    /// outline; `None` if it did not leave it there.
+    pub edge: Option<f64>,
+    /// Time (s) in which the whisker, having left the outline at this corner, was not back on it; 0 if it did not leave it.
+    pub time: f64,
+    /// Path of the platform's centre of mass in that time (m).
+    pub path: f64,
+}
+
+impl TracedCorner {
+    /// The distance (m) between the estimated and the exact corner.
+    #[must_use]
+    pub fn place_error(&self) -> f64 {
+        (self.place_world - self.corner.point).norm()
+    }
+}
+
+/// The sharp corners of `outlines` that a run traced on both sides, in the order of the outlines; with the number of all of
+/// them. The tips of all whiskers count, and every time the run passed.
+#[must_use]
+pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner>, usize) {
+    let outlines: Vec<&Contour> = outlines.contours().collect();
+    let sharp: Vec<Vec<Corner>> = outlines.iter().map(|outline| sharp(outline)).collect();
+    let count = sharp.iter().map(Vec::len).sum();
+    if count == 0 {
+        return (Vec::new(), 0);
+    }
+    let felt = felt(trace, &outlines);
+    let all =
+        sharp.iter().enumerate().flat_map(|(outline, corners)| corners.iter().map(move |corner| (outline, *corner)));
+    let all: Vec<(usize, Corner)> = all.collect();
+    let costs = costs(trace, &all);
+    let traced = all.iter().zip(costs).filter_map(|(&(index, corner), Cost { edge, time, path })| {
+        let (place_world, turn_error) = reconstructed(outlines[index], &sharp[index], &corner, &felt[index])?;
+        Some(TracedCorner { corner, place_world, turn_error, edge, time, path })
+    });
+    (traced.collect(), count)
+}
+
+/// What a corner cost, as [`TracedCorner`] has it.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    edge: Option<f64>,
+    time: f64,
+    path: f64,
+}
+
+/// What every corner cost: an excursion is put down to the corner nearest to where it began.
+fn costs(trace: &Trace, corners: &[(usize, Corner)]) -> Vec<Cost> {
+    let mut costs = vec![Cost::default(); corners.len()];
+    for excursion in excursions(trace) {
+        let from_edge = |(_, corner): &(usize, Corner)| (corner.point - excursion.edge_world).norm();
+        let nearest = corners.iter().map(from_edge).enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
+        if let Some((index, distance)) = nearest.filter(|&(_, distance)| distance <= CLAIM) {
+            let cost = &mut costs[index];
+            cost.edge = cost.edge.or(Some(distance));
+            cost.time += excursion.time;
+            cost.path += excursion.path;
+        }
+    }
+    costs
+}
+
+fn sharp(outline: &Contour) -> Vec<Corner> {
+    outline.corners().into_iter().filter(|corner| corner.turn.abs() > SHARP).collect()
+}
+
+/// A tip as its nearest outline has it: arc length (m), and offset to the right (m).
+type Felt = (f64, f64);
+
+/// The tips of a run by their nearest outline.
+fn felt(trace: &Trace, outlines: &[&Contour]) -> Vec<Vec<Felt>> {
+    let mut felt = vec![Vec::new(); outlines.len()];
+    for (_, tip) in whiskers(trace).flat_map(|whisker| valid_tips(trace, whisker)) {
+        let nearest = outlines.iter().map(|outline| outline.nearest(tip)).enumerate();
+        if let Some((index, nearest)) = nearest.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance)) {
+            felt[index].push((nearest.arc_length, outlines[index].signed_distance(tip)));
+        }
+    }
+    felt
+}
+
+/// Where the estimate has a corner, and how much more it turns there; `None` if it was not traced on both sides.
+fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[Felt]) -> Option<(Point2, f64)> {
+    let outgoing = outline.tangent_at(corner.arc_length);
+    let incoming = rotate(outgoing, -corner.turn);
+    let before = Line::fitted(outline, sharp, corner, felt, incoming, -1.0)?;
+    let after = Line::fitted(outline, sharp, corner, felt, outgoing, 1.0)?;
+    let turn = before.direction.perp(&after.direction).atan2(before.direction.dot(&after.direction));
+    let sine = turn.sin();
+    if sine.abs() < LEAST_ANGLE.sin() {
+        return None;
+    }
+    let along = (after.point - before.point).perp(&after.direction) / sine;
+    let extra = turn_between(corner.turn, turn);
+    Some((before.point + along * before.direction, extra * corner.turn.signum()))
+}
+
+/// A side of a corner, as estimated.
+struct Line {
+    point: Point2,
+    /// A unit vector.
+    direction: Vector2,
+}
+
+impl Line {
+    /// The side before (`way` −1) or after (+1) a corner, where the exact outline goes along `tangent`.
+    fn fitted(
+        outline: &Contour,
+        sharp: &[Corner],
+        corner: &Corner,
+        felt: &[Felt],
+        tangent: Vector2,
+        way: f64,
+    ) -> Option<Self> {
+        // Arc length from the corner on, in the direction of the side.
+        let from_corner = |arc_length: f64| {
+            let along = way * (arc_length - corner.arc_length);
+            if outline.is_closed() { along.rem_euclid(outline.length()) } else { along }
+        };
+        let end = if outline.is_closed() || way > 0.0 { outline.length() } else { 0.0 };
+        let to_end = if outline.is_closed() { end } else { from_corner(end) };
+        let to_next = sharp.iter().map(|next| from_corner(next.arc_length)).filter(|&along| along > 0.0);
+        let length = to_next.fold(to_end, f64::min);
+        let nearest = SIDE.0.min(SHORT_SIDE * length);
+        let farthest = SIDE.1.min(length - nearest);
+        let (mut along, mut off) = (Vec::new(), Vec::new());
+        for &(arc_length, offset) in felt {
+            let distance = from_corner(arc_length);
+            if (nearest..=farthest).contains(&distance) {
+                along.push(way * distance);
+                off.push(offset);
+            }
+        }
+        let (least, most) = along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &s| (a.min(s), b.max(s)));
+        if along.len() < LEAST_TIPS || most - least < LEAST_REACH * (farthest - nearest) {
+            return None;
+        }
+        let (offset, slope) = line(&along, &off)?;
+        let right = -perpendicular(tangent);
+        Some(Self { point: corner.point + offset * right, direction: (tangent + slope * right).normalize() })
+    }
+}
+
+/// Value at 0 and slope of the line through (`x`, `y`), by the medians of the pairs' slopes and of the values less it (Theil
+/// and Sen): a few tips that are far off, which the error tells of, do not turn it. `None` without two different `x`.
+fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
+    let stride = x.len() / MOST_TIPS + 1;
+    let points: Vec<_> = x.iter().zip(y).step_by(stride).collect();
+    let slope = |(index, (x, y)): (usize, &(&f64, &f64))| {
+        let slopes = points[..index].iter().map(|(other_x, other_y)| (*y - *other_y) / (*x - *other_x));
+        slopes.filter(|slope| slope.is_finite()).collect::<Vec<_>>()
+    };
+    let slope = Statistics::of(points.iter().enumerate().flat_map(slope).collect())?.percentile(50.0);
+    let rest = Statistics::of(points.iter().map(|(x, y)| *y - slope * *x).collect())?;
+    Some((rest.percentile(50.0), slope))
+}
+
+/// The figures of all corners of a run; those of no corner are `None`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerFigures {
+    /// How many sharp corners there are.
+    pub count: usize,
+    /// How many of them were traced on both sides.
+    pub traced: usize,
+    /// Distances of the estimated corners from the exact ones (m).
+    pub place: Option<CornerSpread>,
+    /// How much more or less than the exact corners the estimated ones turn (rad), without sign.
+    pub turn: Option<CornerSpread>,
+    /// Distances of the edge points from their corners (m), of corners at which a whisker left the outline.
+    pub edge: Option<CornerSpread>,
+    /// Times that corners cost (s).
+    pub time: Option<CornerSpread>,
+    /// Paths of the platform that they cost (m).
+    pub path: Option<CornerSpread>,
+}
+
+/// A figure over all corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerSpread {
+    /// Mean and standard deviation.
+    pub spread: Spread,
+    /// The worst.
+    pub max: f64,
+}
+
+impl CornerFigures {
+    /// The figures of a run; `None` if the outlines have no sharp corner.
+    #[must_use]
+    pub fn new(trace: &Trace, outlines: &ContourSet) -> Option<Self> {
+        let (traced, count) = traced_corners(trace, outlines);
+        let figure = |of: fn(&TracedCorner) -> Option<f64>| {
+            let statistics = Statistics::of(traced.iter().filter_map(of).collect())?;
+            let spread = Spread { mean: statistics.mean(), std: statistics.std() };
+            Some(CornerSpread { spread, max: statistics.max() })
+        };
+        (count > 0).then(|| Self {
+            count,
+            traced: traced.len(),
+            place: figure(|corner| Some(corner.place_error())),
+            turn: figure(|corner| Some(corner.turn_error.abs())),
+            edge: figure(|corner| corner.edge),
+            time: figure(|corner| Some(corner.time)),
+            path: figure(|corner| Some(corner.path)),
+        })
+    }
+}

@@ -1,0 +1,63 @@
+//! What the thesis reports of its ten scenes.
+
+use serde::Serialize;
+
+/// A mean and a sample standard deviation (mm), as far as the thesis gives them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reported {
+    /// Mean.
+    pub mean: f64,
+    /// Sample standard deviation.
+    pub std: Option<f64>,
+}
+
+/// What the thesis reports of a scene (sections 5.1 to 5.3).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ThesisFigures {
+    /// Name of the scenario.
+    #[serde(skip)]
+    pub scenario: &'static str,
+    /// Mean absolute error of the contour.
+    pub error_mm: Reported,
+    /// Retrieval radius; `None` where nothing had to be retrieved.
+    pub radius_mm: Option<Reported>,
+    /// Axis error; `None` outside of tunnels.
+    pub axis_mm: Option<Reported>,
+}
+
+/// The ten scenes in the thesis's order.
+pub const THESIS: [ThesisFigures; 10] = [
+    swiped("disk", (0.8, 0.5)),
+    swiped("rounded-rectangle", (0.8, 0.6)),
+    // "About 0.8", with no deviation.
+    ThesisFigures { error_mm: Reported { mean: 0.8, std: None }, ..swiped("complex", (0.8, 0.0)) },
+    retrieved("octagon", (1.1, 0.8), (20.9, 1.7)),
+    retrieved("box", (0.7, 0.4), (11.2, 1.9)),
+    retrieved("prism", (0.8, 0.6), (8.8, 0.6)),
+    retrieved("wall", (1.1, 0.6), (10.2, 0.7)),
+    tunnelled("smooth-tunnel", (1.3, 1.6), (4.0, 4.0)),
+    tunnelled("zigzag-tunnel", (2.0, 2.0), (9.0, 10.0)),
+    tunnelled("round-tunnel", (3.0, 2.0), (5.0, 6.0)),
+];
+
+/// What the thesis reports of the scene with this name; `None` if it is not one of the thesis's.
+#[must_use]
+pub fn thesis_figures(scenario: &str) -> Option<&'static ThesisFigures> {
+    THESIS.iter().find(|figures| figures.scenario == scenario)
+}
+
+const fn swiped(scenario: &'static str, error: (f64, f64)) -> ThesisFigures {
+    ThesisFigures { scenario, error_mm: reported(error), radius_mm: None, axis_mm: None }
+}
+
+const fn retrieved(scenario: &'static str, error: (f64, f64), radius: (f64, f64)) -> ThesisFigures {
+    ThesisFigures { radius_mm: Some(reported(radius)), ..swiped(scenario, error) }
+}
+
+const fn tunnelled(scenario: &'static str, error: (f64, f64), axis: (f64, f64)) -> ThesisFigures {
+    ThesisFigures { axis_mm: Some(reported(axis)), ..swiped(scenario, error) }
+}
+
+const fn reported((mean, std): (f64, f64)) -> Reported {
+    Reported { mean, std: Some(std) }
+}

@@ -1,0 +1,77 @@
+//! All figures of several policies over the same runs.
+
+use serde::Serialize;
+
+use crate::report::RunResult;
+use crate::scene::Outcome;
+
+use super::difference::FigureComparison;
+use super::figure::FIGURES;
+
+/// Policies over the same runs: every scenario from every start, with the same noise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The policies, in the order given; the first is what the others are compared with.
+    pub policies: Vec<PolicyRuns>,
+    /// Every figure of every other policy that has pairs.
+    pub figures: Vec<FigureComparison>,
+}
+
+/// The runs of one policy.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PolicyRuns {
+    /// The policy's file.
+    pub policy: String,
+    /// How many runs there were.
+    pub runs: usize,
+    /// Those that did not complete. Their figures count nowhere: of a run that is cut short they would mislead.
+    pub incomplete: Vec<Incomplete>,
+}
+
+/// A run that did not complete.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Incomplete {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// The seed of its noise and its start.
+    pub seed: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why.
+    pub reason: Option<String>,
+}
+
+impl Comparison {
+    /// Compares policies by their runs, which are in the same order for each.
+    #[must_use]
+    pub fn new(policies: &[(String, Vec<RunResult>)]) -> Self {
+        let runs = policies.iter().map(|(policy, results)| {
+            let incomplete = results.iter().filter(|result| result.outcome != Outcome::Completed);
+            PolicyRuns {
+                policy: policy.clone(),
+                runs: results.len(),
+                incomplete: incomplete
+                    .map(|result| Incomplete {
+                        scenario: result.scenario.clone(),
+                        seed: result.seed,
+                        outcome: result.outcome,
+                        reason: result.reason.clone(),
+                    })
+                    .collect(),
+            }
+        });
+        let others = policies.get(1..).unwrap_or_default();
+        let figures = policies.first().into_iter().flat_map(|(_, first)| {
+            FIGURES.iter().flat_map(move |figure| {
+                others.iter().filter_map(move |(policy, results)| {
+                    let both = first.iter().zip(results);
+                    let complete =
+                        both.filter(|(a, b)| [a.outcome, b.outcome].iter().all(|&end| end == Outcome::Completed));
+                    let pairs = complete.filter_map(|(a, b)| Some(((figure.of)(a)?, (figure.of)(b)?))).collect();
+                    FigureComparison::new(figure, policy, pairs)
+                })
+            })
+        });
+        Self { policies: runs.collect(), figures: figures.collect() }
+    }
+}

@@ -1,0 +1,104 @@
+//! One figure of two policies, pair by pair.
+
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::score::Statistics;
+
+use super::figure::Figure;
+
+/// How sure an interval is to contain the mean difference.
+const CONFIDENCE: f64 = 0.95;
+
+/// What can be said of a difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outlook {
+    /// The interval has only differences in which the policy is better than the first.
+    Better,
+    /// The interval has only differences in which it is worse.
+    Worse,
+    /// No pair differs.
+    Same,
+    /// The difference cannot be told from zero.
+    Open,
+}
+
+/// The mean difference of a policy from the first, with its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Difference {
+    /// The mean of this policy less that of the first.
+    pub mean: f64,
+    /// The 95 % interval of the mean, by Student's t; `None` with fewer than two pairs.
+    ///
+    /// Student's t, because pairs are few: at ten pairs a percentile bootstrap covers the mean some 90 times in a hundred only,
+    /// at five some 80, while t keeps close to its 95 for differences that are far from normal.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// One figure of one policy against the first, over the pairs in which both completed and both have it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FigureComparison {
+    /// Name of the figure, with its unit.
+    pub figure: &'static str,
+    /// The policy.
+    pub policy: String,
+    /// Number of pairs.
+    pub pairs: usize,
+    /// Mean of the first policy.
+    pub first: f64,
+    /// Mean of this one.
+    pub mean: f64,
+    /// What lies between.
+    pub difference: Difference,
+    /// In how many pairs this one is better.
+    pub wins: usize,
+    /// In how many it is worse.
+    pub losses: usize,
+    /// What can be said.
+    pub outlook: Outlook,
+}
+
+impl FigureComparison {
+    /// Compares `pairs` of values, the first policy's before the other's; `None` if there is no pair. Pairs with a value that is
+    /// not a finite number do not count.
+    #[must_use]
+    pub fn new(figure: &Figure, policy: &str, mut pairs: Vec<(f64, f64)>) -> Option<Self> {
+        pairs.retain(|(first, other)| first.is_finite() && other.is_finite());
+        let mean = |of: fn(&(f64, f64)) -> f64| Some(Statistics::of(pairs.iter().map(of).collect())?.mean());
+        let (first_mean, other_mean) = (mean(|pair| pair.0)?, mean(|pair| pair.1)?);
+        let differences = Statistics::of(pairs.iter().map(|(first, other)| other - first).collect())?;
+        let better =
+            |&&(first, other): &&(f64, f64)| if figure.larger_is_better { other > first } else { other < first };
+        let ties = pairs.iter().filter(|(first, other)| first.total_cmp(other).is_eq()).count();
+        let wins = pairs.iter().filter(better).count();
+        let difference = Difference { mean: differences.mean(), interval: interval(&differences) };
+        let sign = if figure.larger_is_better { -1.0 } else { 1.0 };
+        let outlook = match difference.interval {
+            _ if ties == pairs.len() => Outlook::Same,
+            Some(ends) if ends.iter().all(|end| sign * end < 0.0) => Outlook::Better,
+            Some(ends) if ends.iter().all(|end| sign * end > 0.0) => Outlook::Worse,
+            _ => Outlook::Open,
+        };
+        Some(Self {
+            figure: figure.name,
+            policy: policy.to_owned(),
+            pairs: pairs.len(),
+            first: first_mean,
+            mean: other_mean,
+            difference,
+            wins,
+            losses: pairs.len() - wins - ties,
+            outlook,
+        })
+    }
+}
+
+/// The interval of the mean of what these are a sample of.
+fn interval(sample: &Statistics) -> Option<[f64; 2]> {
+    let std = sample.std()?;
+    let count = sample.count() as f64;
+    let quantile = StudentsT::new(0.0, 1.0, count - 1.0).ok()?.inverse_cdf(0.5 + 0.5 * CONFIDENCE);
+    let half = quantile * std / count.sqrt();
+    Some([sample.mean() - half, sample.mean() + half])
+}

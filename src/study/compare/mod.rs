@@ -1,0 +1,11 @@
+//! Policies against each other, over the same runs.
+
+mod comparison;
+mod difference;
+mod figure;
+mod table;
+
+pub use comparison::{Comparison, Incomplete, PolicyRuns};
+pub use difference::{Difference, FigureComparison, Outlook};
+pub use figure::{FIGURES, Figure};
+pub use table::comparison_table;
