@@ -116,7 +116,11 @@ fn bang_bang_following_goes_round_too() {
 #[test]
 fn a_policy_that_loses_the_object_fails_and_says_why() {
     let mut program = thesis();
-    program.set("limit", 300e-6, vibrissa::units::Dimension::ANGLE).unwrap();
+    for name in ["limit", "target"] {
+        let parameter = program.parameters.iter().find(|parameter| parameter.name == name).unwrap();
+        let (least, most) = parameter.range.unwrap();
+        program.set(name, if name == "limit" { least } else { most }, vibrissa::units::Dimension::ANGLE).unwrap();
+    }
     let (run, _) = run(&scene(&read("scenarios/disk.yaml").text), program, 0);
     assert_eq!(run.outcome, Outcome::Failed);
     assert_eq!(run.reason.as_deref(), Some("a whisker at its limit"));

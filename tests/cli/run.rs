@@ -66,7 +66,11 @@ mod with_simulation {
             "axis_mm",
             "corners",
             "states",
+            "states.Approaching",
+            "states.Attaching",
             "states.Exploring",
+            "states.Meeting",
+            "states.Repositioning",
             "states.Swiping",
             "path_m",
             "path_ratio",
@@ -104,9 +108,9 @@ mod with_simulation {
 
     #[test]
     fn an_expectation_that_fails_has_exit_status_1_and_says_which() {
-        let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "limit=300 urad"]);
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "speed=1 mm/s"]);
         assert_eq!(output.status.code(), Some(1));
-        assert!(stderr(&output).contains("the outcome is failed, expected completed"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("the outcome is timeout, expected completed"), "{}", stderr(&output));
     }
 
     #[test]

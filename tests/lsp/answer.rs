@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-pub(crate) const THESIS: &str = include_str!("../../policies/thesis.fsm");
+pub(crate) const THESIS: &str = include_str!("../fixtures/editor/thesis.fsm");
 pub(crate) const BANG: &str = include_str!("../../policies/bang.fsm");
 
 pub(crate) fn labels(answer: &Value) -> Vec<&str> {

@@ -7,8 +7,8 @@ use vibrissa::policy::check;
 use vibrissa::policy::index::{Index, gather};
 
 pub(crate) const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-pub(crate) const THESIS: &str = include_str!("../../policies/thesis.fsm");
-pub(crate) const SWIPE: &str = include_str!("../../policies/std/swipe.fsm");
+pub(crate) const THESIS: &str = include_str!("../fixtures/editor/thesis.fsm");
+pub(crate) const SWIPE: &str = include_str!("../fixtures/editor/swipe.fsm");
 
 pub(crate) fn index(text: &str) -> Index {
     Index::new(&Source::new("test.fsm", text), None)
