@@ -11,9 +11,8 @@ use runs::{arc_of_tips, run_with};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, RunResult};
-use vibrissa::scene::{Outcome, Scene};
+use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::Jitter;
 use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_table};
 
 fn figure(name: &str) -> &'static Figure {

@@ -27,6 +27,8 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Do the same runs under several policies, and say where they differ
     Compare(CompareArguments),
+    /// Run scenes that are drawn by chance from families, and say how many complete
+    Families(FamiliesArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
     /// Compile a policy into a file that runs without its text
@@ -112,6 +114,40 @@ pub(super) struct CompareArguments {
     #[arg(long, value_name = "ANGLE", default_value = "0 deg", value_parser = parse_angle)]
     pub(super) jitter_heading: f64,
     /// Print only JSON: the runs that did not complete, and the figures with their intervals
+    #[arg(long)]
+    pub(super) json: bool,
+    /// How many runs to do at a time; as many as there are processors unless given
+    #[arg(short, long, value_name = "J")]
+    pub(super) jobs: Option<NonZeroUsize>,
+}
+
+const FAMILIES_STATUS: &str = "Exit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = FAMILIES_STATUS)]
+pub(super) struct FamiliesArguments {
+    /// Families, all unless there are any
+    #[arg(value_name = "NAME")]
+    pub(super) names: Vec<String>,
+    /// Policy, or compiled machine, to run instead of the one that is built in; it has a parameter `speed`
+    #[arg(long, value_name = "FILE")]
+    pub(super) policy: Option<PathBuf>,
+    /// How many scenes to draw of each family
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub(super) count: u64,
+    /// Draw other scenes
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(super) seed: u64,
+    /// Draw only the scene with this number
+    #[arg(long, value_name = "K", conflicts_with = "count")]
+    pub(super) trial: Option<u64>,
+    /// Print the scenarios instead of running them
+    #[arg(long, conflicts_with_all = ["json", "out", "policy"])]
+    pub(super) print: bool,
+    /// Write all results, and a picture of every run that did not complete, into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,
     /// How many runs to do at a time; as many as there are processors unless given

@@ -19,12 +19,12 @@ pub(super) struct Finished {
     pub(super) picture: Option<String>,
 }
 
-/// Runs all jobs, on so many threads or on as many as there are processors, and gives what came of them in their order. A bar
-/// on standard error shows how many are done, if that is a terminal.
+/// Runs all jobs, on so many threads or on as many as there are processors, and gives what came of them in their order, with
+/// pictures of those that are to be drawn. A bar on standard error shows how many are done, if that is a terminal.
 pub(super) fn run_all(
     jobs: &[Job],
     threads: Option<NonZeroUsize>,
-    with_pictures: bool,
+    is_drawn: impl Fn(&RunResult) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
     let bar = ProgressBar::new(jobs.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
@@ -34,7 +34,7 @@ pub(super) fn run_all(
         let run = job.execute(|_| ControlFlow::Continue(()))?;
         let score = Score::new(&run, &job.scene.truth);
         let result = job.result(&run, &score);
-        let picture = with_pictures.then(|| picture(&job.scene, &result.policy, &run, &score));
+        let picture = is_drawn(&result).then(|| picture(&job.scene, &result.policy, &run, &score));
         Ok(Finished { result, picture })
     };
     let done = |finished: &Result<Finished, Failure>| {

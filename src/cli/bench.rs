@@ -20,7 +20,7 @@ use super::{file, output};
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let jobs = jobs(&policies(&arguments.policies)?)?;
     make_directory(arguments.out.as_deref())?;
-    let finished = run_all(&jobs, arguments.jobs, arguments.out.is_some())?;
+    let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (rows, pictures): (Vec<_>, Vec<_>) = finished
         .into_iter()
         .map(|Finished { result, picture }| (BenchRow::new(result), picture.unwrap_or_default()))

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::scene::Scene;
+use crate::scene::{Jitter, Scene};
+use crate::study::WorldKind;
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_table};
-use crate::study::{Jitter, WorldKind};
 
 use super::arguments::CompareArguments;
 use super::batch::run_all;
@@ -40,7 +40,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
             jobs.push(Job::with(path, scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes));
         }
     }
-    let mut results = run_all(&jobs, arguments.jobs, false)?.into_iter().map(|finished| finished.result);
+    let mut results = run_all(&jobs, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
     let runs: Vec<_> = policies
         .iter()
         .map(|path| (path.display().to_string(), results.by_ref().take(settings.len()).collect()))

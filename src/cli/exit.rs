@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ArtifactError, SetError};
 use crate::report::ChartTooLarge;
+use crate::scene::family::{FAMILIES, NoDraw};
 use crate::study::ExecuteError;
 
 use super::output;
@@ -63,6 +64,12 @@ pub(super) enum Failure {
     SameName { first: PathBuf, second: PathBuf, name: String },
     #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]
     TooFewPolicies { count: usize },
+    #[error("there is no family `{name}`; there are {}", known_families())]
+    NoSuchFamily { name: String },
+    #[error("scenes of families set the policy's parameters: {0}")]
+    FamilySetting(SetError),
+    #[error(transparent)]
+    NoDraw(#[from] NoDraw),
     #[error("{}: there is hardly a start within the jitter at which the rig stands clear; make --jitter smaller", scenario.display())]
     NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
@@ -106,7 +113,7 @@ impl Failure {
 
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Json(_) => Exit::Internal,
+            Self::Json(_) | Self::NoDraw(_) => Exit::Internal,
             _ => Exit::Unusable,
         }
     }
@@ -118,4 +125,8 @@ impl Failure {
             other => output::error(other),
         }
     }
+}
+
+fn known_families() -> String {
+    FAMILIES.map(|family| format!("`{}`", family.name)).join(", ")
 }

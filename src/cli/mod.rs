@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod compile;
 mod exit;
+mod families;
 mod file;
 mod fmt;
 mod graph;
@@ -32,6 +33,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Run(arguments) => run::run(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        Command::Families(arguments) => families::families(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),

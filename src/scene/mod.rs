@@ -8,7 +8,9 @@ mod clearance;
 mod contacts;
 mod decompose;
 mod expectation;
+pub mod family;
 mod gap;
+mod jitter;
 mod mjcf;
 mod part;
 mod scenario;
@@ -19,6 +21,7 @@ mod wall;
 mod yaml;
 
 pub use expectation::{Expectation, Metric, Outcome, Violation};
+pub use jitter::Jitter;
 pub use mjcf::mjcf;
 pub use part::Part;
 pub use scenario::Scene;

@@ -6,7 +6,7 @@ mod row;
 mod table;
 mod thesis;
 
-pub use built_in::{POLICIES, SCENARIOS, TextFile};
+pub use built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
 pub use page::bench_page;
 pub use row::{BenchRow, Verdict, Verdicts};
 pub use table::bench_table;

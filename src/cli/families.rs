@@ -1,0 +1,131 @@
+//! `vibrissa families`
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use crate::report::RunResult;
+use crate::scene::Outcome;
+use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
+use crate::study::bench::DEFAULT_POLICY;
+use crate::study::families::{FamilyRun, FamilyTally, families_table};
+use crate::study::{WorldKind, in_parallel, processors};
+
+use super::arguments::FamiliesArguments;
+use super::batch::{Finished, run_all};
+use super::exit::{Exit, Failure};
+use super::input::{self, Loaded, Policy};
+use super::job::{Job, with_settings};
+use super::run::make_directory;
+use super::{file, output};
+
+/// One of the family's scenes.
+struct Trial {
+    family: &'static str,
+    trial: u64,
+    draw: Draw,
+}
+
+pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
+    let trials = trials(arguments)?;
+    if arguments.print {
+        for trial in &trials {
+            print(trial, arguments.seed)?;
+        }
+        return Ok(Exit::Done);
+    }
+    let policy = match &arguments.policy {
+        Some(path) => input::policy(path)?,
+        None => input::built_in_policy(&DEFAULT_POLICY)?,
+    };
+    policy.value.tell_warnings();
+    let jobs = trials.iter().map(|trial| job(trial, &policy)).collect::<Result<Vec<_>, Failure>>()?;
+    make_directory(arguments.out.as_deref())?;
+    let is_drawn = |result: &RunResult| arguments.out.is_some() && result.outcome != Outcome::Completed;
+    let finished = run_all(&jobs, arguments.jobs, is_drawn)?;
+    let runs = report(trials, finished, arguments.out.as_deref())?;
+    if arguments.json {
+        output::json(&runs)?;
+    } else {
+        output::result(families_table(&tallies(&runs)))?;
+    }
+    Ok(if runs.iter().all(FamilyRun::is_completed) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// The scenes that are asked for, drawn several at a time.
+fn trials(arguments: &FamiliesArguments) -> Result<Vec<Trial>, Failure> {
+    let families = chosen(&arguments.names)?;
+    let numbers = arguments.trial.map_or(0..arguments.count, |trial| trial..trial.saturating_add(1));
+    let keys: Vec<_> = families.iter().flat_map(|family| numbers.clone().map(move |trial| (family, trial))).collect();
+    let draw = |&(family, trial): &(&Family, u64)| {
+        let draw = family.draw(arguments.seed, trial)?;
+        Ok(Trial { family: family.name, trial, draw })
+    };
+    in_parallel(&keys, arguments.jobs.unwrap_or_else(processors), draw, |_| ()).into_iter().collect()
+}
+
+/// The families with these names, or all.
+fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
+    if names.is_empty() {
+        return Ok(FAMILIES.to_vec());
+    }
+    let family = |name: &String| {
+        let known = FAMILIES.iter().find(|family| family.name == name);
+        known.copied().ok_or_else(|| Failure::NoSuchFamily { name: name.clone() })
+    };
+    names.iter().map(family).collect()
+}
+
+fn job(trial: &Trial, policy: &Loaded<Policy>) -> Result<Job, Failure> {
+    let Draw { text, scene, settings } = &trial.draw;
+    let mut program = policy.value.artifact.program.clone();
+    for (name, value) in settings {
+        program.set(name, value.value_si, value.dimension).map_err(Failure::FamilySetting)?;
+    }
+    let set = settings.iter().map(|(name, value)| (*name, value.value_si));
+    let hashes = (Sha256::digest(text), with_settings(policy.hash.clone(), set).finalize());
+    Ok(Job::with(Path::new(&scene.name), scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes))
+}
+
+/// Prints a scenario, and how it is run by itself.
+fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
+    let set = draw.settings.iter().map(|(name, value)| format!(" --set \"{name}={value}\""));
+    let set: String = set.collect();
+    output::text(format_args!("# seed {seed}; vibrissa run FILE --policy POLICY{set}\n{}", draw.text))
+}
+
+/// Tells the runs that did not complete, and writes all results and the pictures of those.
+fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>) -> Result<Vec<FamilyRun>, Failure> {
+    let mut runs = Vec::with_capacity(trials.len());
+    let mut lines = String::new();
+    for (Trial { family, trial, draw }, Finished { result, picture }) in trials.into_iter().zip(finished) {
+        if let (Some(directory), Some(picture)) = (directory, picture) {
+            file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
+        }
+        let speed = draw.settings.iter().find(|(name, _)| *name == "speed").map_or(0.0, |(_, speed)| speed.value_si);
+        let run = FamilyRun { family, trial, about: draw.scene.description, speed, result };
+        if !run.is_completed() {
+            tell(&run);
+        }
+        lines += &serde_json::to_string(&run)?;
+        lines.push('\n');
+        runs.push(run);
+    }
+    if let Some(directory) = directory {
+        file::write(&directory.join("results.jsonl"), lines)?;
+    }
+    Ok(runs)
+}
+
+fn tell(FamilyRun { family, trial, about, speed, result }: &FamilyRun) {
+    let reason = result.reason.as_deref().unwrap_or("for no reason that is known");
+    let speed = 100.0 * speed;
+    output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {}: {reason}", result.outcome));
+}
+
+/// What became of each family, at every speed and all together.
+fn tallies(runs: &[FamilyRun]) -> Vec<FamilyTally> {
+    let speeds = || SPEEDS.into_iter().map(Some).chain([None]);
+    let tallies = FAMILIES.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(family.name, speed, runs)));
+    tallies.filter(|tally| tally.runs > 0).collect()
+}

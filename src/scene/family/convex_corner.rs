@@ -1,0 +1,54 @@
+//! A convex corner in the whisker's way.
+
+use std::f64::consts::PI;
+
+use super::Family;
+use super::dice::Dice;
+use super::layout::{Aim, Contact, Layout, beside, polygon};
+use crate::geometry::{Point2, Vector2, rotate};
+
+pub(super) const FAMILY: Family = Family {
+    name: "convex-corner",
+    about: "a convex corner that turns by 30° to 180°: houses with flat and steep gables, wedges, blades",
+    lay,
+};
+
+/// Corners that turn by more than this (rad) are blades: two corners that together turn by 180°.
+const BLADE: f64 = 172.0 / 180.0 * PI;
+
+fn lay(dice: &mut Dice) -> Layout {
+    let turn = dice.between(PI / 6.0, PI);
+    let (side, back, thickness) = (dice.between(0.25, 0.4), dice.between(0.1, 0.25), dice.between(2e-3, 5e-3));
+    let corners = if turn > BLADE { blade(side, thickness) } else { house(turn, side, back) };
+    // The side that leads to the corner goes along the platform's way, the corner ahead.
+    let tilt = if turn > BLADE { 0.0 } else { 0.5 * (PI - turn) } + dice.between(-0.17, 0.17);
+    let corner = Point2::new(0.2, dice.between(0.35, 0.5));
+    let hand = dice.side();
+    let mirrored = |place: Point2| Point2::new(hand * place.x, place.y);
+    let placed: Vec<_> = corners.iter().map(|&place| mirrored(corner + rotate(place, tilt))).collect();
+    let way = 2.0 * (side + back) + 0.5;
+    Layout {
+        about: format!("a corner that turns by {:.1}°", turn.min(PI).to_degrees()),
+        objects: vec![polygon(&placed)],
+        physics: Contact::Sharp,
+        start: beside(hand),
+        aim: Aim::Loop,
+        way,
+    }
+}
+
+/// The corners of a house seen from the top of its gable, which turns by `turn` (rad) and points along y: roofs of a length
+/// `side` (m), and walls of `back` (m).
+fn house(turn: f64, side: f64, back: f64) -> Vec<Vector2> {
+    let half = 0.5 * (PI - turn);
+    let (width, height) = (side * half.sin(), side * half.cos());
+    let wall = Vector2::new(0.0, -back);
+    let (left, right) = (Vector2::new(-width, -height), Vector2::new(width, -height));
+    vec![Vector2::zeros(), left, left + wall, right + wall, right]
+}
+
+/// The corners of a plate of this length and thickness (m) seen from one of those at its end, which points along y.
+fn blade(length: f64, thickness: f64) -> Vec<Vector2> {
+    let (across, down) = (Vector2::new(thickness, 0.0), Vector2::new(0.0, -length));
+    vec![Vector2::zeros(), down, down + across, across]
+}

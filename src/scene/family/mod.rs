@@ -1,0 +1,29 @@
+//! Families of scenes, drawn by chance: geometry that nobody tuned a policy for.
+//!
+//! A draw is the text of a scenario, read as any other, so that what is drawn is checked, can be printed and can be run by
+//! itself. It depends on nothing but the family's name, the seed and its number.
+
+mod approach;
+mod convex_corner;
+mod dice;
+mod draw;
+mod layout;
+mod zigzag_tunnel;
+
+pub use draw::{Draw, NoDraw, SPEEDS};
+
+use dice::Dice;
+use layout::Layout;
+
+/// Scenes of one kind.
+#[derive(Debug, Clone, Copy)]
+pub struct Family {
+    /// Its name: letters and `-`.
+    pub name: &'static str,
+    /// What its scenes are like.
+    pub about: &'static str,
+    lay: fn(&mut Dice) -> Layout,
+}
+
+/// All families.
+pub const FAMILIES: [Family; 2] = [convex_corner::FAMILY, zigzag_tunnel::FAMILY];

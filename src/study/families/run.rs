@@ -1,0 +1,30 @@
+//! One run in a scene of a family.
+
+use serde::Serialize;
+
+use crate::report::RunResult;
+use crate::scene::Outcome;
+
+/// A run in one scene of a family.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FamilyRun {
+    /// The family.
+    pub family: &'static str,
+    /// Which of the family's scenes.
+    pub trial: u64,
+    /// What the scene is like.
+    pub about: String,
+    /// The speed that it was drawn with (m/s).
+    pub speed: f64,
+    /// What came of it.
+    #[serde(flatten)]
+    pub result: RunResult,
+}
+
+impl FamilyRun {
+    /// Whether it completed.
+    #[must_use]
+    pub fn is_completed(&self) -> bool {
+        self.result.outcome == Outcome::Completed
+    }
+}
