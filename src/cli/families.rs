@@ -22,7 +22,7 @@ use super::{file, output};
 /// One of the family's scenes.
 struct Trial {
     family: &'static str,
-    trial: u64,
+    number: u64,
     draw: Draw,
 }
 
@@ -59,7 +59,7 @@ fn trials(arguments: &FamiliesArguments) -> Result<Vec<Trial>, Failure> {
     let keys: Vec<_> = families.iter().flat_map(|family| numbers.clone().map(move |trial| (family, trial))).collect();
     let draw = |&(family, trial): &(&Family, u64)| {
         let draw = family.draw(arguments.seed, trial)?;
-        Ok(Trial { family: family.name, trial, draw })
+        Ok(Trial { family: family.name, number: trial, draw })
     };
     in_parallel(&keys, arguments.jobs.unwrap_or_else(processors), draw, |_| ()).into_iter().collect()
 }
@@ -98,7 +98,7 @@ fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
 fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>) -> Result<Vec<FamilyRun>, Failure> {
     let mut runs = Vec::with_capacity(trials.len());
     let mut lines = String::new();
-    for (Trial { family, trial, draw }, Finished { result, picture }) in trials.into_iter().zip(finished) {
+    for (Trial { family, number: trial, draw }, Finished { result, picture }) in trials.into_iter().zip(finished) {
         if let (Some(directory), Some(picture)) = (directory, picture) {
             file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
         }

@@ -82,6 +82,37 @@ pub(super) fn polygon(corners: &[Point2]) -> String {
     format!("polygon: {{vertices: [{}]}}", corners.join(", "))
 }
 
+/// A circle as an object.
+pub(super) fn circle(centre: Point2, radius: f64) -> String {
+    format!("circle: {{centre: {}, radius: {}}}", point(centre), metres(radius))
+}
+
+/// A convex polygon, counter-clockwise, with its corners but for the first rounded by these radii (m), 0 for a sharp one, as an
+/// object. A path adds up, so that its numbers keep all their digits.
+pub(super) fn rounded_polygon(corners: &[Point2], radii: &[f64]) -> String {
+    let count = corners.len();
+    let side = |k: usize| corners[(k + 1) % count] - corners[k];
+    let turn = |k: usize| {
+        let (into, out) = (side((k + count - 1) % count), side(k));
+        into.perp(&out).atan2(into.dot(&out))
+    };
+    // What the rounding of a corner takes of the sides that meet there.
+    let taken = |k: usize| radii[k % count] * (0.5 * turn(k % count)).tan();
+    let mut moves = Vec::new();
+    for k in 0..count - 1 {
+        let (next, length) = (k + 1, side(k).norm() - taken(k) - taken(k + 1));
+        moves.push(format!("{{straight: {length} m}}"));
+        moves.push(if radii[next] > 0.0 {
+            format!("{{arc: {{radius: {} m, angle: {} rad}}}}", radii[next], turn(next))
+        } else {
+            format!("{{turn: {} rad}}", turn(next))
+        });
+    }
+    let heading = side(0).y.atan2(side(0).x);
+    let start = format!("{{position: [{} m, {} m], heading: {heading} rad}}", corners[0].x, corners[0].y);
+    format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
+}
+
 /// A tunnel as an object: straight runs, each with its length (m) and heading (rad), from a place on; clear between the walls.
 pub(super) fn tunnel(from: &Pose, runs: &[(f64, f64)], width: f64, thickness: f64) -> String {
     let runs: Vec<_> = runs

@@ -4,10 +4,16 @@
 //! itself. It depends on nothing but the family's name, the seed and its number.
 
 mod approach;
+mod concave_corner;
 mod convex_corner;
 mod dice;
 mod draw;
 mod layout;
+mod outline;
+mod polygon;
+mod thin_wall;
+mod tunnel_mouth;
+mod two_objects;
 mod zigzag_tunnel;
 
 pub use draw::{Draw, NoDraw, SPEEDS};
@@ -26,4 +32,12 @@ pub struct Family {
 }
 
 /// All families.
-pub const FAMILIES: [Family; 2] = [convex_corner::FAMILY, zigzag_tunnel::FAMILY];
+pub const FAMILIES: [Family; 7] = [
+    convex_corner::FAMILY,
+    concave_corner::FAMILY,
+    polygon::FAMILY,
+    thin_wall::FAMILY,
+    two_objects::FAMILY,
+    zigzag_tunnel::FAMILY,
+    tunnel_mouth::FAMILY,
+];

@@ -18,8 +18,8 @@ const THICKNESS: f64 = 0.02;
 fn lay(dice: &mut Dice) -> Layout {
     let turn = dice.between(10.0, 60.0) / 180.0 * PI;
     let clear = dice.between(0.18, 0.26);
-    // At corners the middles of the walls lie on the mean of the directions square to both runs, which is shorter than they.
-    let width = (clear + THICKNESS) / (0.5 * turn).cos().powi(2);
+    // At corners the middles of the walls lie at half the width on the bisector, which is aslant to both runs.
+    let width = (clear + THICKNESS) / (0.5 * turn).cos();
     let (length, hand) = (dice.between(0.22, 0.35), dice.side());
     let runs: Vec<_> =
         (0..dice.count(4, 6)).map(|run| (length, 0.5 * turn * if run % 2 == 0 { hand } else { -hand })).collect();

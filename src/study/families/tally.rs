@@ -37,7 +37,8 @@ impl FamilyTally {
     /// Counts the runs of a family: those at one speed, or all.
     #[must_use]
     pub fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
-        let is_counted = |run: &&FamilyRun| run.family == family && speed.is_none_or(|speed| run.speed == speed);
+        let is_counted =
+            |run: &&FamilyRun| run.family == family && speed.is_none_or(|speed| (run.speed - speed).abs() < 1e-9);
         let runs: Vec<_> = runs.iter().filter(is_counted).collect();
         let ended = |outcome| runs.iter().filter(|run| run.result.outcome == outcome).count();
         let touches = |run: &&&FamilyRun| run.result.collisions.count > 0;
