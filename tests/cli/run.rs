@@ -121,7 +121,7 @@ mod with_simulation {
         let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
         let rows = rows.as_array().unwrap();
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(rows.len() >= 10 && rows.iter().all(|row| row["outcome"] == "completed" && row["passed"] == true));
+        assert!(rows.len() >= 20 && rows.iter().all(|row| row["outcome"] == "completed" && row["passed"] == true));
         let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
         assert_eq!(
             (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),

@@ -30,7 +30,7 @@ pub const SCENARIOS: &[TextFile] = &[
 ];
 
 /// The policies that the bench runs unless it is given others. They use the standard library alone.
-pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm")];
+pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm"), text_file!("policies/vibrissa.fsm")];
 
 #[cfg(test)]
 mod tests {
