@@ -33,27 +33,27 @@ fn retrieval(radius: MeanStd) -> Retrieval {
 fn a_figure_is_better_up_to_the_thesis_s_and_worse_beyond() {
     for figures in THESIS {
         for (factor, verdict) in [(0.99, Verdict::Better), (1.01, Verdict::Worse)] {
-            let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3));
+            let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3), true);
             assert_eq!(row.verdicts.error_mm, Some(verdict), "{}", figures.scenario);
         }
     }
     let mut boxed = result("box", 0.0);
     boxed.retrieval = Some(retrieval(spread(11.3)));
-    let row = BenchRow::new(boxed.clone());
+    let row = BenchRow::new(boxed.clone(), true);
     assert_eq!((row.verdicts.radius_mm, row.passed), (Some(Verdict::Worse), false));
     boxed.retrieval = Some(retrieval(spread(11.1)));
-    assert!(BenchRow::new(boxed).passed);
+    assert!(BenchRow::new(boxed, true).passed);
 }
 
 #[test]
 fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
     let good = result("disk", 1e-4);
-    assert!(BenchRow::new(good.clone()).passed);
-    assert!(!BenchRow::new(RunResult { outcome: Outcome::Timeout, ..good.clone() }).passed);
+    assert!(BenchRow::new(good.clone(), true).passed);
+    assert!(!BenchRow::new(RunResult { outcome: Outcome::Timeout, ..good.clone() }, true).passed);
     let mut nothing = good.clone();
     nothing.error_mm.mean = None;
-    assert_eq!(BenchRow::new(nothing).verdicts.error_mm, Some(Verdict::Worse));
-    let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4));
+    assert_eq!(BenchRow::new(nothing, true).verdicts.error_mm, Some(Verdict::Worse));
+    let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4), true);
     assert_eq!(
         (tunnel.verdicts.axis_mm, tunnel.passed),
         (Some(Verdict::Worse), false),
@@ -61,20 +61,21 @@ fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
     );
     let mut not_a_number = good;
     not_a_number.error_mm.mean = Some(f64::NAN);
-    assert!(!BenchRow::new(not_a_number).passed);
+    assert!(!BenchRow::new(not_a_number, true).passed);
 }
 
 #[test]
 fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_complete() {
-    let row = BenchRow::new(result("octagon", 1e-4));
+    let row = BenchRow::new(result("octagon", 1e-4), true);
     assert_eq!((row.verdicts.radius_mm, row.passed), (None, true));
-    let foreign = BenchRow::new(result("star", 0.1));
+    let foreign = BenchRow::new(result("star", 0.1), true);
     assert_eq!((foreign.thesis, foreign.passed), (None, true));
 }
 
 #[test]
 fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
-    let table = bench_table(&[BenchRow::new(result("disk", 2e-4)), BenchRow::new(result("smooth-tunnel", 2e-3))]);
+    let table =
+        bench_table(&[BenchRow::new(result("disk", 2e-4), true), BenchRow::new(result("smooth-tunnel", 2e-3), true)]);
     for wanted in ["0.20 ± 0.00 better", "0.8 ± 0.5", "2.00 ± 0.00  worse", "1.3 ± 1.6", "not known  worse", "4 ± 4"]
     {
         assert!(table.contains(wanted), "no {wanted} in\n{table}");
@@ -86,7 +87,7 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     let mut failed = result("disk", 1e-4);
     failed.outcome = Outcome::Failed;
     failed.reason = Some("<script>alert(\"1\")</script> & more".to_owned());
-    let rows = [BenchRow::new(failed), BenchRow::new(result("box", 1e-4))];
+    let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
     let picture = "<svg xmlns=\"x\"><clipPath id=\"map\"/>ä#%</svg>".to_owned();
     let page = bench_page(&rows, &[picture.clone(), picture]);
     assert_eq!((page.matches("<img ").count(), page.matches("<tr>").count()), (2, 3));

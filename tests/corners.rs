@@ -169,7 +169,17 @@ fn marks_say_when_the_way_round_a_corner_ends() {
     assert_eq!(marked.len(), 1);
     assert!((marked[0].time - 2.0).abs() < 1e-9 && (marked[0].path - 0.1).abs() < 1e-9);
     trace.marks.pop();
-    assert_eq!(excursions(&trace), [], "a whisker that is not found again has not come back");
+    assert_eq!(excursions(&trace).len(), 2, "without `found` the breaks alone say when it was back");
+}
+
+#[test]
+fn a_way_that_is_marked_twice_is_counted_once() {
+    let (mut trace, last) = broken(59);
+    let mark = |mark, tick| MarkRecord { mark, whisker: 0, tick, tip_world: Point2::new(0.2, 0.01) };
+    let marks = [(Mark::Lost, 4), (Mark::Found, 20), (Mark::Lost, 21), (Mark::Found, 40)];
+    let plain = excursions(&trace);
+    trace.marks = marks.map(|(kind, tick)| mark(kind, last + tick)).to_vec();
+    assert_eq!(excursions(&trace), plain);
 }
 
 #[test]

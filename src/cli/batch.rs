@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::report::{RunResult, picture};
+use crate::scene::{Expectation, Violation};
 use crate::score::Score;
 use crate::study::{in_parallel, processors};
 
@@ -15,6 +16,8 @@ use super::job::Job;
 /// What is kept of a run: its trace is large.
 pub(super) struct Finished {
     pub(super) result: RunResult,
+    /// What is not as the scenario expects.
+    pub(super) violations: Vec<Violation>,
     /// Its picture, if one was asked for.
     pub(super) picture: Option<String>,
 }
@@ -34,8 +37,10 @@ pub(super) fn run_all(
         let run = job.execute(|_| ControlFlow::Continue(()))?;
         let score = Score::new(&run, &job.scene.truth);
         let result = job.result(&run, &score);
+        let violation = |expectation: &Expectation| expectation.violation(run.outcome, |metric| score.figure(metric));
+        let violations = job.scene.expect.iter().filter_map(violation).collect();
         let picture = is_drawn(&result).then(|| picture(&job.scene, &result.policy, &run, &score));
-        Ok(Finished { result, picture })
+        Ok(Finished { result, violations, picture })
     };
     let done = |finished: &Result<Finished, Failure>| {
         if let Ok(Finished { result, .. }) = finished {

@@ -21,12 +21,14 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let jobs = jobs(&policies(&arguments.policies)?)?;
     make_directory(arguments.out.as_deref())?;
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
-    let (rows, pictures): (Vec<_>, Vec<_>) = finished
-        .into_iter()
-        .map(|Finished { result, picture }| (BenchRow::new(result), picture.unwrap_or_default()))
-        .unzip();
-    for row in &rows {
-        tell(&row.result);
+    let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
+    for Finished { result, violations, picture } in finished {
+        tell(&result);
+        for violation in &violations {
+            output::message(format_args!("{}, {}: {violation}", result.scenario, result.policy));
+        }
+        rows.push(BenchRow::new(result, violations.is_empty()));
+        pictures.push(picture.unwrap_or_default());
     }
     let page = match &arguments.out {
         Some(directory) => Some(write_report(directory, &rows, &pictures)?),

@@ -72,8 +72,20 @@ fn settings(files: &[&PathBuf], arguments: &CompareArguments) -> Result<Vec<Sett
     } else {
         files.iter().map(|path| Ok(((*path).clone(), input::scenario(path)?))).collect::<Result<_, Failure>>()?
     };
+    for (index, (second, scenario)) in scenarios.iter().enumerate() {
+        let name = &scenario.value.name;
+        // The same runs twice would pretend to be two pairs.
+        if let Some((first, _)) = scenarios[..index].iter().find(|(_, first)| first.value.name == *name) {
+            return Err(Failure::SameName { first: first.clone(), second: second.clone(), name: name.clone() });
+        }
+    }
     let jitter = Jitter { position: arguments.jitter, heading: arguments.jitter_heading };
     let is_jittered = jitter.position > 0.0 || jitter.heading > 0.0;
+    if is_jittered && arguments.seeds < 2 {
+        output::message(format_args!(
+            "--jitter does nothing to the first run of a scenario: ask for more with --seeds"
+        ));
+    }
     let mut settings = Vec::new();
     for (path, Loaded { value: scene, hash }) in scenarios {
         let differs = is_jittered || scene.rig.sensing.angle_noise > 0.0;

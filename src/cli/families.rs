@@ -98,7 +98,7 @@ fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
 fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>) -> Result<Vec<FamilyRun>, Failure> {
     let mut runs = Vec::with_capacity(trials.len());
     let mut lines = String::new();
-    for (Trial { family, number: trial, draw }, Finished { result, picture }) in trials.into_iter().zip(finished) {
+    for (Trial { family, number: trial, draw }, Finished { result, picture, .. }) in trials.into_iter().zip(finished) {
         if let (Some(directory), Some(picture)) = (directory, picture) {
             file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
         }

@@ -46,9 +46,10 @@ pub struct TracedCorner {
     /// The distance (m) from the corner of the first edge point that belongs to it, the last tip before the whisker left the
     /// outline; `None` if it did not leave it there.
     pub edge: Option<f64>,
-    /// Time (s) in which the whisker, having left the outline at this corner, was not back on it; 0 if it did not leave it.
+    /// Time (s) in which the whisker, having left the outline at this corner, was not back on it: the longest, if it did so
+    /// more than once, and 0 if it did not leave it.
     pub time: f64,
-    /// Path of the platform's centre of mass in that time (m).
+    /// Path of the platform's centre of mass in such a time (m): the longest.
     pub path: f64,
 }
 
@@ -99,8 +100,8 @@ fn costs(trace: &Trace, corners: &[(usize, Corner)]) -> Vec<Cost> {
         if let Some((index, distance)) = nearest.filter(|&(_, distance)| distance <= CLAIM) {
             let cost = &mut costs[index];
             cost.edge = cost.edge.or(Some(distance));
-            cost.time += excursion.time;
-            cost.path += excursion.path;
+            cost.time = cost.time.max(excursion.time);
+            cost.path = cost.path.max(excursion.path);
         }
     }
     costs

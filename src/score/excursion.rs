@@ -23,16 +23,13 @@ pub struct Excursion {
 
 /// The excursions of a run, in the order of time; one from which the whisker has not come back is none.
 ///
-/// A policy that marks says which they are: one goes from the tip before a `lost` to the first tip with or after the `found`
-/// that follows it. So what a policy does between finding and following, such as whisking back, is part of it, as long as
-/// it does not record meanwhile. Without any marks, every break in a whisker's tips of more than [`LONGEST_BREAK`] ticks is one.
+/// Every break in a whisker's tips of more than [`LONGEST_BREAK`] ticks is one. A policy that marks says more: one goes from the
+/// tip before a `lost` to the first tip with or after the `found` that follows it. So what a policy does between finding and
+/// following, such as whisking back, is part of it, as long as it does not record meanwhile. What overlaps is one excursion.
 #[must_use]
 pub fn excursions(trace: &Trace) -> Vec<Excursion> {
-    let mut excursions: Vec<_> = if trace.marks.is_empty() {
-        whiskers(trace).flat_map(|whisker| breaks(trace, whisker)).collect()
-    } else {
-        whiskers(trace).flat_map(|whisker| marked(trace, whisker)).collect()
-    };
+    let of_whisker = |whisker| joined([breaks(trace, whisker), marked(trace, whisker)].concat());
+    let mut excursions: Vec<_> = whiskers(trace).flat_map(of_whisker).collect();
     excursions.sort_by_key(|&(from, ..)| from);
     let excursion = |(from, to, whisker, edge_world): (usize, usize, usize, Point2)| Excursion {
         whisker,
@@ -45,6 +42,19 @@ pub fn excursions(trace: &Trace) -> Vec<Excursion> {
 
 /// From which tick to which, of which whisker, from which edge point.
 type Span = (usize, usize, usize, Point2);
+
+/// Spans of one whisker, those that overlap as one.
+fn joined(mut spans: Vec<Span>) -> Vec<Span> {
+    spans.sort_by_key(|&(from, to, ..)| (from, to));
+    let mut joined: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        match joined.last_mut() {
+            Some(last) if span.0 < last.1 => last.1 = last.1.max(span.1),
+            _ => joined.push(span),
+        }
+    }
+    joined
+}
 
 fn breaks(trace: &Trace, whisker: usize) -> Vec<Span> {
     let mut before: Option<(usize, Point2)> = None;

@@ -56,6 +56,11 @@ impl Score {
         }
     }
 
+    /// The figures of corners if all were traced: one that was never found is worse than the worst of the others.
+    fn all_corners(&self) -> Option<CornerFigures> {
+        self.corners.filter(|corners| corners.traced == corners.count)
+    }
+
     /// One figure (SI), for an expectation; `None` if the run has none.
     #[must_use]
     pub fn figure(&self, metric: Metric) -> Option<f64> {
@@ -67,9 +72,9 @@ impl Score {
             Metric::Coverage => Some(self.coverage),
             Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
             Metric::AxisMean => self.axis.map(|axis| axis.mean),
-            Metric::CornerPlaceMax => self.corners?.place.map(|place| place.max),
-            Metric::CornerTimeMax => self.corners?.time.map(|time| time.max),
-            Metric::CornerPathMax => self.corners?.path.map(|path| path.max),
+            Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),
+            Metric::CornerTimeMax => self.all_corners()?.time.map(|time| time.max),
+            Metric::CornerPathMax => self.all_corners()?.path.map(|path| path.max),
             Metric::Collisions => Some(self.collisions.count as f64),
         }
     }

@@ -116,15 +116,12 @@ mod with_simulation {
     #[test]
     fn the_bench_runs_its_scenes_and_reports_them() {
         let out = directory("bench");
-        let slow = directory("bench-policy").join("slow.machine").display().to_string();
-        let compile = ["compile", "policies/thesis.fsm", "-o", &slow, "--set", "speed=60 mm/s"];
-        assert_eq!(vibrissa(&compile).status.code(), Some(0));
         let shown = out.display().to_string();
-        let output = vibrissa(&["bench", "--policy", &slow, "--out", &shown, "--json", "--jobs", "2"]);
+        let output = vibrissa(&["bench", "--out", &shown, "--json", "--jobs", "2"]);
         let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
         let rows = rows.as_array().unwrap();
-        let passed = rows.iter().all(|row| row["passed"] == true);
-        assert_eq!(output.status.code(), Some(i32::from(!passed)), "{}", stderr(&output));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(rows.len() >= 20 && rows.iter().all(|row| row["outcome"] == "completed" && row["passed"] == true));
         let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
         assert_eq!(
             (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),

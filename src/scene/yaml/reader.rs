@@ -141,7 +141,7 @@ impl<'s> Reader<'s> {
         example: &str,
     ) -> Option<(&'static str, &'n Entry)> {
         let Node::Mapping(entries) = &node.value else {
-            self.wrong_type(node, what, format!("write it as `{example}`, without a dash in front"));
+            self.wrong_type(node, what, format!("write it as `{example}`"));
             return None;
         };
         let [entry] = entries.as_slice() else {

@@ -13,6 +13,7 @@ use crate::units::{Dimension, format_si};
 const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
 const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");
 const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
+const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "60 s");
 const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 
 /// The most control ticks of a run: the trace keeps every one of them. Ninety hours at 30 Hz.
@@ -60,7 +61,7 @@ fn read_stalled(reader: &mut Reader<'_>, entry: &Entry) -> Option<Stalled> {
     let mut stalled = Stalled::default();
     let mut fields = Fields::of(reader, &entry.value, "a stall", entry.key.span)?;
     fields.set(reader, &WITHIN, &mut stalled.within);
-    fields.set(reader, &AFTER, &mut stalled.after);
+    fields.set(reader, &STALLED_AFTER, &mut stalled.after);
     fields.finish(reader);
     Some(stalled)
 }

@@ -30,10 +30,10 @@ pub const SCENARIOS: &[TextFile] = &[
 ];
 
 /// The policies that the bench runs unless it is given others. They use the standard library alone.
-pub const POLICIES: &[TextFile] = &[DEFAULT_POLICY];
+pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm"), DEFAULT_POLICY];
 
 /// The policy that runs in scenes of families unless another is given.
-pub const DEFAULT_POLICY: TextFile = text_file!("policies/thesis.fsm");
+pub const DEFAULT_POLICY: TextFile = text_file!("policies/vibrissa.fsm");
 
 #[cfg(test)]
 mod tests {

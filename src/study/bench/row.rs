@@ -17,7 +17,8 @@ pub enum Verdict {
     Worse,
 }
 
-/// The verdicts on the figures that the thesis reports of a scene; `None` on what it does not report.
+/// The verdicts on the figures that the thesis reports of a scene; `None` on what it does not report, and on all of a run that did
+/// not complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Verdicts {
     /// On the mean error.
@@ -38,15 +39,17 @@ pub struct BenchRow {
     pub thesis: Option<ThesisFigures>,
     /// How the two compare.
     pub verdicts: Verdicts,
-    /// Whether the run completed and no figure is worse than the thesis's.
+    /// Whether the run completed, no figure is worse than the thesis's, and what the scenario expects holds.
     pub passed: bool,
 }
 
 impl BenchRow {
-    /// The row of a run.
+    /// The row of a run, which is as its scenario expects if `holds`.
     #[must_use]
-    pub fn new(result: RunResult) -> Self {
+    pub fn new(result: RunResult, holds: bool) -> Self {
         let thesis = thesis_figures(&result.scenario).copied();
+        let completed = result.outcome == Outcome::Completed;
+        let verdict = |reported, found| verdict(reported, found).filter(|_| completed);
         let radius = result.retrieval.and_then(|retrieval| retrieval.radius_mm.mean);
         let axis = result.axis_mm.and_then(|axis| axis.mean);
         let verdicts = Verdicts {
@@ -55,7 +58,7 @@ impl BenchRow {
             axis_mm: verdict(thesis.and_then(|thesis| thesis.axis_mm), axis),
         };
         let all = [verdicts.error_mm, verdicts.radius_mm, verdicts.axis_mm];
-        let passed = result.outcome == Outcome::Completed && !all.contains(&Some(Verdict::Worse));
+        let passed = completed && holds && !all.contains(&Some(Verdict::Worse));
         Self { result, thesis, verdicts, passed }
     }
 

@@ -8,7 +8,7 @@ use super::row::{BenchRow, Verdict};
 const NAMES: usize = 3;
 
 /// The headings of the table's columns.
-pub(super) const HEADINGS: [&str; 16] = [
+pub(super) const HEADINGS: [&str; 17] = [
     "scene",
     "policy",
     "outcome",
@@ -18,6 +18,7 @@ pub(super) const HEADINGS: [&str; 16] = [
     "thesis",
     "axis mm",
     "thesis",
+    "coverage",
     "corners",
     "corner mm",
     "corner s",
@@ -35,7 +36,7 @@ pub fn bench_table(rows: &[BenchRow]) -> String {
 }
 
 /// The cells of a line, with the verdict that a cell bears.
-pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 16] {
+pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 17] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
@@ -65,6 +66,7 @@ pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 16] {
         thesis_radius,
         axis,
         thesis_axis,
+        plain(Some(format!("{:.1} %", 100.0 * result.coverage))),
         plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),
         plain(corners.and_then(|corners| corners.place_mm.mean).map(millimetres)),
         plain(corners.and_then(|corners| corners.time_s.mean).map(|time| format!("{time:.1}"))),
