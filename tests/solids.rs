@@ -8,7 +8,7 @@ mod random;
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use vibrissa::geometry::{CentreLine, Contour, Opening, Point2, Pose, Side, Tunnel};
+use vibrissa::geometry::{CentreLine, Contour, Corners, Opening, Point2, Pose, Side, Tunnel};
 use vibrissa::scene::{Part, Solid, SolidError};
 
 /// How far (m) the chords of a wall lie from its two sides.
@@ -138,7 +138,8 @@ proptest! {
 fn line() -> impl Strategy<Value = CentreLine> {
     let run = (0.2..0.5_f64, -0.6..0.6_f64);
     prop_oneof![
-        prop::collection::vec(run, 1..6).prop_map(|runs| CentreLine::Polyline { runs }),
+        (prop::collection::vec(run, 1..6), prop_oneof![Just(Corners::AtDistance), Just(Corners::Mitred)])
+            .prop_map(|(runs, corners)| CentreLine::Polyline { runs, corners }),
         (-0.2..0.2_f64, 0.5..6.0_f64, 0.2..2.0_f64).prop_map(|(amplitude, wave_number, length)| CentreLine::Sine {
             amplitude,
             wave_number,

@@ -36,7 +36,10 @@ pub use piece::Piece;
 pub use pose::{Pose, perpendicular, rotate, unit};
 pub use sample::ContourPoint;
 pub use segment::Segment;
-pub use shapes::{CentreLine, Opening, Path, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle};
+pub use shapes::{
+    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, circle, polar_curve, polygon, regular_polygon,
+    rounded_rectangle,
+};
 pub use strip::{Side, Strip, StripError};
 
 /// A point of the plane: coordinates in metres.

@@ -24,11 +24,6 @@ impl Jitter {
     /// none was found. The same scene and seed give the same start.
     #[must_use]
     pub fn start(&self, scene: &Scene, seed: u64) -> Option<Pose> {
-        self.start_where(scene, seed, |_| true)
-    }
-
-    /// The same over those of these starts that are `fit`.
-    pub(super) fn start_where(&self, scene: &Scene, seed: u64, fit: impl Fn(&Pose) -> bool) -> Option<Pose> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         // The sensors' noise has the stream 0 of the same seed.
         random.set_stream(1);
@@ -39,7 +34,7 @@ impl Jitter {
                 position: scene.start.position + self.position * Vector2::new(x, y),
                 heading: scene.start.heading + self.heading * turn,
             };
-            (scene.is_clear_at(&start) && fit(&start)).then_some(start)
+            scene.is_clear_at(&start).then_some(start)
         })
     }
 }

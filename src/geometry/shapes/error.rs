@@ -62,6 +62,9 @@ pub enum ShapeError {
         /// Its length (m).
         length: f64,
     },
+    /// A curve has waves too small for arcs to follow it.
+    #[error("the waves of the curve are too fine: lower their orders")]
+    TooFine,
     /// A tunnel bends too tightly for its width.
     #[error("the tunnel bends too tightly for its width: make it narrower, or its bends wider")]
     TooTight,

@@ -3,6 +3,7 @@
 mod circle;
 mod error;
 mod path;
+mod polar_curve;
 mod polygon;
 mod regular_polygon;
 mod rounded_rectangle;
@@ -11,7 +12,8 @@ mod tunnel;
 pub use circle::circle;
 pub use error::ShapeError;
 pub use path::Path;
+pub use polar_curve::{Harmonic, polar_curve};
 pub use polygon::polygon;
 pub use regular_polygon::regular_polygon;
 pub use rounded_rectangle::rounded_rectangle;
-pub use tunnel::{CentreLine, Opening, Tunnel};
+pub use tunnel::{CentreLine, Corners, Opening, Tunnel};

@@ -10,11 +10,12 @@ use crate::geometry::{Contour, Piece, Point2, Pose, Strip, Vector2, perpendicula
 /// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CentreLine {
-    /// Straight runs from the frame's origin. The walls' corners lie on the mean of the directions square to the two runs
-    /// that meet.
+    /// Straight runs from the frame's origin.
     Polyline {
         /// The length (m) and the heading (rad) of each run.
         runs: Vec<(f64, f64)>,
+        /// Where the walls' corners lie.
+        corners: Corners,
     },
     /// `y = a sin(k x)` for `x` from 0 to a length. The walls are at a distance square to the line.
     Sine {
@@ -37,6 +38,15 @@ pub enum CentreLine {
         /// The way in and out.
         opening: Opening,
     },
+}
+
+/// Where the corners of a tunnel's walls lie: always on the mean of the directions square to the two runs that meet.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub enum Corners {
+    /// At the distance of the walls, so that the tunnel is narrower between two corners than at its ends.
+    AtDistance,
+    /// Where the parallels of the two runs meet, so that the tunnel is equally wide everywhere, square to its runs.
+    Mitred,
 }
 
 /// An opening in the outer wall of a round tunnel.
@@ -71,8 +81,8 @@ impl Tunnel {
     /// Curves are fitted by arcs to a micrometre; the sides of a wall are exactly parallel.
     ///
     /// ```
-    /// use vibrissa::geometry::{CentreLine, Point2, Pose, Side, Tunnel};
-    /// let straight = CentreLine::Polyline { runs: vec![(1.0, 0.0)] };
+    /// use vibrissa::geometry::{CentreLine, Corners, Point2, Pose, Side, Tunnel};
+    /// let straight = CentreLine::Polyline { runs: vec![(1.0, 0.0)], corners: Corners::Mitred };
     /// let tunnel = Tunnel::new(&straight, 0.22, 0.02, &Pose::default())?;
     /// // The side of a wall that faces the tunnel.
     /// assert!((tunnel.left.side(Side::Right).signed_distance(Point2::new(0.5, 0.0)) - 0.1).abs() < 1e-15);
@@ -100,7 +110,7 @@ impl Tunnel {
 impl CentreLine {
     fn check(&self) -> Result<(), ShapeError> {
         match self {
-            Self::Polyline { runs } => runs.iter().try_for_each(|&(length, heading)| {
+            Self::Polyline { runs, .. } => runs.iter().try_for_each(|&(length, heading)| {
                 positive("length of a run", length)?;
                 finite("heading of a run", heading)
             }),
@@ -127,7 +137,7 @@ impl CentreLine {
     /// The line at a distance (m) to the right of the centre line; with or without the opening that a round tunnel has.
     fn aside(&self, aside: f64, opened: bool) -> Result<Contour, ShapeError> {
         match self {
-            Self::Polyline { runs } => polyline(runs, aside),
+            Self::Polyline { runs, corners } => polyline(runs, *corners, aside),
             Self::Sine { amplitude, wave_number, length } => {
                 let curve = |x: f64| {
                     let (sin, cos) = (wave_number * x).sin_cos();
@@ -151,14 +161,19 @@ impl CentreLine {
     }
 }
 
-fn polyline(runs: &[(f64, f64)], aside: f64) -> Result<Contour, ShapeError> {
+fn polyline(runs: &[(f64, f64)], corners: Corners, aside: f64) -> Result<Contour, ShapeError> {
     let right_of = |heading: f64| -perpendicular(unit(heading));
     let mut corner = Point2::origin();
     let mut vertices = Vec::with_capacity(runs.len() + 1);
     for (index, &(length, heading)) in runs.iter().enumerate() {
         let before = if index == 0 { heading } else { runs[index - 1].1 };
-        let mean = right_of(before) + right_of(heading);
-        vertices.push(corner + aside * mean.try_normalize(1e-6).ok_or(ShapeError::TooTight)?);
+        let sum = right_of(before) + right_of(heading);
+        let mean = sum.try_normalize(1e-6).ok_or(ShapeError::TooTight)?;
+        let distance = match corners {
+            Corners::AtDistance => aside,
+            Corners::Mitred => aside / mean.dot(&right_of(heading)),
+        };
+        vertices.push(corner + distance * mean);
         corner += length * unit(heading);
     }
     vertices.extend(runs.last().map(|&(_, heading)| corner + aside * right_of(heading)));

@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, beside, polygon};
-use crate::geometry::{Point2, Vector2, perpendicular, unit};
+use super::layout::{Aim, Contact, Layout, polygon};
+use super::place::{along, beside};
+use crate::geometry::{Vector2, perpendicular, unit};
 
 pub(super) const FAMILY: Family =
     Family { name: "concave-corner", about: "an angle iron, whose inner corner turns by 15° to 75° back", lay };
@@ -14,26 +15,23 @@ fn lay(dice: &mut Dice) -> Layout {
     let turn = dice.between(15.0, 75.0) / 180.0 * PI;
     let hand = dice.side();
     let tilt = dice.between(-0.17, 0.17);
-    let (first, second) = (dice.between(0.25, 0.4), dice.between(0.25, 0.4));
+    let (first, second) = (dice.between(0.4, 0.55), dice.between(0.25, 0.4));
     let thickness = dice.between(0.15, 0.25);
-    let corner = Point2::new(0.2, dice.between(0.4, 0.5));
     // Up along the first side to the corner, and from there on, bent towards the platform.
     let (into, out) = (unit(FRAC_PI_2 + tilt), unit(FRAC_PI_2 + tilt + turn));
-    // Where the two sides behind meet.
-    let behind = behind(into, out) * thickness;
     let right = |along: Vector2| -thickness * perpendicular(along);
     let corners = [
-        corner,
-        corner + second * out,
-        corner + second * out + right(out),
-        corner + behind,
-        corner - first * into + right(into),
-        corner - first * into,
+        Vector2::zeros(),
+        second * out,
+        second * out + right(out),
+        thickness * behind(into, out),
+        right(into) - first * into,
+        -first * into,
     ];
-    let corners = corners.map(|place| Point2::new(hand * place.x, place.y));
+    let flank = [Vector2::zeros(), -first * into];
     Layout {
         about: format!("an inner corner that turns by {:.1}°", turn.to_degrees()),
-        objects: vec![polygon(&corners)],
+        objects: vec![polygon(&along(dice, hand, &corners, &flank))],
         physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, beside, polygon};
-use crate::geometry::{Point2, Vector2, rotate};
+use super::layout::{Aim, Contact, Layout, polygon};
+use super::place::{along, beside};
+use crate::geometry::{Vector2, rotate};
 
 pub(super) const FAMILY: Family = Family {
     name: "convex-corner",
@@ -22,18 +23,15 @@ fn lay(dice: &mut Dice) -> Layout {
     let corners = if turn > BLADE { blade(side, thickness) } else { house(turn, side, back) };
     // The side that leads to the corner goes along the platform's way, the corner ahead.
     let tilt = if turn > BLADE { 0.0 } else { 0.5 * (PI - turn) } + dice.between(-0.17, 0.17);
-    let corner = Point2::new(0.2, dice.between(0.35, 0.5));
+    let corners: Vec<_> = corners.iter().map(|&corner| rotate(corner, tilt)).collect();
     let hand = dice.side();
-    let mirrored = |place: Point2| Point2::new(hand * place.x, place.y);
-    let placed: Vec<_> = corners.iter().map(|&place| mirrored(corner + rotate(place, tilt))).collect();
-    let way = 2.0 * (side + back) + 0.5;
     Layout {
-        about: format!("a corner that turns by {:.1}°", turn.min(PI).to_degrees()),
-        objects: vec![polygon(&placed)],
+        about: format!("a corner that turns by {:.1}°", turn.to_degrees()),
+        objects: vec![polygon(&along(dice, hand, &corners, &corners))],
         physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
-        way,
+        way: 2.0 * (side + back) + 0.5,
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a family draws: objects, a start, an aim; and the text of a scenario that they become.
 
-use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-use crate::geometry::{Point2, Pose};
+use super::outline::turn;
+use crate::geometry::{Harmonic, Point2, Pose, Vector2};
 
 /// A scene without its speed, its start not yet varied.
 #[derive(Debug, Clone)]
@@ -14,7 +14,7 @@ pub(super) struct Layout {
     pub(super) objects: Vec<String>,
     /// How whiskers meet them in the simulation.
     pub(super) physics: Contact,
-    /// The start that others are near.
+    /// The start that those of runs are near. The rig stands clear at all of them.
     pub(super) start: Pose,
     /// When a run is completed.
     pub(super) aim: Aim,
@@ -25,10 +25,10 @@ pub(super) struct Layout {
 /// What a scene is to the simulation, as in the scenes of the thesis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contact {
-    /// A whisker springs round a sharp corner.
+    /// A whisker slides and nothing else.
+    Smooth,
+    /// It springs round a sharp corner against what lies behind, and sinks in for a moment.
     Sharp,
-    /// It springs round an edge against a wall that faces it, and sinks in for a moment.
-    Facing,
 }
 
 /// When a run is completed.
@@ -40,40 +40,32 @@ pub(super) enum Aim {
     Place(Point2),
 }
 
-/// How far the start beside an object is turned towards it (rad).
-const INCLINATION: f64 = 0.35;
-
-/// Time that a run has to find the object (s).
-const APPROACH_TIME: f64 = 60.0;
-/// How often the way may be gone in the rest of the time.
+/// How far the platform may go until it has found the object (m).
+const APPROACH: f64 = 1.0;
+/// How often it may go all that, at its speed.
 const WAYS: f64 = 6.0;
+/// Time for what does not depend on the speed (s).
+const REST: f64 = 60.0;
 
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.
     pub(super) fn text(&self, name: &str, seed: u64, speed: f64) -> String {
-        let physics = match self.physics {
-            Contact::Sharp => "{step: 1.1111 ms, contact_time: 2.5 ms, penetration_limit: 3 mm}",
-            Contact::Facing => "{step: 1.1111 ms, penetration_limit: 3 mm}",
+        let rig = match self.physics {
+            Contact::Smooth => "",
+            Contact::Sharp => "rig: {physics: {step: 1.1111 ms, contact_time: 2.5 ms, penetration_limit: 3 mm}}\n",
         };
-        let time = (APPROACH_TIME + WAYS * self.way / speed).ceil();
+        let time = (REST + WAYS * (APPROACH + self.way) / speed).ceil();
         let aim = match self.aim {
             Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
             Aim::Place(place) => format!("reached: {{place: {}, within: 50 mm, after: 5 s}}", point(place)),
         };
-        let mut text =
-            format!("name: {name}\ndescription: {}\nseed: {seed}\nrig: {{physics: {physics}}}\nobjects:\n", self.about);
+        let mut text = format!("name: {name}\ndescription: {}\nseed: {seed}\n{rig}objects:\n", self.about);
         for object in &self.objects {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  - {object}");
         }
         text + &format!("start: {}\nstop: {{time: {time} s, {aim}}}\n", pose(&self.start))
     }
-}
-
-/// The start beside an object that stands 0.2 m to the right or left (`hand` +1 or −1) of the line that goes up through it,
-/// turned a little towards it.
-pub(super) fn beside(hand: f64) -> Pose {
-    Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 - hand * INCLINATION }
 }
 
 /// A polygon as an object.
@@ -87,43 +79,47 @@ pub(super) fn circle(centre: Point2, radius: f64) -> String {
     format!("circle: {{centre: {}, radius: {}}}", point(centre), metres(radius))
 }
 
+/// A smooth curve as an object.
+pub(super) fn polar(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> String {
+    let harmonic = |&Harmonic { order, amplitude, phase }: &Harmonic| {
+        format!("{{order: {order}, amplitude: {}, phase: {}}}", metres(amplitude), degrees(phase))
+    };
+    let harmonics: Vec<_> = harmonics.iter().map(harmonic).collect();
+    format!("polar: {{centre: {}, radius: {}, harmonics: [{}]}}", point(centre), metres(radius), harmonics.join(", "))
+}
+
 /// A convex polygon, counter-clockwise, with its corners but for the first rounded by these radii (m), 0 for a sharp one, as an
 /// object. A path adds up, so that its numbers keep all their digits.
-pub(super) fn rounded_polygon(corners: &[Point2], radii: &[f64]) -> String {
-    let count = corners.len();
-    let side = |k: usize| corners[(k + 1) % count] - corners[k];
-    let turn = |k: usize| {
-        let (into, out) = (side((k + count - 1) % count), side(k));
-        into.perp(&out).atan2(into.dot(&out))
-    };
+pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2) -> String {
     // What the rounding of a corner takes of the sides that meet there.
-    let taken = |k: usize| radii[k % count] * (0.5 * turn(k % count)).tan();
+    let taken = |k: usize| radii[k % radii.len()] * (0.5 * turn(corners, k).2).tan();
     let mut moves = Vec::new();
-    for k in 0..count - 1 {
-        let (next, length) = (k + 1, side(k).norm() - taken(k) - taken(k + 1));
-        moves.push(format!("{{straight: {length} m}}"));
-        moves.push(if radii[next] > 0.0 {
-            format!("{{arc: {{radius: {} m, angle: {} rad}}}}", radii[next], turn(next))
+    for k in 0..corners.len() - 1 {
+        let ((into, _, angle), radius) = (turn(corners, k + 1), radii[k + 1]);
+        moves.push(format!("{{straight: {} m}}", into.norm() - taken(k) - taken(k + 1)));
+        moves.push(if radius > 0.0 {
+            format!("{{arc: {{radius: {radius} m, angle: {angle} rad}}}}")
         } else {
-            format!("{{turn: {} rad}}", turn(next))
+            format!("{{turn: {angle} rad}}")
         });
     }
-    let heading = side(0).y.atan2(side(0).x);
-    let start = format!("{{position: [{} m, {} m], heading: {heading} rad}}", corners[0].x, corners[0].y);
+    let (first, out) = (centre + corners[0], turn(corners, 0).1);
+    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, out.y.atan2(out.x));
     format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
 }
 
-/// A tunnel as an object: straight runs, each with its length (m) and heading (rad), from a place on; clear between the walls.
-pub(super) fn tunnel(from: &Pose, runs: &[(f64, f64)], width: f64, thickness: f64) -> String {
+/// A tunnel as an object: straight runs, each with its length (m) and heading (rad), from a place on; how much is clear between
+/// the walls (m) square to each run, and how thick they are (m).
+pub(super) fn tunnel(from: &Pose, runs: &[(f64, f64)], clear: f64, thickness: f64) -> String {
     let runs: Vec<_> = runs
         .iter()
         .map(|&(length, heading)| format!("{{length: {}, heading: {}}}", metres(length), degrees(heading)))
         .collect();
     format!(
-        "tunnel: {{frame: {}, centre_line: {{polyline: [{}]}}, width: {}, thickness: {}}}",
+        "tunnel: {{frame: {}, centre_line: {{mitred: [{}]}}, width: {}, thickness: {}}}",
         pose(from),
         runs.join(", "),
-        metres(width),
+        metres(clear + thickness),
         metres(thickness)
     )
 }

@@ -3,14 +3,15 @@
 //! A draw is the text of a scenario, read as any other, so that what is drawn is checked, can be printed and can be run by
 //! itself. It depends on nothing but the family's name, the seed and its number.
 
-mod approach;
 mod concave_corner;
 mod convex_corner;
 mod dice;
 mod draw;
 mod layout;
 mod outline;
+mod place;
 mod polygon;
+mod smooth_curve;
 mod thin_wall;
 mod tunnel_mouth;
 mod two_objects;
@@ -32,9 +33,10 @@ pub struct Family {
 }
 
 /// All families.
-pub const FAMILIES: [Family; 7] = [
+pub const FAMILIES: [Family; 8] = [
     convex_corner::FAMILY,
     concave_corner::FAMILY,
+    smooth_curve::FAMILY,
     polygon::FAMILY,
     thin_wall::FAMILY,
     two_objects::FAMILY,

@@ -1,13 +1,44 @@
-//! Corners round a centre.
+//! Outlines round the origin.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::dice::Dice;
 use crate::geometry::{Vector2, unit};
 
-/// The corners of a random convex polygon round the origin: on a circle, no two near each other.
+/// Points by which an arc is told apart from its corner.
+const POINTS: u32 = 32;
+
+/// The corners of a random convex polygon round the origin, counter-clockwise: on a circle, no two near each other.
 pub(super) fn convex_polygon(dice: &mut Dice, radius: f64, corners: u32) -> Vec<Vector2> {
     let (turned, step) = (dice.between(0.0, TAU), TAU / f64::from(corners));
     let angle = |k: u32, dice: &mut Dice| turned + step * (f64::from(k) + dice.between(-0.3, 0.3));
     (0..corners).map(|k| radius * unit(angle(k, dice))).collect()
+}
+
+/// Points all round a disk.
+pub(super) fn disk(radius: f64) -> Vec<Vector2> {
+    arc(radius, 0.0, TAU).collect()
+}
+
+/// The directions in which a closed polygon comes to a corner and leaves it, and how far it turns there (rad).
+pub(super) fn turn(corners: &[Vector2], k: usize) -> (Vector2, Vector2, f64) {
+    let count = corners.len();
+    let corner = |k: usize| corners[k % count];
+    let (into, out) = (corner(k) - corner(k + count - 1), corner(k + 1) - corner(k));
+    (into, out, into.perp(&out).atan2(into.dot(&out)))
+}
+
+/// Points all round a convex polygon, counter-clockwise, whose corners are rounded by these radii (m).
+pub(super) fn rounded(corners: &[Vector2], radii: &[f64]) -> Vec<Vector2> {
+    let corner = |k: usize| {
+        let (into, out, turn) = turn(corners, k);
+        let inwards = (out.normalize() - into.normalize()).normalize();
+        let centre = corners[k] + radii[k] / (0.5 * turn).cos() * inwards;
+        arc(radii[k], into.y.atan2(into.x) - FRAC_PI_2, turn).map(move |point| centre + point)
+    };
+    (0..corners.len()).flat_map(corner).collect()
+}
+
+fn arc(radius: f64, from: f64, sweep: f64) -> impl Iterator<Item = Vector2> {
+    (0..=POINTS).map(move |k| radius * unit(from + sweep * f64::from(k) / f64::from(POINTS)))
 }

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, beside, rounded_polygon};
-use super::outline::convex_polygon;
-use crate::geometry::{Point2, Vector2};
+use super::layout::{Aim, Contact, Layout, rounded_polygon};
+use super::outline::{convex_polygon, rounded, turn};
+use super::place::{ahead, beside};
+use crate::geometry::Vector2;
 
 pub(super) const FAMILY: Family = Family {
     name: "polygon",
@@ -21,26 +22,25 @@ fn lay(dice: &mut Dice) -> Layout {
     let hand = dice.side();
     let radius = dice.between(0.2, 0.35);
     let count = dice.count(3, 8);
-    let centre = Point2::new(hand * (0.2 + radius), 0.35);
-    let corners: Vec<Point2> = convex_polygon(dice, radius, count).iter().map(|&corner| centre + corner).collect();
-    let radii: Vec<f64> = (0..corners.len())
-        .map(|k| {
-            let [before, here, after] = [k + corners.len() - 1, k, k + 1].map(|k| corners[k % corners.len()]);
-            let (into, out): (Vector2, Vector2) = (here - before, after - here);
-            let turn = into.perp(&out).atan2(into.dot(&out));
-            let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / (0.5 * turn).tan();
-            let wanted = dice.between(0.02, 0.1);
-            // The first stays sharp: the outline begins there.
-            if k == 0 || dice.count(0, 1) == 0 || room < 0.02 { 0.0 } else { wanted.min(room) }
-        })
-        .collect();
-    let rounded = radii.iter().filter(|radius| **radius > 0.0).count();
+    let corners = convex_polygon(dice, radius, count);
+    // The first corner stays sharp: the outline begins there.
+    let radii: Vec<f64> = (0..corners.len()).map(|k| if k == 0 { 0.0 } else { rounding(dice, &corners, k) }).collect();
+    let centre = ahead(dice, hand, &rounded(&corners, &radii));
+    let arcs = radii.iter().filter(|radius| **radius > 0.0).count();
     Layout {
-        about: format!("{count} corners, {rounded} of them rounded"),
-        objects: vec![rounded_polygon(&corners, &radii)],
+        about: format!("{count} corners, {arcs} of them rounded"),
+        objects: vec![rounded_polygon(&corners, &radii, centre)],
         physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * radius,
     }
+}
+
+/// The radius (m) by which a corner is rounded, every other one; 0 for a sharp one.
+fn rounding(dice: &mut Dice, corners: &[Vector2], k: usize) -> f64 {
+    let (into, out, turn) = turn(corners, k);
+    let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / (0.5 * turn).tan();
+    let wanted = dice.between(0.02, 0.1);
+    if dice.count(0, 1) == 0 || room < 0.02 { 0.0 } else { wanted.min(room) }
 }

@@ -4,36 +4,39 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, beside, circle, polygon};
-use super::outline::convex_polygon;
-use crate::geometry::{Point2, Vector2, unit};
+use super::layout::{Aim, Contact, Layout, circle, polygon};
+use super::outline::{convex_polygon, disk};
+use super::place::{ahead, beside};
+use crate::geometry::{Vector2, unit};
 
 pub(super) const FAMILY: Family =
-    Family { name: "two-objects", about: "two disks or polygons, one behind the other, 5 to 60 cm apart", lay };
+    Family { name: "two-objects", about: "two disks or polygons side by side, 5 to 60 cm apart", lay };
 
 fn lay(dice: &mut Dice) -> Layout {
     let hand = dice.side();
-    let (first, second) = (dice.between(0.14, 0.2), dice.between(0.1, 0.2));
+    let radii = [dice.between(0.14, 0.2), dice.between(0.1, 0.2)];
     let gap = dice.between(0.05, 0.6);
-    let centre = Point2::new(0.2 + first, 0.3);
-    // The second one beyond the first, so that the platform is met by that one first.
-    let direction = unit(dice.between(-0.3, 1.3));
-    let beyond = centre + (first + gap + second) * direction;
-    let placed = |centre: Point2| Point2::new(hand * centre.x, centre.y);
-    let objects = [(centre, first), (beyond, second)].map(|(centre, radius)| {
-        let sides = dice.count(2, 6);
-        if sides == 2 {
-            return circle(placed(centre), radius);
-        }
-        let corners: Vec<Vector2> = convex_polygon(dice, radius, sides);
-        polygon(&corners.iter().map(|&corner| placed(centre) + corner).collect::<Vec<_>>())
+    let corners: [Vec<Vector2>; 2] = radii.map(|radius| match dice.count(2, 6) {
+        2 => Vec::new(),
+        sides => convex_polygon(dice, radius, sides),
     });
+    // A disk has no corners.
+    let centre = ahead(dice, hand, &if corners[0].is_empty() { disk(radii[0]) } else { corners[0].clone() });
+    // The second one is farther to the side, or beyond: the platform comes upon the first.
+    let direction = unit(dice.between(-0.3, 1.3));
+    let beyond = centre + (radii[0] + gap + radii[1]) * Vector2::new(hand * direction.x, direction.y);
+    let object = |corners: &[Vector2], centre, radius| {
+        if corners.is_empty() {
+            return circle(centre, radius);
+        }
+        polygon(&corners.iter().map(|corner| centre + corner).collect::<Vec<_>>())
+    };
     Layout {
-        about: format!("{:.0} mm apart at least", 1e3 * gap),
-        objects: objects.to_vec(),
+        about: format!("{:.0} mm between the circles around them", 1e3 * gap),
+        objects: vec![object(&corners[0], centre, radii[0]), object(&corners[1], beyond, radii[1])],
         physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
-        way: TAU * (first + second),
+        way: TAU * (radii[0] + radii[1]),
     }
 }

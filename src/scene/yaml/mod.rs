@@ -12,6 +12,7 @@ mod number;
 mod object;
 mod objects;
 mod path;
+mod polar;
 mod reader;
 mod rig;
 mod scene;

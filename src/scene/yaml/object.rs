@@ -5,7 +5,7 @@ use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
-use super::{fault, path, tunnel};
+use super::{fault, path, polar, tunnel};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{
     Contour, ContourError, Point2, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
@@ -15,13 +15,13 @@ use crate::units::{Dimension, format_si};
 const CENTRE: Key = Key { name: "centre", example: "[40 cm, 40 cm]", ..POSITION };
 const VERTICES: &str = "[[0 cm, 30 cm], [20 cm, 30 cm], [10 cm, 50 cm]]";
 const VERTEX: Key = Key { name: "vertices", example: VERTICES, ..POSITION };
-const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-4, 100.0), "30 cm");
+pub(super) const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-4, 100.0), "30 cm");
 const CIRCUMRADIUS: Key = Key { name: "circumradius", ..RADIUS };
 const WIDTH: Key = Key { name: "width", ..RADIUS };
 const HEIGHT: Key = Key { name: "height", ..RADIUS };
 const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
 
-const KINDS: [&str; 6] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "path", "tunnel"];
+const KINDS: [&str; 7] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "tunnel"];
 
 /// What one object is.
 pub(super) enum Object {
@@ -54,6 +54,7 @@ fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Placed<Object>> 
         "rounded_rectangle" => read_rounded_rectangle(reader, entry),
         "polygon" => read_polygon(reader, entry),
         "regular_polygon" => read_regular_polygon(reader, entry),
+        "polar" => polar::read(reader, entry),
         "path" => path::read(reader, entry),
         _ => {
             let tunnel = Object::Tunnel(Box::new(tunnel::read(reader, entry)?));
@@ -140,7 +141,7 @@ fn read_regular_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contou
     made(reader, regular_polygon(centre?, circumradius?.value, sides?, heading), entry.key.span, &[])
 }
 
-fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option<Point2> {
+pub(super) fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option<Point2> {
     let entry = fields.required(CENTRE.name, CENTRE.example)?;
     Some(reader.point(&entry.value, &CENTRE)?.value)
 }

@@ -7,7 +7,7 @@ use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{self, HEADING};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{CentreLine, Opening, Pose, Tunnel};
+use crate::geometry::{CentreLine, Corners, Opening, Pose, Tunnel};
 use crate::units::Dimension;
 
 const WIDTH: Key = Key::new("width", Dimension::LENGTH, (1e-3, 10.0), "225 mm");
@@ -53,25 +53,27 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Tunnel> {
 }
 
 fn centre_line(reader: &mut Reader<'_>, entry: &Entry) -> Option<CentreLine> {
-    let kinds = ["polyline", "sine", "polar"];
+    let kinds = ["polyline", "mitred", "sine", "polar"];
     let example = "sine: {amplitude: 10 cm, wave_number: 4 rad/m, length: 1.5 m}";
     let (kind, entry) = reader.variant(&entry.value, "a centre line", &kinds, example)?;
     match kind {
-        "polyline" => polyline(reader, entry),
+        "polyline" => polyline(reader, entry, Corners::AtDistance),
+        "mitred" => polyline(reader, entry, Corners::Mitred),
         "sine" => sine(reader, entry),
         _ => polar(reader, entry),
     }
 }
 
-fn polyline(reader: &mut Reader<'_>, entry: &Entry) -> Option<CentreLine> {
-    let items = reader.items(&entry.value, "a list of runs", &format!("polyline: {RUNS}"))?;
+fn polyline(reader: &mut Reader<'_>, entry: &Entry, corners: Corners) -> Option<CentreLine> {
+    let example = format!("{}: {RUNS}", entry.key.value);
+    let items = reader.items(&entry.value, "a list of runs", &example)?;
     if items.is_empty() {
         let fault = Diagnostic::error(fault::SHAPE, "the tunnel has no run", entry.key.span, "empty");
-        reader.report(fault.hint(format!("for example `polyline: {RUNS}`")));
+        reader.report(fault.hint(format!("for example `{example}`")));
         return None;
     }
     let runs: Vec<_> = items.iter().map(|item| run(reader, entry, item)).collect();
-    Some(CentreLine::Polyline { runs: runs.into_iter().collect::<Option<_>>()? })
+    Some(CentreLine::Polyline { runs: runs.into_iter().collect::<Option<_>>()?, corners })
 }
 
 fn run(reader: &mut Reader<'_>, entry: &Entry, item: &Placed<Node>) -> Option<(f64, f64)> {

@@ -1,0 +1,88 @@
+//! Smooth closed curves round a centre.
+
+use std::f64::consts::TAU;
+
+use super::ShapeError;
+use super::error::{finite, finite_point, positive};
+use crate::geometry::fit::fit;
+use crate::geometry::{Contour, Point2, perpendicular, unit};
+
+/// A wave on a circle: `a cos(n θ + φ)` is added to its radius.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Harmonic {
+    /// How many waves `n` there are in a turn.
+    pub order: u32,
+    /// The amplitude `a` (m).
+    pub amplitude: f64,
+    /// The phase `φ` (rad).
+    pub phase: f64,
+}
+
+/// The closed curve `r = R + Σ a cos(n θ + φ)` round a centre (m), from its mean radius `R` (m) and its harmonics; fitted by arcs
+/// to a micrometre.
+///
+/// ```
+/// use vibrissa::geometry::{Harmonic, Point2, polar_curve};
+/// let egg = polar_curve(Point2::origin(), 0.2, &[Harmonic { order: 2, amplitude: 0.02, phase: 0.0 }])?;
+/// assert!((egg.nearest(Point2::new(0.3, 0.0)).distance - 0.08).abs() < 1e-6);
+/// assert!(egg.corners().is_empty());
+/// # Ok::<(), vibrissa::geometry::ShapeError>(())
+/// ```
+///
+/// # Errors
+/// If a number is not finite, the radius is not positive, or the harmonics together are as large as the radius, or too fine to
+/// be fitted.
+pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Result<Contour, ShapeError> {
+    finite_point("centre", centre)?;
+    positive("radius", radius)?;
+    for harmonic in harmonics {
+        finite("amplitude", harmonic.amplitude)?;
+        finite("phase", harmonic.phase)?;
+    }
+    // Where the radius is not positive the curve would go through its centre.
+    positive("least radius", radius - harmonics.iter().map(|harmonic| harmonic.amplitude.abs()).sum::<f64>())?;
+    let curve = |angle: f64| {
+        let (mut distance, mut growth) = (radius, 0.0);
+        for &Harmonic { order, amplitude, phase } in harmonics {
+            let (sin, cos) = (f64::from(order) * angle + phase).sin_cos();
+            distance += amplitude * cos;
+            growth -= f64::from(order) * amplitude * sin;
+        }
+        let outward = unit(angle);
+        (centre + distance * outward, growth * outward + distance * perpendicular(outward))
+    };
+    let pieces = fit(curve, 0.0, TAU).ok_or(ShapeError::TooFine)?;
+    Ok(Contour::closed(pieces)?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn curves_are_where_their_harmonics_say_and_without_corners(
+            harmonics in prop::collection::vec((1_u32..7, 0.0..0.02_f64, 0.0..TAU), 0..5),
+            angle in 0.0..TAU,
+        ) {
+            let harmonics: Vec<_> =
+                harmonics.into_iter().map(|(order, amplitude, phase)| Harmonic { order, amplitude, phase }).collect();
+            let centre = Point2::new(0.3, -0.2);
+            let contour = polar_curve(centre, 0.2, &harmonics).unwrap();
+            let wave = |wave: &Harmonic| wave.amplitude * (f64::from(wave.order) * angle + wave.phase).cos();
+            let point = centre + (0.2 + harmonics.iter().map(wave).sum::<f64>()) * unit(angle);
+            prop_assert!(contour.nearest(point).distance < 1.1e-6);
+            prop_assert!(contour.corners().is_empty() && contour.area() > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_curve_through_its_centre_is_refused() {
+        let harmonic = Harmonic { order: 3, amplitude: -0.2, phase: 0.0 };
+        let error = polar_curve(Point2::origin(), 0.2, &[harmonic]).err();
+        assert_eq!(error, Some(ShapeError::NotPositive { what: "least radius", value: 0.0 }));
+    }
+}

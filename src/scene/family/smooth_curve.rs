@@ -1,0 +1,76 @@
+//! Random smooth closed curves.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Family;
+use super::dice::Dice;
+use super::layout::{Aim, Contact, Layout, polar};
+use super::place::{ahead, beside};
+use crate::geometry::{Harmonic, Vector2, unit};
+
+pub(super) const FAMILY: Family = Family {
+    name: "smooth-curve",
+    about: "a smooth closed curve with up to five bulges, no narrower bent than 8 cm outwards and 25 cm inwards",
+    lay,
+};
+
+/// The most curvature of a bulge (1/m). A tip that slides round it does not spring off.
+const ROUND: f64 = 1.0 / 0.08;
+/// The most curvature of a hollow (1/m). The nose, 108 mm ahead of the centre of mass, has room where a whisker slides along it.
+const HOLLOW: f64 = 1.0 / 0.25;
+
+/// How many directions are looked at.
+const PLACES: u32 = 720;
+/// What is left of the waves each time that they are found too sharp.
+const FLATTER: f64 = 0.95;
+
+fn lay(dice: &mut Dice) -> Layout {
+    let hand = dice.side();
+    let radius = dice.between(0.2, 0.35);
+    let mut harmonics: Vec<Harmonic> = (2..=5)
+        .map(|order| {
+            let amplitude = dice.between(0.0, 0.4) * radius / f64::from(order);
+            Harmonic { order, amplitude, phase: dice.between(-PI, PI) }
+        })
+        .collect();
+    let mut bends = bends(radius, &harmonics);
+    // A circle is round enough, so this comes to an end.
+    while bends.0 < -HOLLOW || bends.1 > ROUND {
+        harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude *= FLATTER);
+        bends = self::bends(radius, &harmonics);
+    }
+    let outline: Vec<_> = angles().map(|angle| distance(radius, &harmonics, angle)[0] * unit(angle)).collect();
+    let inwards = if bends.0 < 0.0 { format!(", hollows of {:.0} mm", -1e3 / bends.0) } else { String::new() };
+    Layout {
+        about: format!("bulges of {:.0} mm{inwards}", 1e3 / bends.1),
+        objects: vec![polar(ahead(dice, hand, &outline), radius, &harmonics)],
+        physics: Contact::Smooth,
+        start: beside(hand),
+        aim: Aim::Loop,
+        way: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),
+    }
+}
+
+/// The least and the greatest curvature (1/m) of a curve, positive where it bulges.
+fn bends(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
+    let curvature = |angle| {
+        let [r, slope, bend] = distance(radius, harmonics, angle);
+        (r * r + 2.0 * slope * slope - r * bend) / (r * r + slope * slope).powf(1.5)
+    };
+    angles()
+        .map(curvature)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), here| (least.min(here), most.max(here)))
+}
+
+/// The distance of a curve from its centre at an angle, and its first two derivatives (m).
+fn distance(radius: f64, harmonics: &[Harmonic], angle: f64) -> [f64; 3] {
+    harmonics.iter().fold([radius, 0.0, 0.0], |[r, slope, bend], &Harmonic { order, amplitude, phase }| {
+        let order = f64::from(order);
+        let (sin, cos) = (order * angle + phase).sin_cos();
+        [r + amplitude * cos, slope - order * amplitude * sin, bend - order * order * amplitude * cos]
+    })
+}
+
+fn angles() -> impl Iterator<Item = f64> {
+    (0..=PLACES).map(|k| TAU * f64::from(k) / f64::from(PLACES))
+}
