@@ -1,6 +1,10 @@
 //! What a malformed policy is answered with, as a user sees it: one fixture a kind, one snapshot a fixture.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
 use vibrissa::policy::compile;
 
@@ -12,17 +16,9 @@ fn codes(text: &str) -> Vec<&'static str> {
     faults(text).iter().map(|fault| fault.code).collect()
 }
 
-fn snapshots() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
-}
-
 #[test]
 fn every_malformed_policy_is_answered_as_reviewed() {
-    snapshots().bind(|| {
+    snapshots("policies").bind(|| {
         insta::glob!("fixtures/policies/bad/*.fsm", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
@@ -63,7 +59,7 @@ fn a_file_that_is_too_long_is_answered_as_reviewed() {
     let source = Source::new("policy.fsm", format!("machine m {}", "# a comment\n".repeat(30_000)));
     let faults = compile(&source).unwrap_err();
     assert_eq!(faults.iter().map(|fault| fault.code).collect::<Vec<_>>(), ["P0102"]);
-    snapshots().bind(|| insta::assert_snapshot!("too_long", terminal(&source, &faults, Colour::Plain)));
+    snapshots("policies").bind(|| insta::assert_snapshot!("too_long", terminal(&source, &faults, Colour::Plain)));
 }
 
 #[test]

@@ -1,10 +1,14 @@
 //! The formatter changes how a policy looks and nothing else.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::machine::Program;
 use vibrissa::policy::{compile, format};
@@ -120,11 +124,7 @@ fn the_examples_of_the_documentation_are_formatted() {
 fn an_ugly_policy_becomes_as_reviewed() {
     let text = include_str!("fixtures/policies/format/ugly.fsm");
     assert!(machine(text).is_some());
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!("formatted", formatted(text)));
+    snapshots("policies").bind(|| insta::assert_snapshot!("formatted", formatted(text)));
 }
 
 #[test]
@@ -148,11 +148,8 @@ fn a_text_that_would_become_too_long_to_be_read_is_refused() {
     let source = Source::new("policy.fsm", format!("machine m\n{}\n", states.join("\n")));
     let faults = format(&source).unwrap_err();
     assert_eq!(faults.iter().map(|fault| fault.code).collect::<Vec<_>>(), ["P0102"]);
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!("laid_out_too_long", terminal(&source, &faults, Colour::Plain)));
+    snapshots("policies")
+        .bind(|| insta::assert_snapshot!("laid_out_too_long", terminal(&source, &faults, Colour::Plain)));
 }
 
 #[test]

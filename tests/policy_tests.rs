@@ -1,18 +1,14 @@
 //! What is said of a test that a policy carries, as a user sees it: one fixture a kind, one snapshot a fixture.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 use std::process::Command;
 
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
 use vibrissa::policy::{RunFigure, compile_with_warnings};
-
-fn snapshots() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
-}
 
 #[test]
 fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
@@ -31,7 +27,8 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
     };
     let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));
     let faults: Vec<Diagnostic> = faults.collect();
-    snapshots().bind(|| insta::assert_snapshot!(format!("test@{name}"), terminal(&source, &faults, Colour::Plain)));
+    snapshots("policies")
+        .bind(|| insta::assert_snapshot!(format!("test@{name}"), terminal(&source, &faults, Colour::Plain)));
 }
 
 #[test]
@@ -41,5 +38,6 @@ fn a_scenario_that_cannot_be_read_is_shown_where_the_test_names_it() {
     command.args(["test", &format!("tests/fixtures/policies/test/{name}")]).current_dir(env!("CARGO_MANIFEST_DIR"));
     let output = command.output().unwrap();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    snapshots().bind(|| insta::assert_snapshot!(format!("test@{name}"), String::from_utf8(output.stderr).unwrap()));
+    snapshots("policies")
+        .bind(|| insta::assert_snapshot!(format!("test@{name}"), String::from_utf8(output.stderr).unwrap()));
 }

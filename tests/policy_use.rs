@@ -1,9 +1,13 @@
 //! Policies of several files: what they may use, and what is said when they do it wrong.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 use std::cell::RefCell;
 
 use proptest::prelude::*;
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, Source, records, terminal};
 use vibrissa::policy::{Checked, check, compile, compile_with_warnings, format, gather};
 
@@ -27,11 +31,7 @@ const STILL: &str = "initial Still state Still { stop }";
 
 #[test]
 fn every_use_is_answered_as_reviewed() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
+    snapshots("policies").bind(|| {
         insta::glob!("fixtures/policies/use/*.fsm", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());

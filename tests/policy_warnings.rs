@@ -1,10 +1,14 @@
 //! What a policy that compiles is warned of, as a user sees it: one fixture a kind, one snapshot a fixture.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use proptest::prelude::*;
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
 use vibrissa::geometry::Vector2;
 use vibrissa::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
@@ -36,11 +40,7 @@ fn codes_of(transitions: &str) -> Vec<&'static str> {
 
 #[test]
 fn every_warning_is_given_as_reviewed() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/policies");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
+    snapshots("policies").bind(|| {
         insta::glob!("fixtures/policies/warn/*.fsm", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());

@@ -1,6 +1,9 @@
 //! What people and programs get to see of a run.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 #[path = "common/seen.rs"]
 mod seen;
 
@@ -11,6 +14,7 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 use runs::{arc_of_tips, run_with};
 use seen::{apart, see};
+use snapshots::snapshots;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::machine::{Cause, Failsafe, Mark};
@@ -43,14 +47,6 @@ fn identity() -> Identity {
     }
 }
 
-fn snapshots(assert: impl FnOnce()) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/report");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(assert);
-}
-
 /// The result as JSON in the order of its keys, with figures to a thousandth, so that they hold across machines.
 fn json(result: &RunResult) -> String {
     let text = serde_json::to_string_pretty(result).unwrap();
@@ -69,7 +65,7 @@ fn a_result_has_the_keys_of_the_command_line() {
     lost.outcome = Outcome::Failed;
     lost.reason = Some("the whisker lost the object".to_owned());
     lost.wall = std::time::Duration::ZERO;
-    snapshots(|| {
+    snapshots("report").bind(|| {
         for (name, run) in [("result", half_round()), ("result_of_nothing", lost)] {
             insta::assert_snapshot!(name, json(&result(&run)));
         }
@@ -142,7 +138,7 @@ fn a_table_has_a_line_a_run() {
     lost.scenario = "rounded rectangle".to_owned();
     lost.outcome = Outcome::Failed;
     lost.realtime = None;
-    snapshots(|| insta::assert_snapshot!("table", table(&[result(&half_round()), lost])));
+    snapshots("report").bind(|| insta::assert_snapshot!("table", table(&[result(&half_round()), lost])));
 }
 
 /// A scene of the disk of [`half_round`].

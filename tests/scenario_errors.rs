@@ -1,7 +1,11 @@
 //! What a malformed scenario is answered with, as a user sees it: one fixture a kind, one snapshot a fixture.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "common/snapshots.rs"]
+mod snapshots;
+
 use proptest::prelude::*;
+use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, FAULT_LIMIT, Severity, Source, terminal};
 use vibrissa::scene::Scene;
 
@@ -11,17 +15,9 @@ fn faults(text: &str) -> Vec<Diagnostic> {
     Scene::from_yaml(&Source::new("scenario.yaml", text)).err().unwrap_or_default()
 }
 
-fn snapshots() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots/scenarios");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
-}
-
 #[test]
 fn every_malformed_scenario_is_answered_as_reviewed() {
-    snapshots().bind(|| {
+    snapshots("scenarios").bind(|| {
         insta::glob!("fixtures/scenarios/bad/*.yaml", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
@@ -107,7 +103,8 @@ fn a_polygon_of_too_many_corners_is_answered_as_reviewed() {
         format!("[{} m, {} m]", 0.4 + 0.3 * cos, 0.4 + 0.3 * sin)
     }));
     let faults = Scene::from_yaml(&source).unwrap_err();
-    snapshots().bind(|| insta::assert_snapshot!("too_many_corners", terminal(&source, &faults, Colour::Plain)));
+    snapshots("scenarios")
+        .bind(|| insta::assert_snapshot!("too_many_corners", terminal(&source, &faults, Colour::Plain)));
 }
 
 #[test]

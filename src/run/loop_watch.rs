@@ -3,6 +3,10 @@
 use crate::geometry::{Point2, Vector2};
 use crate::scene::LoopClosed;
 
+/// The cosine of the greatest angle between the departure and a way that counts as ahead. Right behind a sharp corner the
+/// whisker comes round at less than a right angle to its departure; one that slid back comes along the departure.
+const AHEAD: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 /// Watches one whisker's tips for their coming round to where the first one was.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LoopWatch {
@@ -34,7 +38,8 @@ impl LoopWatch {
         let distance = from_start.norm();
         if distance > 2.0 * aim.within {
             let is_first = self.departure.is_none();
-            let ahead = self.departure.get_or_insert(from_start).dot(&from_start) > 0.0;
+            let departure = *self.departure.get_or_insert(from_start);
+            let ahead = departure.dot(&from_start) > AHEAD * departure.norm() * distance;
             if self.near && !is_first {
                 self.passes += i32::from(ahead) - i32::from(self.ahead);
             }
@@ -67,6 +72,29 @@ mod tests {
         for way in [1.0, -1.0] {
             let closing = closing_time((0..100).map(|tick| way * 0.1 * f64::from(tick)));
             assert_eq!(closing.map(|time| (time * 10.0).round()), Some(63.0), "at a whole turn");
+        }
+    }
+
+    /// The tips along a rhombus with sides of 0.1 m and a corner of `angle` (rad), from 2 mm behind that corner on.
+    fn round_a_rhombus(angle: f64) -> impl Iterator<Item = Point2> {
+        let (a, b) = (0.1 * unit(0.0), 0.1 * unit(angle));
+        let at = move |way: f64| match way.rem_euclid(0.4) {
+            way if way < 0.1 => way / 0.1 * a,
+            way if way < 0.2 => a + (way - 0.1) / 0.1 * b,
+            way if way < 0.3 => b + (0.3 - way) / 0.1 * a,
+            way => (0.4 - way) / 0.1 * b,
+        };
+        (0..600).map(move |tick| Point2::from(at(0.002 + 0.0015 * f64::from(tick))))
+    }
+
+    #[test]
+    fn a_loop_that_begins_right_behind_a_sharp_corner_closes() {
+        for degrees in [50.0_f64, 70.0, 90.0, 120.0, 170.0] {
+            let mut watch = LoopWatch::default();
+            let mut tips = round_a_rhombus(degrees.to_radians()).zip(0_u32..);
+            let closing = tips.find(|&(tip, tick)| watch.closes(0.1 * f64::from(tick), Some(tip), &AIM));
+            let way = closing.map(|(_, tick)| 0.0015 * f64::from(tick));
+            assert!(way.is_some_and(|way| (way - 0.4).abs() < 2.0 * AIM.within), "{degrees} deg: {way:?}");
         }
     }
 

@@ -38,7 +38,7 @@ fn is_accepted(content: &[u8]) -> bool {
 
 #[test]
 fn no_single_bit_can_flip_unnoticed() {
-    for artifact in [policies::thesis(), policies::everything()] {
+    for artifact in [policies::swiping(), policies::everything()] {
         let mut bytes = artifact.to_bytes().unwrap();
         for at in 0..bytes.len() {
             for bit in 0..8 {
@@ -54,7 +54,7 @@ fn no_single_bit_can_flip_unnoticed() {
 #[test]
 fn whatever_bit_an_attacker_flips_the_machine_is_refused_or_safe() {
     let mut accepted = 0;
-    for artifact in [policies::thesis(), policies::everything(), policies::nested()] {
+    for artifact in [policies::swiping(), policies::everything(), policies::nested()] {
         let bytes = artifact.to_bytes().unwrap();
         let mut content = content(&bytes).to_vec();
         for at in 0..content.len() {
@@ -70,7 +70,7 @@ fn whatever_bit_an_attacker_flips_the_machine_is_refused_or_safe() {
 
 #[test]
 fn nothing_can_be_missing_and_nothing_added() {
-    let bytes = policies::thesis().to_bytes().unwrap();
+    let bytes = policies::swiping().to_bytes().unwrap();
     for length in 0..bytes.len() {
         let error = Artifact::from_bytes(&bytes[..length]).unwrap_err();
         let expected = if length < MAGIC.len() { ArtifactError::NotAnArtifact } else { ArtifactError::Length };
@@ -86,14 +86,14 @@ fn nothing_can_be_missing_and_nothing_added() {
 
 #[test]
 fn another_format_is_told_from_damage() {
-    let mut bytes = policies::thesis().to_bytes().unwrap();
+    let mut bytes = policies::swiping().to_bytes().unwrap();
     bytes[MAGIC.len()] += 1;
     assert_eq!(Artifact::from_bytes(&bytes), Err(ArtifactError::Format { found: FORMAT + 1 }));
 }
 
 #[test]
 fn a_number_cannot_be_spelt_in_two_ways() {
-    let bytes = policies::thesis().to_bytes().unwrap();
+    let bytes = policies::swiping().to_bytes().unwrap();
     let content = content(&bytes);
     // The content begins with the length of the file's name; 0x80 says that more of the number follows.
     assert_eq!(usize::from(content[0]), "thesis.fsm".len());
@@ -103,7 +103,7 @@ fn a_number_cannot_be_spelt_in_two_ways() {
 #[test]
 fn lengths_that_nothing_follows_and_files_without_end_are_refused_at_once() {
     let endless = [0xFF; 9];
-    let bytes = policies::thesis().to_bytes().unwrap();
+    let bytes = policies::swiping().to_bytes().unwrap();
     let content = content(&bytes);
     // The last number is a column, which may be any.
     for at in 0..content.len() - 1 {

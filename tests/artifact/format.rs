@@ -5,6 +5,8 @@ use std::fmt::Debug;
 use serde::de::DeserializeOwned;
 use vibrissa::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, WhiskerVector};
 
+use crate::snapshots::snapshots;
+
 /// The variants of an enum with the numbers that stand for them in an artifact.
 fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
     (0..128_u8)
@@ -24,10 +26,6 @@ fn the_numbers_of_operations_and_quantities_belong_to_the_format() {
         numbered::<WhiskerVector>(),
         numbered::<ContourVector>(),
     ];
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../../snapshots/artifact");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
     let text = lists.map(|list| list.join("\n")).join("\n\n");
-    settings.bind(|| insta::assert_snapshot!(format!("format_{FORMAT}"), text));
+    snapshots("artifact").bind(|| insta::assert_snapshot!(format!("format_{FORMAT}"), text));
 }

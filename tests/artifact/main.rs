@@ -6,4 +6,6 @@ mod erratic;
 mod format;
 mod policies;
 mod round_trip;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
 mod unsound;

@@ -1,6 +1,7 @@
 //! Policies to make artifacts of.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::machine::Artifact;
@@ -56,7 +57,14 @@ pub(crate) fn everything() -> Artifact {
 
 /// The thesis's artifact.
 pub(crate) fn thesis() -> Artifact {
-    artifact("policies/thesis.fsm", include_str!("../../policies/thesis.fsm"))
+    static THESIS: LazyLock<Artifact> =
+        LazyLock::new(|| artifact("policies/thesis.fsm", include_str!("../../policies/thesis.fsm")));
+    THESIS.clone()
+}
+
+/// The artifact of a policy that only swipes: small enough to be broken at every place.
+pub(crate) fn swiping() -> Artifact {
+    artifact("thesis.fsm", include_str!("../fixtures/editor/thesis.fsm"))
 }
 
 /// The artifact of three levels of states.

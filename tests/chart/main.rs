@@ -7,4 +7,6 @@ mod seen;
 mod charts;
 mod machine;
 mod picture;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
 mod text;

@@ -6,14 +6,11 @@ use vibrissa::report::{chart_dot, chart_mermaid, chart_svg};
 
 use super::charts::{HARD, NESTED, THESIS, chart_of, charts, state};
 use super::seen::{see, within};
+use crate::snapshots::snapshots;
 
 #[test]
 fn the_texts_are_as_reviewed() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../../snapshots/charts");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
+    snapshots("charts").bind(|| {
         for (name, text) in [("thesis", THESIS), ("hard", HARD), ("nested", NESTED)] {
             let chart = chart_of(text);
             insta::assert_snapshot!(format!("{name}.mermaid"), chart_mermaid(&chart));

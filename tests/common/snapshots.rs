@@ -1,0 +1,12 @@
+//! Where reviewed output lies.
+
+use std::path::Path;
+
+/// Snapshots in a folder of `snapshots/`, called as they are named and no more.
+pub(crate) fn snapshots(folder: &str) -> insta::Settings {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots").join(folder));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}
