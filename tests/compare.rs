@@ -1,5 +1,5 @@
 //! Paired differences against closed forms and against chance, and starts that vary.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test may panic, and what is exact is compared exactly")]
 
 mod runs;
 
@@ -98,7 +98,7 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
 }
 
 #[test]
-fn a_run_that_either_did_not_complete_is_in_no_pair_but_is_told() {
+fn a_run_that_either_did_not_complete_is_in_no_pair_but_that_of_completion_and_is_told() {
     let ended = |ticks: [usize; 4], bad: usize| -> Vec<RunResult> {
         let outcome = |seed| if seed == bad { Outcome::Timeout } else { Outcome::Completed };
         (0..4).map(|seed| result(seed as u64, ticks[seed], outcome(seed))).collect()
@@ -117,6 +117,9 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_is_told() {
     assert_eq!((time("b.fsm").pairs, time("b.fsm").losses), (3, 3));
     assert!((time("b.fsm").difference.mean - 1.0).abs() < 1e-9 && (time("b.fsm").first - 7.0 / 3.0).abs() < 1e-9);
     assert_eq!((time("c.fsm").pairs, time("c.fsm").outlook), (4, Outlook::Same));
+    let completed = comparison.figures.iter().find(|figure| figure.figure == "completed").unwrap();
+    assert_eq!((completed.pairs, completed.losses, completed.wins), (4, 1, 0));
+    assert!(completed.first == 1.0 && completed.mean == 0.75, "a share of all runs");
     assert!(comparison.figures.iter().all(|figure| figure.figure != "corners.time_s"), "a disk has none");
     let table = comparison_table(&comparison);
     assert!(table.contains("Against a.fsm") && table.contains("not completed"), "{table}");

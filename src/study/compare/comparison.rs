@@ -24,7 +24,7 @@ pub struct PolicyRuns {
     pub policy: String,
     /// How many runs there were.
     pub runs: usize,
-    /// Those that did not complete. Their figures count nowhere: of a run that is cut short they would mislead.
+    /// Those that did not complete. Of their figures only `completed` counts: of a run that is cut short others would mislead.
     pub incomplete: Vec<Incomplete>,
 }
 
@@ -64,10 +64,9 @@ impl Comparison {
         let figures = policies.first().into_iter().flat_map(|(_, first)| {
             FIGURES.iter().flat_map(move |figure| {
                 others.iter().filter_map(move |(policy, results)| {
-                    let both = first.iter().zip(results);
-                    let complete =
-                        both.filter(|(a, b)| [a.outcome, b.outcome].iter().all(|&end| end == Outcome::Completed));
-                    let pairs = complete.filter_map(|(a, b)| Some(((figure.of)(a)?, (figure.of)(b)?))).collect();
+                    let counts = |result: &RunResult| figure.of_every_run || result.outcome == Outcome::Completed;
+                    let both = first.iter().zip(results).filter(|(a, b)| counts(a) && counts(b));
+                    let pairs = both.filter_map(|(a, b)| Some(((figure.of)(a)?, (figure.of)(b)?))).collect();
                     FigureComparison::new(figure, policy, pairs)
                 })
             })

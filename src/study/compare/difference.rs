@@ -36,7 +36,7 @@ pub struct Difference {
     pub interval: Option<[f64; 2]>,
 }
 
-/// One figure of one policy against the first, over the pairs in which both completed and both have it.
+/// One figure of one policy against the first, over the pairs in which both have it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FigureComparison {
     /// Name of the figure, with its unit.

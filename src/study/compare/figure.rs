@@ -1,6 +1,7 @@
 //! The figures by which policies are compared.
 
 use crate::report::RunResult;
+use crate::scene::Outcome;
 
 /// A figure of a run by which policies are compared.
 #[derive(Debug, Clone, Copy)]
@@ -11,19 +12,25 @@ pub struct Figure {
     pub of: fn(&RunResult) -> Option<f64>,
     /// Whether it is better the larger it is.
     pub larger_is_better: bool,
+    /// Whether runs that were cut short have it as well as those that completed.
+    pub of_every_run: bool,
 }
 
-/// All of them, as they are named in the result of a run.
-pub const FIGURES: [Figure; 16] = [
+/// All of them, as they are named in the result of a run; and whether it completed, 1 or 0, whose mean is a share.
+pub const FIGURES: [Figure; 17] = [
+    Figure {
+        of_every_run: true,
+        ..higher("completed", |result| Some(f64::from(u8::from(result.outcome == Outcome::Completed))))
+    },
     lower("error_mm.mean", |result| result.error_mm.mean),
     lower("error_mm.p95", |result| result.error_mm.p95),
     lower("error_mm.max", |result| result.error_mm.max),
-    Figure { name: "coverage", of: |result| Some(result.coverage), larger_is_better: true },
+    higher("coverage", |result| Some(result.coverage)),
     lower("hausdorff_mm", |result| result.hausdorff_mm),
     lower("retrieval.radius_mm", |result| result.retrieval?.radius_mm.mean),
     lower("retrieval.distance_mm", |result| result.retrieval?.distance_mm.mean),
     lower("axis_mm", |result| result.axis_mm?.mean),
-    Figure { name: "corners.traced", of: |result| Some(result.corners?.traced as f64), larger_is_better: true },
+    higher("corners.traced", |result| Some(result.corners?.traced as f64)),
     lower("corners.place_mm", |result| result.corners?.place_mm.mean),
     lower("corners.angle_rad", |result| result.corners?.angle_rad.mean),
     lower("corners.time_s", |result| result.corners?.time_s.mean),
@@ -34,5 +41,9 @@ pub const FIGURES: [Figure; 16] = [
 ];
 
 const fn lower(name: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
-    Figure { name, of, larger_is_better: false }
+    Figure { name, of, larger_is_better: false, of_every_run: false }
+}
+
+const fn higher(name: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
+    Figure { larger_is_better: true, ..lower(name, of) }
 }

@@ -18,7 +18,11 @@ pub fn comparison_table(comparison: &Comparison) -> String {
         .map(|policy| vec![policy.policy.clone(), policy.runs.to_string(), policy.incomplete.len().to_string()]);
     let mut text = ruled(["policy", "runs", "not completed"], runs, 1);
     if let Some(first) = comparison.policies.first() {
-        let _ = write!(text, "\n\nAgainst {}, over the runs that both completed:\n", first.policy);
+        let _ = write!(
+            text,
+            "\n\nAgainst {}, `completed` over all runs, the rest over those that both completed:\n",
+            first.policy
+        );
     }
     let figures = comparison.figures.iter().map(|figure| {
         let interval = figure
