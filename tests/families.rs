@@ -79,7 +79,7 @@ fn starts_are_evenly_distributed_over_all_that_there_may_be() {
 
 #[test]
 fn the_rig_stands_clear_wherever_starts_may_be() {
-    let shares = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    let shares = [-1.0, 0.0, 1.0];
     for family in FAMILIES {
         for Draw { scene, text, .. } in draws(&family) {
             let middle = middle(&scene);
@@ -204,7 +204,7 @@ fn walls_are_thin_and_two_objects_are_two() {
     for draw in named("thin-wall") {
         let outline = draw.scene.solids[0].outline();
         let thinnest = outline.pieces().iter().map(Piece::length).fold(f64::MAX, f64::min);
-        assert!((0.001999..=0.020001).contains(&thinnest), "{thinnest}");
+        assert!((0.001_999..=0.020_001).contains(&thinnest), "{thinnest}");
     }
     assert!(named("two-objects").all(|draw| draw.scene.solids.len() == 2));
 }

@@ -121,7 +121,8 @@ pub(super) struct CompareArguments {
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
-const FAMILIES_STATUS: &str = "Exit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error.";
+const FAMILIES_STATUS: &str =
+    "Exit status: 0 all runs completed without a contact of the body; 1 otherwise; 2 unusable input; 3 internal error.";
 
 #[derive(Debug, Args)]
 #[command(after_help = FAMILIES_STATUS)]
@@ -144,7 +145,7 @@ pub(super) struct FamiliesArguments {
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy"])]
     pub(super) print: bool,
-    /// Write all results, and a picture of every run that did not complete, into this directory
+    /// Write all results, and a picture of every run that did not complete or had the body touch something, into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print only JSON: an array of results

@@ -23,11 +23,11 @@ pub(super) struct Finished {
 }
 
 /// Runs all jobs, on so many threads or on as many as there are processors, and gives what came of them in their order, with
-/// pictures of those that are to be drawn. A bar on standard error shows how many are done, if that is a terminal.
+/// pictures of those that are to be drawn, by what is not as expected. A bar on standard error shows how many are done, if that is a terminal.
 pub(super) fn run_all(
     jobs: &[Job],
     threads: Option<NonZeroUsize>,
-    is_drawn: impl Fn(&RunResult) -> bool + Sync,
+    is_drawn: impl Fn(&[Violation]) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
     let bar = ProgressBar::new(jobs.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
@@ -38,8 +38,8 @@ pub(super) fn run_all(
         let score = Score::new(&run, &job.scene.truth);
         let result = job.result(&run, &score);
         let violation = |expectation: &Expectation| expectation.violation(run.outcome, |metric| score.figure(metric));
-        let violations = job.scene.expect.iter().filter_map(violation).collect();
-        let picture = is_drawn(&result).then(|| picture(&job.scene, &result.policy, &run, &score));
+        let violations: Vec<_> = job.scene.expect.iter().filter_map(violation).collect();
+        let picture = is_drawn(&violations).then(|| picture(&job.scene, &result.policy, &run, &score));
         Ok(Finished { result, violations, picture })
     };
     let done = |finished: &Result<Finished, Failure>| {

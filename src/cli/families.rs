@@ -4,8 +4,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::report::RunResult;
-use crate::scene::Outcome;
+use crate::scene::Violation;
 use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 use crate::study::bench::DEFAULT_POLICY;
 use crate::study::families::{FamilyRun, FamilyTally, families_table};
@@ -41,7 +40,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     policy.value.tell_warnings();
     let jobs = trials.iter().map(|trial| job(trial, &policy)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;
-    let is_drawn = |result: &RunResult| arguments.out.is_some() && result.outcome != Outcome::Completed;
+    let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&jobs, arguments.jobs, is_drawn)?;
     let runs = report(trials, finished, arguments.out.as_deref())?;
     if arguments.json {
@@ -49,7 +48,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     } else {
         output::result(families_table(&tallies(&runs)))?;
     }
-    Ok(if runs.iter().all(FamilyRun::is_completed) { Exit::Done } else { Exit::Unexpected })
+    Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
 }
 
 /// The scenes that are asked for, drawn several at a time.
@@ -94,18 +93,21 @@ fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
     output::text(format_args!("# seed {seed}; vibrissa run FILE --policy POLICY{set}\n{}", draw.text))
 }
 
-/// Tells the runs that did not complete, and writes all results and the pictures of those.
+/// Tells the runs that did not pass, and writes all results and the pictures of those.
 fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>) -> Result<Vec<FamilyRun>, Failure> {
     let mut runs = Vec::with_capacity(trials.len());
     let mut lines = String::new();
-    for (Trial { family, number: trial, draw }, Finished { result, picture, .. }) in trials.into_iter().zip(finished) {
+    for (Trial { family, number: trial, draw }, Finished { result, violations, picture }) in
+        trials.into_iter().zip(finished)
+    {
         if let (Some(directory), Some(picture)) = (directory, picture) {
             file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
         }
         let speed = draw.settings.iter().find(|(name, _)| *name == "speed").map_or(0.0, |(_, speed)| speed.value_si);
-        let run = FamilyRun { family, trial, about: draw.scene.description, speed, result };
-        if !run.is_completed() {
-            tell(&run);
+        let passed = violations.is_empty();
+        let run = FamilyRun { family, trial, about: draw.scene.description, speed, passed, result };
+        if !passed {
+            tell(&run, &violations);
         }
         lines += &serde_json::to_string(&run)?;
         lines.push('\n');
@@ -117,10 +119,20 @@ fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>)
     Ok(runs)
 }
 
-fn tell(FamilyRun { family, trial, about, speed, result }: &FamilyRun) {
-    let reason = result.reason.as_deref().unwrap_or("for no reason that is known");
+fn tell(run: &FamilyRun, violations: &[Violation]) {
+    let FamilyRun { family, trial, about, speed, result, .. } = run;
     let speed = 100.0 * speed;
-    output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {}: {reason}", result.outcome));
+    let reasons: Vec<String> = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();
+    let reasons = reasons.join("; ");
+    output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {reasons}"));
+}
+
+/// What is wrong with a run, which may have given a `reason` for its end.
+fn reason(violation: &Violation, reason: Option<&str>) -> String {
+    match (violation, reason) {
+        (Violation::Outcome { found, .. }, Some(reason)) => format!("{found}: {reason}"),
+        _ => violation.to_string(),
+    }
 }
 
 /// What became of each family, at every speed and all together.

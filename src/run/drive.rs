@@ -82,7 +82,10 @@ pub fn drive(
             break (Outcome::Failed, control.machine().failure().map(ToString::to_string));
         }
         if let Some(aim) = &stop.loop_closed
-            && watches.iter_mut().zip(tick.tips).any(|(watch, tip)| watch.closes(tick.time, tip, aim))
+            && watches
+                .iter_mut()
+                .zip(tick.tips)
+                .any(|(watch, tip)| watch.closes(tick.time, tip, tick.body.position, aim))
         {
             break (Outcome::Completed, None);
         }

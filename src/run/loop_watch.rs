@@ -1,24 +1,23 @@
 //! When a whisker has gone all the way round.
 
-use crate::geometry::{Point2, Vector2};
+use std::f64::consts::PI;
+
+use crate::geometry::{Point2, turn_between};
 use crate::scene::LoopClosed;
 
-/// The cosine of the greatest angle between the departure and a way that counts as ahead. Right behind a sharp corner the
-/// whisker comes round at less than a right angle to its departure; one that slid back comes along the departure.
-const AHEAD: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// How far the platform has gone round the first tip (rad) when it has gone all the way round. Behind a wall, however thin, it has
+/// gone half round at most; where a tip comes back to a sharp corner right behind which the first one was, what the corner turns is
+/// still missing.
+const ROUND: f64 = 1.25 * PI;
 
 /// Watches one whisker's tips for their coming round to where the first one was.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LoopWatch {
     start: Option<Start>,
-    /// From the first tip to the first that was far from it.
-    departure: Option<Vector2>,
-    /// Whether the newest tip that was far from the start was ahead of it, as the departure went, or behind.
-    ahead: bool,
-    /// Whether there has been a tip near the start since.
-    near: bool,
-    /// Times that the tips passed the start the way of the departure, less those that they passed it the other way.
-    passes: i32,
+    /// The platform's bearing from the first tip (rad).
+    bearing: f64,
+    /// How far that has turned since (rad), counter-clockwise.
+    turned: f64,
 }
 
 /// Time (s) and place of the first tip.
@@ -29,42 +28,39 @@ struct Start {
 }
 
 impl LoopWatch {
-    /// Takes the tip of one tick, if there is one, and says whether it closes the loop: it is near the first one, late
-    /// enough, and has come there all the way round. A tip that slid back is near the first one too.
-    pub(super) fn closes(&mut self, time: f64, tip: Option<Point2>, aim: &LoopClosed) -> bool {
-        let Some(tip) = tip else { return false };
-        let start = *self.start.get_or_insert(Start { time, place: tip });
-        let from_start = tip - start.place;
-        let distance = from_start.norm();
-        if distance > 2.0 * aim.within {
-            let is_first = self.departure.is_none();
-            let departure = *self.departure.get_or_insert(from_start);
-            let ahead = departure.dot(&from_start) > AHEAD * departure.norm() * distance;
-            if self.near && !is_first {
-                self.passes += i32::from(ahead) - i32::from(self.ahead);
-            }
-            (self.ahead, self.near) = (ahead, false);
-            return false;
+    /// Takes the tip of one tick, if there is one, and where the platform is. Says whether the tip closes the loop: it is near the
+    /// first one, late enough, and the platform has gone round that. A tip that slid back is near the first one too, and so is one
+    /// on the other side of a thin wall.
+    pub(super) fn closes(&mut self, time: f64, tip: Option<Point2>, platform: Point2, aim: &LoopClosed) -> bool {
+        let Some(start) = self.start.or_else(|| tip.map(|place| Start { time, place })) else { return false };
+        let from_start = platform - start.place;
+        let bearing = from_start.y.atan2(from_start.x);
+        if self.start.replace(start).is_some() {
+            self.turned += turn_between(self.bearing, bearing);
         }
-        self.near |= distance <= aim.within;
-        let comes_round = self.departure.is_some() && !self.ahead && self.passes == 0;
-        comes_round && distance <= aim.within && time - start.time >= aim.after
+        self.bearing = bearing;
+        let is_near = tip.is_some_and(|tip| (tip - start.place).norm() <= aim.within);
+        is_near && self.turned.abs() >= ROUND && time - start.time >= aim.after
     }
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::LoopWatch;
-    use crate::geometry::{Point2, unit};
+    use crate::geometry::{Point2, Vector2, perpendicular, polygon, unit};
     use crate::scene::LoopClosed;
 
     const AIM: LoopClosed = LoopClosed { within: 0.005, after: 2.0 };
 
-    /// The time at which tips along a circle of 0.1 m, at the angles given tick by tick, close the loop.
+    /// The time at which tips along a circle of 0.1 m, at the angles given tick by tick, close the loop; the platform is outside.
     fn closing_time(angles: impl Iterator<Item = f64>) -> Option<f64> {
         let mut watch = LoopWatch::default();
-        let mut timed = angles.enumerate().map(|(tick, angle)| (tick as f64 * 0.1, Point2::from(0.1 * unit(angle))));
-        timed.find(|&(time, tip)| watch.closes(time, Some(tip), &AIM)).map(|(time, _)| time)
+        let mut timed = angles.enumerate().map(|(tick, angle)| (tick as f64 * 0.1, unit(angle)));
+        let closes = |&(time, outwards): &(f64, Vector2)| {
+            watch.closes(time, Some(Point2::from(0.1 * outwards)), Point2::from(0.2 * outwards), &AIM)
+        };
+        timed.find(closes).map(|(time, _)| time)
     }
 
     #[test]
@@ -75,26 +71,42 @@ mod tests {
         }
     }
 
-    /// The tips along a rhombus with sides of 0.1 m and a corner of `angle` (rad), from 2 mm behind that corner on.
-    fn round_a_rhombus(angle: f64) -> impl Iterator<Item = Point2> {
-        let (a, b) = (0.1 * unit(0.0), 0.1 * unit(angle));
-        let at = move |way: f64| match way.rem_euclid(0.4) {
-            way if way < 0.1 => way / 0.1 * a,
-            way if way < 0.2 => a + (way - 0.1) / 0.1 * b,
-            way if way < 0.3 => b + (0.3 - way) / 0.1 * a,
-            way => (0.4 - way) / 0.1 * b,
-        };
-        (0..600).map(move |tick| Point2::from(at(0.002 + 0.0015 * f64::from(tick))))
+    /// Tips all round a polygon, again and again, from 2 mm behind its first corner on, with the platform 0.1 m away from them.
+    fn round(corners: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
+        let contour = polygon(corners).unwrap();
+        (0..1200).map(move |tick| {
+            let way = (0.002 + 0.0015 * f64::from(tick)) % contour.length();
+            let (tip, along) = (contour.point_at(way), contour.tangent_at(way));
+            (tip, tip - 0.1 * perpendicular(along))
+        })
+    }
+
+    /// The way (m) after which those close the loop.
+    fn closing_way(corners: &[Point2]) -> Option<f64> {
+        let mut watch = LoopWatch::default();
+        let mut ticks = round(corners).zip(0_u32..);
+        let closing =
+            ticks.find(|&((tip, platform), tick)| watch.closes(0.1 * f64::from(tick), Some(tip), platform, &AIM));
+        closing.map(|(_, tick)| 0.0015 * f64::from(tick))
     }
 
     #[test]
     fn a_loop_that_begins_right_behind_a_sharp_corner_closes() {
-        for degrees in [50.0_f64, 70.0, 90.0, 120.0, 170.0] {
-            let mut watch = LoopWatch::default();
-            let mut tips = round_a_rhombus(degrees.to_radians()).zip(0_u32..);
-            let closing = tips.find(|&(tip, tick)| watch.closes(0.1 * f64::from(tick), Some(tip), &AIM));
-            let way = closing.map(|(_, tick)| 0.0015 * f64::from(tick));
+        for degrees in [20.0_f64, 50.0, 70.0, 90.0, 120.0, 170.0] {
+            // A rhombus with sides of 0.1 m and a corner of this angle.
+            let (a, b) = (0.1 * unit(0.0), 0.1 * unit(degrees.to_radians()));
+            let way = closing_way(&[Point2::origin(), Point2::from(a), Point2::from(a + b), Point2::from(b)]);
             assert!(way.is_some_and(|way| (way - 0.4).abs() < 2.0 * AIM.within), "{degrees} deg: {way:?}");
+        }
+    }
+
+    #[test]
+    fn a_tip_behind_a_thin_wall_does_not_close_the_loop_and_one_that_comes_round_it_does() {
+        for thickness in [0.0005, 0.002, 0.0045] {
+            let end = [Point2::new(0.4, 0.0), Point2::new(0.4, thickness)];
+            let way =
+                closing_way(&[Point2::new(0.2, 0.0), end[0], end[1], Point2::new(0.0, thickness), Point2::origin()]);
+            assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{thickness} m: {way:?}");
         }
     }
 

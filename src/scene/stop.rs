@@ -18,7 +18,8 @@ pub struct Stop {
     pub stalled: Option<Stalled>,
 }
 
-/// The newest tip estimate of a whisker has come back to the first valid one of the same whisker.
+/// The newest tip estimate of a whisker has come back to the first valid one of the same whisker, after the platform has gone
+/// round that place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopClosed {
     /// The two are at most this far apart (m).

@@ -64,7 +64,7 @@ impl Layout {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  - {object}");
         }
-        text + &format!("start: {}\nstop: {{time: {time} s, {aim}}}\n", pose(&self.start))
+        text + &format!("start: {}\nstop: {{time: {time} s, {aim}}}\nexpect: {{collisions: 0}}\n", pose(&self.start))
     }
 }
 

@@ -36,7 +36,9 @@ fn lay(dice: &mut Dice) -> Layout {
     let mut bends = bends(radius, &harmonics);
     // A circle is round enough, so this comes to an end.
     while bends.0 < -HOLLOW || bends.1 > ROUND {
-        harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude *= FLATTER);
+        for harmonic in &mut harmonics {
+            harmonic.amplitude *= FLATTER;
+        }
         bends = self::bends(radius, &harmonics);
     }
     let outline: Vec<_> = angles().map(|angle| distance(radius, &harmonics, angle)[0] * unit(angle)).collect();

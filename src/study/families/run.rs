@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::report::RunResult;
-use crate::scene::Outcome;
 
 /// A run in one scene of a family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -16,15 +15,9 @@ pub struct FamilyRun {
     pub about: String,
     /// The speed that it was drawn with (m/s).
     pub speed: f64,
+    /// Whether it completed without a contact of the body.
+    pub passed: bool,
     /// What came of it.
     #[serde(flatten)]
     pub result: RunResult,
-}
-
-impl FamilyRun {
-    /// Whether it completed.
-    #[must_use]
-    pub fn is_completed(&self) -> bool {
-        self.result.outcome == Outcome::Completed
-    }
 }

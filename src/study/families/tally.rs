@@ -42,13 +42,13 @@ impl FamilyTally {
         let runs: Vec<_> = runs.iter().filter(is_counted).collect();
         let ended = |outcome| runs.iter().filter(|run| run.result.outcome == outcome).count();
         let touches = |run: &&&FamilyRun| run.result.collisions.count > 0;
-        let completed = || runs.iter().filter(|run| run.is_completed());
+        let completed = || runs.iter().filter(|run| run.result.outcome == Outcome::Completed);
         Self {
             family,
             speed,
             runs: runs.len(),
             completed: ended(Outcome::Completed),
-            clean: completed().filter(|run| !touches(run)).count(),
+            clean: runs.iter().filter(|run| run.passed).count(),
             timeout: ended(Outcome::Timeout),
             failed: ended(Outcome::Failed),
             diverged: ended(Outcome::Diverged),
