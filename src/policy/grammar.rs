@@ -1,5 +1,8 @@
 //! The grammar at work: from text to pest's pairs, and from its errors to diagnostics.
 
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
 use pest::Parser;
 use pest::iterators::Pairs;
 
@@ -48,9 +51,15 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))
 }
 
+/// The words that have a meaning of their own: each is a rule of the grammar that is called `kw_` and the word.
+static KEYWORDS: LazyLock<HashSet<String>> = LazyLock::new(|| {
+    let rules = Rule::all_rules().iter().map(|rule| format!("{rule:?}"));
+    rules.filter_map(|rule| rule.strip_prefix("kw_").map(str::to_owned)).collect()
+});
+
 /// Whether a text is a word that has a meaning of its own and so cannot be a name.
 pub(super) fn is_keyword(text: &str) -> bool {
-    derived::FsmParser::parse(Rule::keyword, text).is_ok_and(|pairs| pairs.as_str() == text)
+    KEYWORDS.contains(text)
 }
 
 /// The first bracket or bar that nests too deep.
@@ -63,32 +72,36 @@ fn too_deep(text: &str) -> Option<Span> {
 ///
 /// A bar closes where an operand stands before it and opens where none does, just as the grammar takes it.
 pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
-    let (mut opened, mut after_operand) = (Vec::new(), false);
+    let mut opened = Vec::new();
+    // The last word or sign, but for bars.
+    let mut before = "";
     let mut at = 0;
-    while let Some(letter) = text[at..].chars().next() {
+    while let Some(&byte) = text.as_bytes().get(at) {
         let rest = &text[at..];
-        let mut length = letter.len_utf8();
-        match letter {
-            '#' => length = rest.find('\n').unwrap_or(rest.len()),
-            '"' => length = rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-            _ if is_word(letter) => {
-                length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
-                after_operand = !WORDS_BEFORE_OPERANDS.contains(&&rest[..length]);
-            }
-            '(' | '{' | '[' => {
+        let mut length = 1;
+        match byte {
+            b' ' | b'\t' | b'\r' | b'\n' => length = rest.len() - rest.trim_ascii_start().len(),
+            b'#' => length = rest.find('\n').unwrap_or(rest.len()),
+            b'"' => length = rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
+            b'(' | b'{' | b'[' => {
                 opened.push(at);
-                after_operand = false;
+                before = &rest[..1];
             }
-            ')' | '}' | ']' => {
+            b')' | b'}' | b']' => {
                 opened.pop();
-                after_operand = true;
+                before = &rest[..1];
             }
-            '|' if after_operand => {
+            b'|' if ends_operand(before) => {
                 opened.pop();
             }
-            '|' => opened.push(at),
-            _ if letter.is_whitespace() => {}
-            _ => after_operand = false,
+            b'|' => opened.push(at),
+            _ => {
+                let word = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
+                let sign = || rest.chars().next().map_or(1, char::len_utf8);
+                length = if word > 0 { word } else { sign() };
+                let is_blank = word == 0 && rest.starts_with(char::is_whitespace);
+                before = if is_blank { before } else { &rest[..length] };
+            }
         }
         if opened.len() > NESTING_LIMIT {
             return Err(Span::new(at, at + 1));
@@ -98,6 +111,27 @@ pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
     Ok(opened)
 }
 
+/// Whether an operand can end with a word or sign, so that a bar behind it closes.
+fn ends_operand(before: &str) -> bool {
+    [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !WORDS_BEFORE_OPERANDS.contains(&before)
+}
+
 pub(super) fn is_word(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_of_the_language_is_no_name_and_a_longer_word_is() {
+        let is_name =
+            |text: &str| derived::FsmParser::parse(Rule::name, text).is_ok_and(|pairs| pairs.as_str() == text);
+        assert!(KEYWORDS.len() >= 30);
+        for keyword in KEYWORDS.iter() {
+            assert!(!is_name(keyword), "{keyword}");
+            assert!(is_name(&format!("{keyword}s")), "{keyword}");
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Pest's pairs with places that count from the beginning of all texts, not of their own file.
 
+use pest::Token;
+
 use crate::diagnostic::Span;
 
 use super::grammar::Rule;
@@ -38,11 +40,6 @@ impl<'i> Pairs<'i> {
     pub(super) fn new(pairs: pest::iterators::Pairs<'i, Rule>, start: usize) -> Self {
         Self { pairs, start }
     }
-
-    /// The rule of the next one.
-    pub(super) fn peek(&self) -> Option<Rule> {
-        self.pairs.peek().map(|pair| pair.as_rule())
-    }
 }
 
 impl<'i> Iterator for Pairs<'i> {
@@ -56,11 +53,15 @@ impl<'i> Iterator for Pairs<'i> {
 /// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it; the quote at
 /// the end of a text, which is no part, does.
 pub(super) fn place(pair: &Pair<'_>) -> Span {
-    let mut last = pair.pair.clone();
-    while last.as_rule() != Rule::text
-        && let Some(inner) = last.clone().into_inner().next_back()
-    {
-        last = inner;
+    let span = pair.pair.as_span();
+    let mut end = span.end();
+    // From behind: the ends of the pair, of its last part, of the last part of that.
+    for token in pair.pair.clone().tokens().rev() {
+        let Token::End { rule, pos } = token else { break };
+        end = pos.pos();
+        if rule == Rule::text {
+            break;
+        }
     }
-    Span::new(pair.start + pair.pair.as_span().start(), pair.start + last.as_span().end())
+    Span::new(pair.start + span.start(), pair.start + end)
 }

@@ -129,7 +129,7 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
         let base = named(&type_name.next()?);
         let of = if type_name.has(Rule::name) { Some(type_name.name()?) } else { None };
         let mut factors = Vec::new();
-        while let Some((operator, _)) = type_name.peek().and_then(binary) {
+        while let Some((operator, _)) = type_name.peek().map(Pair::as_str).and_then(binary) {
             type_name.next()?;
             factors.push((operator, type_name.name()?));
         }
@@ -159,7 +159,7 @@ fn transition(pair: Pair<'_>) -> Parsed<Transition> {
 fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {
     let mut reader = Reader::new(pair);
     let mut statements = Vec::new();
-    while let Ok(pair) = reader.next() {
+    while let Some(pair) = reader.rest() {
         statements.push(statement(pair)?);
     }
     Ok(statements)

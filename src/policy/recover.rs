@@ -3,6 +3,7 @@
 //! What is at fault is overwritten with blanks, so that every place stays what it was, and the rest is parsed again: first the
 //! statement, and if the fault is still there, the item. That is done a bounded number of times, each in time linear in the text.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
@@ -50,7 +51,7 @@ pub(super) fn faults(source: &Source) -> Vec<Diagnostic> {
 /// Reads all of a text that can be read; its first byte has the place `start`. The file lacks what is at fault; `None` if nothing
 /// can be made of it.
 pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) -> Option<File> {
-    let mut rest = Source::new(source.name.clone(), source.text.clone());
+    let mut rest = Cow::Borrowed(source);
     let mut ways = Vec::new();
     let mut last = None;
     for _ in 0..ATTEMPTS {
@@ -73,7 +74,7 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
                 let region = ways.remove(index);
                 recovery.lost_use |= Tokens::new(rest.slice(region)).any(|token| token.of(rest.slice(region)) == "use");
                 recovery.lost.extend(names(rest.slice(region)));
-                rest.text = blanked(&rest.text, region);
+                rest = Cow::Owned(Source::new(rest.name.clone(), blanked(&rest.text, region)));
             }
         }
     }

@@ -138,7 +138,7 @@ fn is_behind_tab_and_number(text: &str) -> bool {
 
 /// Whether an expression could have begun where the error is.
 fn is_value_due(rules: &[Rule]) -> bool {
-    rules.iter().any(|rule| matches!(rule, Rule::root | Rule::expression | Rule::mover))
+    rules.iter().any(|rule| matches!(rule, Rule::access | Rule::expression | Rule::mover))
 }
 
 /// What could have stood where the error is, most telling first.
@@ -197,8 +197,8 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_after => (3, "`after`"),
         Rule::kw_if if !among.contains(&Rule::kw_do) => (2, "`if`"),
         Rule::close_brace => (4, "`}`"),
-        Rule::root | Rule::expression | Rule::mover => (0, "a value"),
-        Rule::times => (CONTINUES, "an operator"),
+        Rule::access | Rule::expression | Rule::mover => (0, "a value"),
+        Rule::sign | Rule::times => (CONTINUES, "an operator"),
         Rule::unit => (CONTINUES, "a unit"),
         _ => return None,
     })

@@ -5,7 +5,7 @@ use crate::policy::ast::{Binary, Expression, Kind};
 use crate::policy::grammar::Rule;
 use crate::policy::pair::{Pair, place};
 
-use super::{Parsed, Reader, internal, named, quantity};
+use super::{Parsed, Reader, internal, named, quantity, values};
 
 /// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 200;
@@ -13,20 +13,21 @@ const DEPTH_LIMIT: usize = 200;
 /// Binds tighter than every operator.
 const PREFIX_POWER: u8 = 6;
 
-pub(super) fn binary(rule: Rule) -> Option<(Binary, u8)> {
-    Some(match rule {
-        Rule::kw_or => (Binary::Or, 1),
-        Rule::kw_and => (Binary::And, 2),
-        Rule::less => (Binary::Less, 3),
-        Rule::less_or_equal => (Binary::LessOrEqual, 3),
-        Rule::greater => (Binary::Greater, 3),
-        Rule::greater_or_equal => (Binary::GreaterOrEqual, 3),
-        Rule::equal => (Binary::Equal, 3),
-        Rule::unequal => (Binary::Unequal, 3),
-        Rule::plus => (Binary::Add, 4),
-        Rule::minus => (Binary::Subtract, 4),
-        Rule::times => (Binary::Multiply, 5),
-        Rule::over => (Binary::Divide, 5),
+/// The operator that is written so, and how tight it binds.
+pub(super) fn binary(sign: &str) -> Option<(Binary, u8)> {
+    Some(match sign {
+        "or" => (Binary::Or, 1),
+        "and" => (Binary::And, 2),
+        "<" => (Binary::Less, 3),
+        "<=" => (Binary::LessOrEqual, 3),
+        ">" => (Binary::Greater, 3),
+        ">=" => (Binary::GreaterOrEqual, 3),
+        "==" => (Binary::Equal, 3),
+        "!=" => (Binary::Unequal, 3),
+        "+" => (Binary::Add, 4),
+        "-" => (Binary::Subtract, 4),
+        "*" => (Binary::Multiply, 5),
+        "/" => (Binary::Divide, 5),
         _ => return None,
     })
 }
@@ -34,7 +35,7 @@ pub(super) fn binary(rule: Rule) -> Option<(Binary, u8)> {
 /// Precedence climbing over the flat list of operands and operators that the grammar gives.
 pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
     let mut left = operand(reader)?;
-    while let Some((operator, power)) = reader.peek().and_then(binary) {
+    while let Some((operator, power)) = reader.peek().map(Pair::as_str).and_then(binary) {
         if power < least {
             break;
         }
@@ -77,15 +78,20 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
 
 fn access(pair: Pair<'_>) -> Parsed<Expression> {
     let mut reader = Reader::new(pair);
-    let mut parts = Reader::new(reader.take(Rule::root)?);
-    let span = parts.span;
-    let name = named(&parts.next()?);
-    let values = parts.values()?;
+    let name = named(&reader.next()?);
+    let mut span = name.span;
+    let values = if reader.has(Rule::values) {
+        let pair = reader.next()?;
+        span = span.to(place(&pair));
+        Some(values(pair)?)
+    } else {
+        None
+    };
     let depth = deepest(values.as_deref());
     let mut expression = node(Kind::Root { name, values }, span, depth)?;
     while reader.has(Rule::member) {
         let mut parts = Reader::new(reader.take(Rule::member)?);
-        let span = expression.span.to(parts.span);
+        let span = expression.span.to(parts.span());
         let name = parts.name()?;
         let values = parts.values()?;
         let depth = expression.depth.max(deepest(values.as_deref()));

@@ -9,35 +9,42 @@ use super::{Parsed, climb, internal, named};
 
 /// The inner pairs of a pair, taken in order.
 pub(super) struct Reader<'i> {
+    /// The pair itself.
+    whole: Pair<'i>,
+    /// The next of those in it.
+    next: Option<Pair<'i>>,
+    /// Those behind the next.
     pairs: Pairs<'i>,
-    pub(super) span: Span,
 }
 
 impl<'i> Reader<'i> {
     pub(super) fn new(pair: Pair<'i>) -> Self {
-        let span = place(&pair);
-        let mut pairs = pair.into_inner();
-        // Words and signs that only mark a place carry nothing.
-        while pairs.peek().is_some_and(is_marker) {
-            pairs.next();
-        }
-        Self { pairs, span }
+        let mut pairs = pair.clone().into_inner();
+        Self { whole: pair, next: meaningful(&mut pairs), pairs }
     }
 
-    pub(super) fn peek(&self) -> Option<Rule> {
-        self.pairs.peek()
+    /// Where the pair stands.
+    pub(super) fn span(&self) -> Span {
+        place(&self.whole)
+    }
+
+    pub(super) fn peek(&self) -> Option<&Pair<'i>> {
+        self.next.as_ref()
     }
 
     pub(super) fn has(&self, rule: Rule) -> bool {
-        self.peek() == Some(rule)
+        self.peek().is_some_and(|pair| pair.as_rule() == rule)
     }
 
     pub(super) fn next(&mut self) -> Parsed<Pair<'i>> {
-        let pair = self.pairs.next().ok_or_else(|| internal(self.span))?;
-        while self.pairs.peek().is_some_and(is_marker) {
-            self.pairs.next();
-        }
-        Ok(pair)
+        self.rest().ok_or_else(|| internal(self.span()))
+    }
+
+    /// The next pair, until there is none.
+    pub(super) fn rest(&mut self) -> Option<Pair<'i>> {
+        let pair = self.next.take()?;
+        self.next = meaningful(&mut self.pairs);
+        Some(pair)
     }
 
     pub(super) fn take(&mut self, rule: Rule) -> Parsed<Pair<'i>> {
@@ -74,6 +81,11 @@ pub(super) fn values(pair: Pair<'_>) -> Parsed<Vec<Expression>> {
         values.push(reader.expression()?);
     }
     Ok(values)
+}
+
+/// The next pair that carries something; words and signs that only mark a place do not.
+fn meaningful<'i>(pairs: &mut Pairs<'i>) -> Option<Pair<'i>> {
+    pairs.find(|pair| !is_marker(pair.as_rule()))
 }
 
 /// Whether a pair is a word or a sign that only marks a place.

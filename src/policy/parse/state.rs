@@ -14,7 +14,7 @@ pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut
     let (initial, transitions, failsafes) = (Vec::new(), Vec::new(), Vec::new());
     let own = states.len();
     states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions, failsafes });
-    while let Ok(pair) = reader.next() {
+    while let Some(pair) = reader.rest() {
         if pair.as_rule() == Rule::state {
             self::state(&mut Reader::new(pair), Some(own), states)?;
             continue;

@@ -8,7 +8,7 @@ use super::{Parsed, Reader, bound, text};
 pub(super) fn test(reader: &mut Reader<'_>) -> Parsed<Test> {
     let (title, scenario) = (text(reader)?, text(reader)?);
     let mut test = Test { title, scenario, settings: Vec::new(), expectations: Vec::new() };
-    while let Ok(pair) = reader.next() {
+    while let Some(pair) = reader.rest() {
         let rule = pair.as_rule();
         let mut reader = Reader::new(pair);
         if rule == Rule::setting {
