@@ -67,8 +67,11 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     if turn.abs() > LAPPED_TURN {
         return Vec::new();
     }
-    let depth = LAP_DEPTH.min(0.25 * (seam - block.back[1]).norm());
+    let thickness = (seam - block.back[1]).norm();
+    let depth = LAP_DEPTH.min(0.25 * thickness);
     let length = LAP.min(0.9 * next.face.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>());
+    // At a slight corner of a thin wall a long lap would come out at the back.
+    let length = length.min(0.5 * thickness / turn.abs().tan());
     let slope = depth / length;
     if slope < (-turn).tan() {
         // The face is hollow: straight on is deep enough.
@@ -84,7 +87,8 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
         along += reached;
         let inwards = round * perpendicular(chord.normalize());
         points.push(ends[0] + reached * chord.normalize() + along * slope * inwards);
-        if reached >= rest {
+        // A rest shorter than the lap is deep would lead back where the face turns.
+        if rest - reached <= depth {
             break;
         }
     }
