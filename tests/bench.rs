@@ -6,11 +6,12 @@ mod runs;
 use std::f64::consts::TAU;
 
 use runs::{arc_of_tips, run_with};
+use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
-use vibrissa::scene::Outcome;
+use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::bench::{BenchRow, THESIS, Verdict, bench_page, bench_table};
+use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table};
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
 fn result(scenario: &str, off: f64) -> RunResult {
@@ -70,6 +71,33 @@ fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_comp
     assert_eq!((row.verdicts.radius_mm, row.passed), (None, true));
     let foreign = BenchRow::new(result("star", 0.1), true);
     assert_eq!((foreign.thesis, foreign.passed), (None, true));
+}
+
+#[test]
+fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
+    let conditions = Conditions { friction: 0.3, noise: true };
+    let worse = BenchRow::new(result("disk", 2e-3), false);
+    assert!(!worse.passed && !worse.clone().under(Conditions::default()).passed);
+    let hard = worse.clone().under(conditions);
+    assert!(hard.passed && bench_table(&[hard]).contains("disk, friction 0.3, noise"));
+    let failed = BenchRow { result: RunResult { outcome: Outcome::Failed, ..worse.result.clone() }, ..worse };
+    assert!(!failed.under(conditions).passed);
+}
+
+#[test]
+fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_change_nothing() {
+    let friction = Conditions { friction: 0.1, noise: false };
+    for file in SCENARIOS {
+        let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+        let mut harder = scene.clone();
+        Conditions::default().apply(&mut harder);
+        assert_eq!(harder.rig, scene.rig);
+        friction.apply(&mut harder);
+        let steps = 1.0 / (harder.rig.sensing.sample_rate * harder.rig.physics.step);
+        assert!((steps - steps.round()).abs() < 1e-9 && harder.rig.physics.step <= 1.0 / 1800.0 + 1e-9, "{steps}");
+        assert!(harder.rig.physics.penetration_limit >= scene.rig.physics.penetration_limit);
+        assert!(harder.rig.sensing.friction > 0.0 && harder.rig.sensing.angle_noise == 0.0);
+    }
 }
 
 #[test]

@@ -241,6 +241,31 @@ fn the_contact_changes_sides_of_the_wire_at_zero_and_nothing_else_jumps() {
     }
 }
 
+/// Friction turns the force on the tip as a whisker swept back by its angle more has it; only the spot of the tip that touches differs.
+#[test]
+fn friction_turns_the_force_as_sweeping_back_does() {
+    for friction in [0.05_f64, 0.1, 0.3, 0.6] {
+        let turn = friction.atan();
+        let model = TipModel::with_friction(&left(), friction).unwrap();
+        let swept = Whisker { direction_body: left().direction_body + turn, ..left() };
+        let like = TipModel::new(&swept).unwrap();
+        let spot = |direction: f64| -left().shaft.radius * Vector2::new(direction.cos(), direction.sin());
+        let apart = spot(FORCE) - spot(FORCE - turn);
+        for index in 1..=100 {
+            let base_angle = range(&left()) * f64::from(index) / 100.0;
+            let difference = model.contact_base(base_angle) - like.contact_base(base_angle);
+            assert!((difference - apart).norm() < 1e-9, "{friction} at {base_angle} rad");
+        }
+    }
+}
+
+#[test]
+fn a_whisker_swept_forward_by_the_angle_of_its_friction_sticks_and_has_no_model() {
+    let forward = Whisker { direction_body: 75_f64.to_radians(), ..left() };
+    assert!(TipModel::with_friction(&forward, 0.1).is_ok());
+    assert!(matches!(TipModel::with_friction(&forward, 0.3), Err(TipModelError::HeadOn { .. })));
+}
+
 #[test]
 fn the_tip_comes_nearer_the_more_the_whisker_bends() {
     let whisker = left();

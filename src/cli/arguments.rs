@@ -83,6 +83,12 @@ pub(super) struct BenchArguments {
     /// Policy, or compiled machine, to run instead of those that are built in; may be given several times
     #[arg(long = "policy", value_name = "FILE")]
     pub(super) policies: Vec<PathBuf>,
+    /// Coefficients of friction of what is touched, with a run for each: --friction 0,0.1,0.3
+    #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", value_parser = parse_friction)]
+    pub(super) friction: Vec<f64>,
+    /// Give the sensors the noise and the resolution of the real one
+    #[arg(long)]
+    pub(super) noise: bool,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -274,6 +280,11 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
     let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     Ok(Setting { name: name.trim().to_owned(), value })
+}
+
+fn parse_friction(text: &str) -> Result<f64, String> {
+    let friction = text.trim().parse().ok().filter(|friction| (0.0..=1.0).contains(friction));
+    friction.ok_or_else(|| "write a number from 0 to 1, such as 0.3".to_owned())
 }
 
 fn parse_length(text: &str) -> Result<f64, String> {

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::report::RunResult;
-use crate::scene::Outcome;
+use crate::scene::{Outcome, Violation};
 use crate::study::WorldKind;
-use crate::study::bench::{BenchRow, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
+use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
 
 use super::arguments::BenchArguments;
 use super::batch::{Finished, run_all};
@@ -18,16 +18,15 @@ use super::run::make_directory;
 use super::{file, output};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
-    let jobs = jobs(&policies(&arguments.policies)?)?;
+    let conditions = conditions(arguments);
+    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs(&policies(&arguments.policies)?, &conditions)?.into_iter().unzip();
     make_directory(arguments.out.as_deref())?;
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
-    for Finished { result, violations, picture } in finished {
-        tell(&result);
-        for violation in &violations {
-            output::message(format_args!("{}, {}: {violation}", result.scenario, result.policy));
-        }
-        rows.push(BenchRow::new(result, violations.is_empty()));
+    for (Finished { result, violations, picture }, conditions) in finished.into_iter().zip(conditions) {
+        let row = BenchRow::new(result, violations.is_empty()).under(conditions);
+        tell(&row, &violations);
+        rows.push(row);
         pictures.push(picture.unwrap_or_default());
     }
     let page = match &arguments.out {
@@ -64,32 +63,62 @@ fn policies(files: &[PathBuf]) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure
     Ok(policies)
 }
 
-/// Every scenario under every policy; the policies of a scenario stand together.
-fn jobs(policies: &[(PathBuf, Loaded<Policy>)]) -> Result<Vec<Job>, Failure> {
-    let scenarios = SCENARIOS.iter().map(|file| Ok((file, input::built_in_scenario(file)?)));
-    let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
-    let all = scenarios.iter().flat_map(|scenario| policies.iter().map(move |policy| (scenario, policy)));
-    let job = |((file, scene), (_, policy)): (&(&TextFile, Loaded<_>), &(_, Loaded<Policy>))| {
-        let scene: &crate::scene::Scene = &scene.value;
-        let hashes = (Sha256::digest(file.text), policy.hash.clone().finalize());
-        let program = policy.value.artifact.program.clone();
-        Job::with(Path::new(file.path), scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes)
-    };
-    Ok(all.map(job).collect())
+/// The conditions that are asked for, each once.
+fn conditions(arguments: &BenchArguments) -> Vec<Conditions> {
+    let mut all: Vec<Conditions> = Vec::new();
+    for &friction in &arguments.friction {
+        let conditions = Conditions { friction, noise: arguments.noise };
+        if !all.contains(&conditions) {
+            all.push(conditions);
+        }
+    }
+    all
 }
 
-fn tell(result: &RunResult) {
-    let RunResult { scenario, policy, outcome, .. } = result;
+/// Every scenario under every policy and all conditions; the runs of a scenario stand together.
+fn jobs(policies: &[(PathBuf, Loaded<Policy>)], conditions: &[Conditions]) -> Result<Vec<(Conditions, Job)>, Failure> {
+    let scenarios = SCENARIOS.iter().map(|file| Ok((file, input::built_in_scenario(file)?)));
+    let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
+    let mut jobs = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
+    for (file, scenario) in &scenarios {
+        for (_, policy) in policies {
+            for &conditions in conditions {
+                let mut scene = scenario.value.clone();
+                conditions.apply(&mut scene);
+                let mut scenario_hash = Sha256::new_with_prefix(file.text);
+                if !conditions.are_ideal() {
+                    scenario_hash.update(format!("\0{conditions}"));
+                }
+                let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
+                let (program, seed) = (policy.value.artifact.program.clone(), scene.seed);
+                jobs.push((
+                    conditions,
+                    Job::with(Path::new(file.path), scene, program, WorldKind::Mujoco, seed, hashes),
+                ));
+            }
+        }
+    }
+    Ok(jobs)
+}
+
+/// Tells why a run did not complete, and what of a run of the scene as it is was not as its scenario expects.
+fn tell(row: &BenchRow, violations: &[Violation]) {
+    let RunResult { policy, outcome, reason, .. } = &row.result;
+    let scene = row.scene();
     if *outcome != Outcome::Completed {
-        let reason = result.reason.as_deref().unwrap_or("for no reason that is known");
-        output::message(format_args!("{scenario}, {policy}: {outcome}: {reason}"));
+        let reason = reason.as_deref().unwrap_or("for no reason that is known");
+        output::message(format_args!("{scene}, {policy}: {outcome}: {reason}"));
+    }
+    for violation in violations.iter().filter(|_| row.conditions.are_ideal()) {
+        output::message(format_args!("{scene}, {policy}: {violation}"));
     }
 }
 
 /// Writes all results, a picture of every run and the page that shows them; where that is.
 fn write_report(directory: &Path, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
-    for (BenchRow { result, .. }, picture) in rows.iter().zip(pictures) {
-        file::write(&directory.join(format!("{}-{}.svg", result.scenario, result.policy)), picture)?;
+    for (row, picture) in rows.iter().zip(pictures) {
+        let name = format!("{}-{}.svg", row.scene().replace(", ", "-").replace(' ', "-"), row.result.policy);
+        file::write(&directory.join(name), picture)?;
     }
     file::write(&directory.join("results.json"), serde_json::to_string_pretty(rows)? + "\n")?;
     let page = directory.join("index.html");

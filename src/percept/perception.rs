@@ -43,7 +43,7 @@ impl Perception {
         let sensing = &rig.sensing;
         let perceived = whiskers.iter().map(|&index| {
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
-            let model = TipModel::new(&rig.whiskers[index])?;
+            let model = TipModel::with_friction(&rig.whiskers[index], sensing.friction)?;
             Ok(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;

@@ -38,14 +38,14 @@ struct Knot {
 pub enum TipModelError {
     /// The whisker stands too nearly across the heading.
     #[error(
-        "whisker {whisker} is swept {:.0} deg from straight across the platform: it would meet a surface beside it head-on and \
-         might buckle either way; sweep it by {:.0} deg or more",
+        "whisker {whisker} meets the force of a surface beside it {:.0} deg from head-on, and might buckle either way; sweep it by \
+         {:.0} deg or more, and back if there is friction",
         sweep.to_degrees(), LEAST_SWEEP.to_degrees().ceil()
     )]
     HeadOn {
         /// The whisker.
         whisker: String,
-        /// Its sweep back, or forward if negative (rad).
+        /// Its sweep back, or forward if negative (rad), with the angle by which friction turns the force.
         sweep: f64,
     },
     /// The chain has no equilibrium where the model needs one.
@@ -76,16 +76,25 @@ const TURN: f64 = 0.01;
 const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
 
 impl TipModel {
-    /// The model of `whisker`.
+    /// The model of `whisker` on surfaces without friction.
     ///
     /// # Errors
-    /// [`TipModelError`] when its chain has no equilibrium somewhere in the model's range.
+    /// As [`with_friction`](Self::with_friction).
     pub fn new(whisker: &Whisker) -> Result<Self, TipModelError> {
+        Self::with_friction(whisker, 0.0)
+    }
+
+    /// The model of `whisker` on surfaces on which it slides forward with a coefficient of friction.
+    ///
+    /// # Errors
+    /// [`TipModelError`] when the whisker sticks rather than slides, or its chain has no equilibrium somewhere in the model's
+    /// range.
+    pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipModelError> {
         let chain = ShaftChain::new(whisker);
-        let force_direction = Self::force_direction(whisker)?;
+        let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
         let step = MOMENT_RANGE * shaft.bending_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
-        let normal = Vector2::new(force_direction.cos(), force_direction.sin());
+        let normal = Vector2::new(normal_direction.cos(), normal_direction.sin());
 
         let (mut contacts, mut turnings) = (Vec::with_capacity(STEPS + 1), Vec::with_capacity(STEPS + 1));
         let mut solution = chain.straight();
@@ -120,15 +129,17 @@ impl TipModel {
         Ok(Self { step, knots: knots(&contacts, &turnings) })
     }
 
-    /// Direction (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
-    /// swipes along a surface parallel to its heading. A whisker swept forward is bent forward by it, one swept back to the
-    /// back; in the frame of the base the one is the mirror image of the other.
-    fn force_direction(whisker: &Whisker) -> Result<f64, TipModelError> {
-        let sweep = whisker.direction_body.abs() - FRAC_PI_2;
+    /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
+    /// swipes along a surface parallel to its heading, and of that surface's normal. A whisker swept forward is bent forward by
+    /// it, one swept back to the back; in the frame of the base the one is the mirror image of the other. Friction turns the
+    /// force to the back, as if the whisker were swept back by so much more.
+    fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipModelError> {
+        let turn = friction.atan();
+        let sweep = whisker.direction_body.abs() - FRAC_PI_2 + turn;
         if sweep.abs() < LEAST_SWEEP {
             return Err(TipModelError::HeadOn { whisker: whisker.name.clone(), sweep });
         }
-        Ok(PI - sweep.abs())
+        Ok((PI - sweep.abs(), PI - sweep.abs() + turn * sweep.signum()))
     }
 
     /// Where the tip touches, in the frame of the whisker's base (m), at `base_angle` (rad). Beyond the model's range the

@@ -15,8 +15,25 @@ pub struct Sensing {
     pub filter_cutoff: f64,
     /// A base angle beyond this (rad) counts as touching.
     pub contact_threshold: f64,
+    /// Coefficient of sliding friction that the tip model reckons with; what is touched has its own, in `Physics`.
+    pub friction: f64,
     /// Whether samples carry shear and axial force at each base.
     pub forces: bool,
+}
+
+/// Noise of the real sensor (rad), as a standard deviation, and its resolution (rad): an estimate, nobody has measured them.
+///
+/// The sensor's paper (Dang et al. 2025) keeps its whisker bent by a reading of 8760, taken for counts of an MLX90393 at its most
+/// sensitive, 0.15 µT each; the thesis calls the same bend 300 µrad. So a count is 0.034 µrad. With 1 to 2 µT for the chip's noise at
+/// 300 Hz, that is up to 13 counts.
+const REAL_NOISE: f64 = 0.5e-6;
+const REAL_RESOLUTION: f64 = 0.034e-6;
+
+impl Sensing {
+    /// Gives the base angles the noise and the resolution of the real sensor.
+    pub fn make_real(&mut self) {
+        (self.angle_noise, self.angle_resolution) = (REAL_NOISE, REAL_RESOLUTION);
+    }
 }
 
 impl Default for Sensing {
@@ -28,6 +45,7 @@ impl Default for Sensing {
             angle_resolution: 0.0,
             filter_cutoff: 20.0,
             contact_threshold: 2e-5,
+            friction: 0.0,
             forces: false,
         }
     }

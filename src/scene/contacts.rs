@@ -4,6 +4,14 @@ use std::fmt::{self, Write};
 
 use crate::rig::{Physics, Rig};
 
+/// How much slower a contact takes up sliding than sinking in, and how much harder it then holds against it.
+///
+/// The engine's law of friction pushes a sliding contact apart: with one time constant `T` for both directions, a contact that slides at
+/// `v` with the friction `mu` stands `2 mu v T` higher than one that rests. For a whisker that is more than it sinks in: the tip
+/// lifts off, falls back, and rings by millimetres. A longer time constant for sliding makes that as much less; the other
+/// factor keeps the creep of a tip that sticks what it was.
+const SLIDING: f64 = 20.0;
+
 /// How a model says what can touch what: each part of a solid, and each link of a whisker and the platform. Nothing else can.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contacts {
@@ -16,9 +24,9 @@ pub(super) enum Contacts {
 }
 
 impl Contacts {
-    /// The quicker way for this many parts.
-    pub(super) fn with(parts: usize) -> Self {
-        if parts <= 1 { Self::Pairs } else { Self::Masks }
+    /// The way for this many parts: the quicker one, unless there is friction, which only pairs do well.
+    pub(super) fn with(parts: usize, physics: &Physics) -> Self {
+        if parts <= 1 || physics.friction > 0.0 { Self::Pairs } else { Self::Masks }
     }
 
     /// The attributes of a solid's part.
@@ -37,18 +45,16 @@ impl Contacts {
         }
     }
 
-    /// How contacts behave, where it is a matter of the geoms. It is the same for all of them: the engine takes the larger
-    /// friction of a contact's two sides.
+    /// How contacts behave, where it is a matter of the geoms. It is the same for all of them.
     pub(super) fn write_defaults(self, xml: &mut String, physics: &Physics) -> fmt::Result {
         if self == Self::Pairs {
             return Ok(());
         }
-        let sliding_alone = format!("{} 0 0", physics.friction);
-        writeln!(xml, "  <default>\n    <geom {}/>\n  </default>", contact(physics, &sliding_alone))
+        writeln!(xml, "  <default>\n    <geom {}/>\n  </default>", contact(physics, "0 0 0"))
     }
 
-    /// The pairs, where it is a matter of them.
-    pub(super) fn write_pairs(self, xml: &mut String, rig: &Rig) -> fmt::Result {
+    /// The pairs of every part with every link and the platform, where it is a matter of them.
+    pub(super) fn write_pairs(self, xml: &mut String, rig: &Rig, parts: &[String]) -> fmt::Result {
         if self == Self::Masks {
             return Ok(());
         }
@@ -56,13 +62,26 @@ impl Contacts {
             .whiskers
             .iter()
             .flat_map(|whisker| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
-        let contact = contact(&rig.physics, &format!("{0} {0}", rig.physics.friction));
+        let physics = &rig.physics;
+        let mut contact = contact(physics, &format!("{0} {0}", physics.friction));
+        if physics.friction > 0.0 {
+            // The engine takes no time constant below two steps.
+            let time = physics.contact_time.max(2.0 * physics.step);
+            write!(contact, r#" solreffriction="{} 1""#, SLIDING * time)?;
+        }
         writeln!(xml, r"  <contact>")?;
         for geom in links.chain(["platform/body".to_owned()]) {
-            writeln!(xml, r#"    <pair geom1="object" geom2="{geom}" {contact}/>"#)?;
+            for part in parts {
+                writeln!(xml, r#"    <pair geom1="{part}" geom2="{geom}" {contact}/>"#)?;
+            }
         }
         writeln!(xml, r"  </contact>")
     }
+}
+
+/// The attribute of the engine's options by which friction holds harder; none without friction.
+pub(super) fn hold(physics: &Physics) -> String {
+    if physics.friction > 0.0 { format!(r#" impratio="{SLIDING}""#) } else { String::new() }
 }
 
 /// The attributes of a contact, with its coefficients of friction.

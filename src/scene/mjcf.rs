@@ -10,7 +10,7 @@ use std::fmt::{self, Write};
 use crate::geometry::Pose;
 use crate::rig::{Platform, Rig, Shaft, Whisker};
 
-use super::contacts::Contacts;
+use super::contacts::{Contacts, hold};
 use super::part::Part;
 use super::solid::Solid;
 
@@ -44,13 +44,14 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt
     // pyramid for the friction cone a tip that slides at a small coefficient chatters; with the exact cone it does not.
     writeln!(
         xml,
-        r#"  <option timestep="{}" integrator="discrete" solver="CG" cone="elliptic" gravity="0 0 0" jacobian="dense">"#,
-        physics.step
+        r#"  <option timestep="{}" integrator="discrete" solver="CG" cone="elliptic"{} gravity="0 0 0" jacobian="dense">"#,
+        physics.step,
+        hold(physics)
     )?;
     // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
     writeln!(xml, r"  </option>")?;
-    let contacts = Contacts::with(parts.len());
+    let contacts = Contacts::with(parts.len(), physics);
     contacts.write_defaults(xml, physics)?;
     write_assets(xml, &rig.platform, parts)?;
     writeln!(xml, r"  <worldbody>")?;
@@ -60,7 +61,8 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt
     write_platform(xml, rig, contacts)?;
     writeln!(xml, r"  </worldbody>")?;
     if !parts.is_empty() {
-        contacts.write_pairs(xml, rig)?;
+        let names: Vec<_> = (0..parts.len()).map(|index| part_name(index, parts)).collect();
+        contacts.write_pairs(xml, rig, &names)?;
     }
     write_actuators(xml, &rig.platform)?;
     if rig.sensing.forces {

@@ -154,7 +154,7 @@ mod tests {
       {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, density: 6 g/cm^3, young_modulus: 7 GPa,
        damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
-  sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad,
+  sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
      angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
         let expected = Rig {
             platform: Platform {
@@ -188,6 +188,7 @@ mod tests {
                 control_rate: 50.0,
                 filter_cutoff: 60.0,
                 contact_threshold: 7e-6,
+                friction: 0.2,
                 angle_noise: 3e-6,
                 angle_resolution: 4e-3,
                 forces: true,

@@ -42,6 +42,7 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["bench", "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
         (vec!["bench", "--jobs", "0"], "--jobs"),
+        (vec!["bench", "--friction", "0.1,2"], "from 0 to 1"),
         (vec!["compare", "policies/thesis.fsm"], "1 policy is given; give two or more"),
         (vec!["compare", disk], "0 policies are given"),
         (vec!["compare", "policies/thesis.fsm", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),

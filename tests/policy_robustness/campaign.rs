@@ -45,7 +45,7 @@ fn campaign(seed: u64, texts: usize) -> Report {
                 is_handled(&text)
             };
             let (handled, peak) = allocator::peak(|| catch_unwind(AssertUnwindSafe(handle)));
-            let mut time = worked() - start;
+            let mut time = worked().saturating_sub(start);
             if time > report.slowest.0 {
                 // Something else may have had the caches.
                 time = time.min(fastest(|| catch_unwind(AssertUnwindSafe(|| is_handled(&text)))));
@@ -77,7 +77,7 @@ fn fastest<T>(work: impl Fn() -> T) -> Duration {
     let time = || {
         let start = worked();
         work();
-        worked() - start
+        worked().saturating_sub(start)
     };
     time().min(time()).min(time())
 }

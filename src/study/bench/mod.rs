@@ -1,12 +1,14 @@
 //! The bench: the thesis's scenes under its policy and others, beside what the thesis reports.
 
 mod built_in;
+mod conditions;
 mod page;
 mod row;
 mod table;
 mod thesis;
 
 pub use built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
+pub use conditions::Conditions;
 pub use page::bench_page;
 pub use row::{BenchRow, Verdict, Verdicts};
 pub use table::bench_table;

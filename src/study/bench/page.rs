@@ -27,7 +27,8 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     let passed = rows.iter().filter(|row| row.passed).count();
     let mut page = format!(
         "{HEAD}<h1>Vibrissa bench</h1>\n<p>{passed} of {} runs completed with no figure worse than the thesis's. Figures are \
-         mean ± sample standard deviation; those of the thesis stand beside.</p>\n<div class=\"wide\"><table>\n<tr>",
+         mean ± sample standard deviation; those of the thesis, which has neither friction nor noise, stand beside. A run under \
+         friction or noise only has to complete.</p>\n<div class=\"wide\"><table>\n<tr>",
         rows.len()
     );
     // Writing to a string cannot fail.
@@ -53,7 +54,7 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     }
     page.push_str("</table></div>\n");
     for (index, (row, picture)) in rows.iter().zip(pictures).enumerate() {
-        let title = escaped(&format!("{}, {}", row.result.scenario, row.result.policy));
+        let title = escaped(&format!("{}, {}", row.scene(), row.result.policy));
         let _ = write!(
             page,
             "<h2 id=\"run{index}\">{title}</h2>\n{}<img alt=\"{title}\" src=\"data:image/svg+xml,{}\">\n",

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::report::{MeanStd, RunResult};
 use crate::scene::Outcome;
 
+use super::conditions::Conditions;
 use super::thesis::{Reported, ThesisFigures, thesis_figures};
 
 /// How a figure compares with the thesis's, by their means.
@@ -35,11 +36,14 @@ pub struct BenchRow {
     /// The run.
     #[serde(flatten)]
     pub result: RunResult,
+    /// What makes it harder than the thesis's scenes are.
+    pub conditions: Conditions,
     /// What the thesis reports; `None` of a scene that is not one of its own.
     pub thesis: Option<ThesisFigures>,
     /// How the two compare.
     pub verdicts: Verdicts,
-    /// Whether the run completed, no figure is worse than the thesis's, and what the scenario expects holds.
+    /// Whether the run completed, no figure is worse than the thesis's, and what the scenario expects holds; whether it completed,
+    /// if conditions make it harder.
     pub passed: bool,
 }
 
@@ -59,7 +63,21 @@ impl BenchRow {
         };
         let all = [verdicts.error_mm, verdicts.radius_mm, verdicts.axis_mm];
         let passed = completed && holds && !all.contains(&Some(Verdict::Worse));
-        Self { result, thesis, verdicts, passed }
+        Self { result, conditions: Conditions::default(), thesis, verdicts, passed }
+    }
+
+    /// The same row as that of a run under `conditions`.
+    #[must_use]
+    pub fn under(self, conditions: Conditions) -> Self {
+        let passed = if conditions.are_ideal() { self.passed } else { self.result.outcome == Outcome::Completed };
+        Self { conditions, passed, ..self }
+    }
+
+    /// The scene, and the conditions if they make it harder.
+    #[must_use]
+    pub fn scene(&self) -> String {
+        let scenario = &self.result.scenario;
+        if self.conditions.are_ideal() { scenario.clone() } else { format!("{scenario}, {}", self.conditions) }
     }
 
     /// The figures that the thesis reports too: what was found, what it reports, and the verdict.

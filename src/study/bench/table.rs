@@ -57,7 +57,7 @@ pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 17] {
     let [[error, thesis_error], [radius, thesis_radius], [axis, thesis_axis]] = [error, radius, axis];
     let corners = result.corners.as_ref();
     [
-        plain(Some(result.scenario.clone())),
+        plain(Some(row.scene())),
         plain(Some(result.policy.clone())),
         plain(Some(result.outcome.to_string())),
         error,
