@@ -10,6 +10,7 @@ pub mod editor;
 pub mod geometry;
 pub mod machine;
 pub mod motion;
+pub mod outline;
 pub mod percept;
 pub mod policy;
 pub mod report;

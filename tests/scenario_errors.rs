@@ -74,6 +74,15 @@ proptest! {
     }
 }
 
+#[cfg(not(feature = "outlines"))]
+#[test]
+fn a_build_that_reads_no_outlines_says_how_to_get_one_that_does() {
+    let drawn = "objects: [{outline: {file: gripper.svg}}]\nstart: {position: [0 m, 0 m], heading: 0 deg}";
+    let source = Source::new("gripper.yaml", format!("name: gripper\n{drawn}\nstop: {{time: 1 s}}\n"));
+    let faults = Scene::from_yaml_with(&source, &mut |_| Ok(b"<svg/>".to_vec())).unwrap_err();
+    snapshots("scenarios").bind(|| insta::assert_snapshot!("no_outlines", terminal(&source, &faults, Colour::Plain)));
+}
+
 #[test]
 fn independent_faults_are_told_together_and_in_the_order_of_the_text() {
     let text = DISK.replace("0.3 m", "0.3").replace("90 deg", "90 mm").replace("coverage", "covrage");

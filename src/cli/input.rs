@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Source, suggest};
 use crate::machine::{ARTIFACT_LIMIT, Artifact};
+use crate::outline;
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
 use crate::scene::Scene;
@@ -58,18 +59,39 @@ pub(super) fn read_standard() -> Result<Source, Failure> {
     Ok(Source::new(name, text))
 }
 
+/// Reads a scenario with the files that it refers to; the hash is that of all of them.
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
-    read_scenario(read(path)?)
+    scenario_with_files(path, |_| ())
+}
+
+/// The same. `each_file` that it refers to is told, be it there or not.
+pub(super) fn scenario_with_files(path: &Path, mut each_file: impl FnMut(PathBuf)) -> Result<Loaded<Scene>, Failure> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    read_scenario(read(path)?, |name| {
+        let path = folder.join(name);
+        let bytes = regular(&path, |file| read_bytes(file, outline::SIZE_LIMIT));
+        each_file(path);
+        bytes
+    })
 }
 
 /// A scenario that is part of the program.
 pub(super) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, Failure> {
-    read_scenario(Source::new(file.path, file.text))
+    read_scenario(Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
 }
 
-fn read_scenario(source: Source) -> Result<Loaded<Scene>, Failure> {
-    let hash = Sha256::new().chain_update(&source.text);
-    match Scene::from_yaml(&source) {
+fn read_scenario(
+    source: Source,
+    mut file: impl FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<Loaded<Scene>, Failure> {
+    let mut hash = Sha256::new().chain_update(&source.text);
+    let scene = Scene::from_yaml_with(&source, &mut |name| {
+        let bytes = file(name)?;
+        hash.update([0]);
+        hash.update(&bytes);
+        Ok(bytes)
+    });
+    match scene {
         Ok(value) => Ok(Loaded { value, hash }),
         Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
     }
@@ -107,12 +129,16 @@ pub(super) fn library_files(source: &Source) -> impl Iterator<Item = PathBuf> {
 
 /// The text of a file that a policy uses.
 pub(super) fn library(path: &str) -> Result<String, String> {
-    let path = Path::new(path);
+    regular(Path::new(path), read_text)
+}
+
+/// What `read` gives of a file, or why it does not, with the name that was probably meant.
+fn regular<T>(path: &Path, read: impl FnOnce(File) -> Result<T, Error>) -> Result<T, String> {
     // A pipe might never end, or never begin.
     if path.metadata().is_ok_and(|about| !about.is_file()) {
         return Err("it is no file".to_owned());
     }
-    File::open(path).and_then(read_text).map_err(|cause| {
+    File::open(path).and_then(read).map_err(|cause| {
         let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
         let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
         let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();

@@ -63,7 +63,9 @@ impl Job {
     /// Prepares one run. Tells the warnings of its policy, unless that has been done.
     fn new(path: &Path, arguments: &RunArguments, files: &mut Files) -> Result<Self, Failure> {
         files.read.insert(path.to_owned());
-        let scenario = input::scenario(path)?;
+        let scenario = input::scenario_with_files(path, |file| {
+            files.read.insert(file);
+        })?;
         let scene = scenario.value;
         let policy_path = match (&arguments.policy, &scene.policy) {
             (Some(policy), _) => policy.clone(),

@@ -5,14 +5,14 @@ use super::{Arc, Piece, Point2, Vector2, perpendicular};
 /// How far (m) a fitted arc may lie from its curve.
 const TOLERANCE: f64 = 1e-6;
 
-/// Parts that a curve is cut into before any fitting: what happens twice in a part could hide from its check.
-const LEAST_PARTS: u32 = 32;
+/// Parts that a wave of a few turns is cut into before any fitting.
+pub(super) const LEAST_PARTS: u32 = 32;
 
 /// How often a part is halved at most; a smooth curve needs a fraction of it.
 const MOST_HALVINGS: u32 = 12;
 
-/// Places between the ends of a part at which its arcs are checked.
-const CHECKS: u32 = 7;
+/// Places between the ends of a part at which its arcs are checked. Between them they may be off by a fiftieth more.
+const CHECKS: u32 = 15;
 
 /// An arc flatter than this (m) is drawn as a straight piece: its centre would be too far away to keep its digits.
 const LARGEST_RADIUS: f64 = 1e6;
@@ -23,11 +23,13 @@ pub(super) type Place = (Point2, Vector2);
 /// Arcs that lie within a micrometre of the smooth `curve` for parameters between `from` and `to`, and join without corners:
 /// pairs of arcs (biarcs) that share ends and directions with the curve. `None` where the curve is not smooth, or its
 /// coordinates are no numbers.
-pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64) -> Option<Vec<Piece>> {
+///
+/// Before any fitting it is cut into so many `parts`: what happens twice in a part could hide from its check.
+pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) -> Option<Vec<Piece>> {
     let mut pieces = Vec::new();
     // The parts that are still to be fitted, the next one last.
-    let cut = |index: u32| from + (to - from) * (f64::from(index) / f64::from(LEAST_PARTS));
-    let mut open: Vec<(f64, f64, u32)> = (0..LEAST_PARTS).rev().map(|k| (cut(k), cut(k + 1), 0)).collect();
+    let cut = |index: u32| from + (to - from) * (f64::from(index) / f64::from(parts));
+    let mut open: Vec<(f64, f64, u32)> = (0..parts).rev().map(|k| (cut(k), cut(k + 1), 0)).collect();
     while let Some((start, end, halvings)) = open.pop() {
         let arcs = biarc(curve(start), curve(end));
         let strays = |index| {
@@ -93,7 +95,7 @@ mod tests {
         #[test]
         fn arcs_lie_on_their_curve_and_join_smoothly(amplitude in 0.001..0.3_f64, wave_number in 0.5..12.0_f64) {
             let curve = wave(amplitude, wave_number);
-            let contour = Contour::open(fit(&curve, -0.2, 1.5).unwrap()).unwrap();
+            let contour = Contour::open(fit(&curve, -0.2, 1.5, LEAST_PARTS).unwrap()).unwrap();
             for k in 0..4000 {
                 let (point, _) = curve(-0.2 + 1.7 * f64::from(k) / 3999.0);
                 prop_assert!(contour.nearest(point).distance <= 1.1 * TOLERANCE);
@@ -104,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_circle_is_fitted_by_its_own_arcs() {
-        let pieces = fit(|t| (Point2::from(0.3 * unit(t)), perpendicular(unit(t))), 0.0, 3.0).unwrap();
+        let pieces = fit(|t| (Point2::from(0.3 * unit(t)), perpendicular(unit(t))), 0.0, 3.0, LEAST_PARTS).unwrap();
         assert_eq!(pieces.len(), 2 * LEAST_PARTS as usize);
         assert!(pieces.iter().all(|piece| (piece.curvature() - 1.0 / 0.3).abs() < 1e-9));
     }
@@ -112,7 +114,7 @@ mod tests {
     #[test]
     fn what_is_no_smooth_curve_has_no_arcs() {
         let corner = |t: f64| (Point2::new(t, t.abs()), Vector2::new(1.0, if t < 0.01 { -1.0 } else { 1.0 }));
-        assert_eq!(fit(corner, -1.0, 1.1), None);
-        assert_eq!(fit(|_| (Point2::new(f64::NAN, 0.0), Vector2::x()), 0.0, 1.0), None);
+        assert_eq!(fit(corner, -1.0, 1.1, LEAST_PARTS), None);
+        assert_eq!(fit(|_| (Point2::new(f64::NAN, 0.0), Vector2::x()), 0.0, 1.0, LEAST_PARTS), None);
     }
 }

@@ -6,10 +6,12 @@
 
 mod angle;
 mod arc;
+mod bezier;
 mod bounding_box;
 mod contour;
 mod contour_set;
 mod distance;
+mod elliptic_arc;
 mod error;
 mod fit;
 mod joint;
@@ -25,10 +27,12 @@ mod strip;
 
 pub use angle::{turn_between, wrap};
 pub use arc::Arc;
+pub use bezier::Bezier;
 pub use bounding_box::BoundingBox;
 pub use contour::{Contour, JOIN_TOLERANCE, SHORTEST_PIECE};
 pub use contour_set::ContourSet;
 pub use distance::Nearest;
+pub use elliptic_arc::EllipticArc;
 pub use error::ContourError;
 pub use joint::Corner;
 pub use offset::OffsetError;

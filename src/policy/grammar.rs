@@ -1,5 +1,6 @@
 //! The grammar at work: from text to pest's pairs, and from its errors to diagnostics.
 
+use std::cell::OnceCell;
 use std::collections::HashSet;
 use std::sync::LazyLock;
 
@@ -8,6 +9,7 @@ use pest::iterators::Pairs;
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
+use super::standard::MODULES;
 use super::syntax_error::syntax_error;
 
 /// Brackets may nest this deep; a parser that recurses must stop somewhere, and no policy comes near.
@@ -32,8 +34,29 @@ mod derived {
 
 pub(super) use derived::Rule;
 
+thread_local! {
+    /// The pairs of the standard library's modules. They are the same in every compilation, and a third of all that is parsed.
+    static STANDARD: [OnceCell<Pairs<'static, Rule>>; MODULES.len()] = const { [const { OnceCell::new() }; MODULES.len()] };
+}
+
+/// The pairs of a module of the standard library, if this is the text of one.
+fn standard(text: &str) -> Option<Pairs<'static, Rule>> {
+    let (module, (_, text)) = MODULES.iter().enumerate().find(|(_, (_, module))| *module == text)?;
+    STANDARD.with(|parsed| {
+        let parsed = parsed.get(module)?;
+        if let Some(pairs) = parsed.get() {
+            return Some(pairs.clone());
+        }
+        let pairs = derived::FsmParser::parse(Rule::file, text).ok()?;
+        Some(parsed.get_or_init(|| pairs).clone())
+    })
+}
+
 /// Parses a whole file.
 pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
+    if let Some(pairs) = standard(&source.text) {
+        return Ok(pairs);
+    }
     if source.text.len() > LENGTH_LIMIT {
         let label = format!("the text goes on for {} bytes", source.text.len());
         let place = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);

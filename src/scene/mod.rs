@@ -24,7 +24,7 @@ pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use jitter::Jitter;
 pub use mjcf::mjcf;
 pub use part::Part;
-pub use scenario::Scene;
+pub use scenario::{Files, Scene};
 pub use solid::{Solid, SolidError};
 pub use stop::{LoopClosed, Reached, Stalled, Stop};
 pub use truth::Truth;

@@ -7,6 +7,10 @@ use crate::geometry::Pose;
 use crate::rig::Rig;
 use std::path::PathBuf;
 
+/// Gives the bytes of a file by its path, which is relative to the scenario's, or says why it cannot. It need not read more of
+/// one than tells that there are more than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT).
+pub type Files<'f> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'f;
+
 /// One scenario, read and checked.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -33,7 +37,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a scenario.
+    /// Reads a scenario that needs no other file.
     ///
     /// # Errors
     /// Everything that is wrong with it, up to [`FAULT_LIMIT`](crate::diagnostic::FAULT_LIMIT), in the order of the text:
@@ -52,7 +56,15 @@ impl Scene {
     /// assert!((scene.truth.reference.length() - 0.6 * std::f64::consts::PI).abs() < 1e-12);
     /// ```
     pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
-        yaml::read(source)
+        Self::from_yaml_with(source, &mut |_| Err("there are no files beside this text".to_owned()))
+    }
+
+    /// Reads a scenario, and the outlines that it refers to from `files`.
+    ///
+    /// # Errors
+    /// As [`from_yaml`](Self::from_yaml).
+    pub fn from_yaml_with(source: &Source, files: &mut Files<'_>) -> Result<Self, Vec<Diagnostic>> {
+        yaml::read(source, files)
     }
 
     /// Whether the rig, its whiskers straight, would stand clear of all solids if it started at `start`.

@@ -15,6 +15,20 @@ fn run_tells_the_warnings_of_a_policy_once() {
     assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
 }
 
+#[cfg(feature = "outlines")]
+#[test]
+fn a_scenario_finds_its_outlines_beside_itself_and_tells_of_one_that_is_not_there() {
+    let model = vibrissa(&["mjcf", "scenarios/outlines/gripper.yaml"]);
+    assert_eq!(model.status.code(), Some(0), "{}", stderr(&model));
+    let directory = directory("outlines");
+    let scenario = std::fs::read_to_string("scenarios/outlines/gripper.yaml").unwrap();
+    std::fs::copy("scenarios/outlines/gripper.svg", directory.join("griper.svg")).unwrap();
+    std::fs::write(directory.join("gripper.yaml"), scenario).unwrap();
+    let output = vibrissa(&["mjcf", &directory.join("gripper.yaml").display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("did you mean `griper.svg`?"), "{}", stderr(&output));
+}
+
 #[cfg(feature = "sim")]
 mod with_simulation {
     use serde_json::Value;

@@ -51,6 +51,9 @@ pub(crate) enum CheckError {
 /// `cargo test` by itself draws new cases each time.
 const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
+/// The features that are not there by default.
+const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
+
 /// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
@@ -65,22 +68,19 @@ const CHECKS: [Check; 10] = [
         &["test", "--package", "vibrissa", "--no-default-features"],
     ),
     Check { title: "set-up", work: Work::Setup },
-    check(
-        "lints",
-        &["clippy", "--workspace", "--features", "vibrissa/lsp", "--all-targets", "--", "--deny", "warnings"],
-    ),
+    check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
     check(
         "lints of the core",
         &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
     ),
-    check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", "vibrissa/lsp"]),
+    check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
-        &["doc", "--package", "vibrissa", "--features", "lsp", "--no-deps"],
+        &["doc", "--package", "vibrissa", "--features", FEATURES, "--no-deps"],
     ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
-    check("benches, each run once", &["test", "--package", "vibrissa", "--features", "lsp", "--benches"]),
+    check("benches, each run once", &["test", "--package", "vibrissa", "--features", FEATURES, "--benches"]),
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
-use crate::geometry::fit::fit;
+use crate::geometry::fit::{LEAST_PARTS, fit};
 use crate::geometry::{Contour, Point2, perpendicular, unit};
 
 /// A wave on a circle: `a cos(n θ + φ)` is added to its radius.
@@ -51,7 +51,7 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
         let outward = unit(angle);
         (centre + distance * outward, growth * outward + distance * perpendicular(outward))
     };
-    let pieces = fit(curve, 0.0, TAU).ok_or(ShapeError::TooFine)?;
+    let pieces = fit(curve, 0.0, TAU, LEAST_PARTS).ok_or(ShapeError::TooFine)?;
     Ok(Contour::closed(pieces)?)
 }
 

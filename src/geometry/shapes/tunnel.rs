@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::ShapeError;
 use super::error::{finite, positive};
-use crate::geometry::fit::fit;
+use crate::geometry::fit::{LEAST_PARTS, fit};
 use crate::geometry::{Contour, Piece, Point2, Pose, Strip, Vector2, perpendicular, unit};
 
 /// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
@@ -149,7 +149,7 @@ impl CentreLine {
                     (Point2::new(x, amplitude * sin) - aside * perpendicular(along.normalize()), direction)
                 };
                 let forward = (0..=1000).all(|k| curve(length * f64::from(k) / 1000.0).1.x > 0.0);
-                let pieces = fit(curve, 0.0, *length).filter(|_| forward).ok_or(ShapeError::TooTight)?;
+                let pieces = fit(curve, 0.0, *length, LEAST_PARTS).filter(|_| forward).ok_or(ShapeError::TooTight)?;
                 Ok(Contour::open(pieces)?)
             }
             Self::Polar { radius, amplitude, waves, opening } => {
@@ -205,7 +205,7 @@ impl Ring {
             return Err(ShapeError::TooTight);
         }
         let curve = |angle| place(angle, self.at(angle));
-        let pieces = fit(curve, 0.0, TAU).ok_or(ShapeError::TooTight)?;
+        let pieces = fit(curve, 0.0, TAU, LEAST_PARTS).ok_or(ShapeError::TooTight)?;
         Ok(Contour::closed(pieces)?)
     }
 
@@ -234,7 +234,7 @@ impl Ring {
         };
         let mut pieces = Vec::new();
         for (from, to) in [(start, straight), (straight, bends), (bends, end)] {
-            pieces.extend(fit(curve, from, to).ok_or(ShapeError::TooTight)?);
+            pieces.extend(fit(curve, from, to, LEAST_PARTS).ok_or(ShapeError::TooTight)?);
         }
         Ok(Contour::open(pieces)?)
     }

@@ -43,6 +43,12 @@ pub(super) const OVERLAP: &str = "S0304";
 pub(super) const NAME: &str = "S0305";
 /// The rig does not hang together.
 pub(super) const RIG: &str = "S0306";
+/// A file cannot be read.
+pub(super) const FILE: &str = "S0401";
+/// What a file holds is no outline.
+pub(super) const OUTLINE: &str = "S0402";
+/// This build cannot read what a file holds.
+pub(super) const NOT_BUILT: &str = "S0403";
 
 /// A scenario has a few dozen nodes; one that traces a shape has some thousands.
 const MAX_NODES: usize = 50_000;

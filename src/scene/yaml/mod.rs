@@ -11,6 +11,7 @@ mod node;
 mod number;
 mod object;
 mod objects;
+mod outline;
 mod path;
 mod polar;
 mod reader;

@@ -5,7 +5,7 @@ use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
-use super::{fault, path, polar, tunnel};
+use super::{fault, outline, path, polar, tunnel};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{
     Contour, ContourError, Point2, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
@@ -21,7 +21,8 @@ const WIDTH: Key = Key { name: "width", ..RADIUS };
 const HEIGHT: Key = Key { name: "height", ..RADIUS };
 const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
 
-const KINDS: [&str; 7] = ["circle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "tunnel"];
+const KINDS: [&str; 8] =
+    ["circle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "outline", "tunnel"];
 
 /// What one object is.
 pub(super) enum Object {
@@ -42,13 +43,14 @@ pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Pla
         reader.report(fault.hint(format!("add one, such as `objects: {EXAMPLE}`")));
     }
     let objects: Vec<_> = items.iter().map(|item| read(reader, item)).collect();
-    objects.into_iter().collect()
+    Some(objects.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
-/// Reads an object. It comes with the place of the key of its kind.
-fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Placed<Object>> {
+/// Reads an object, or several that are in one file. They come with the place of the key of their kind.
+fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Object>>> {
     let example = "circle: {centre: [40 cm, 40 cm], radius: 30 cm}";
     let (kind, entry) = reader.variant(item, "an object", &KINDS, example)?;
+    let plain = |contour| Placed { value: Object::Plain(contour), span: entry.key.span };
     let contour = match kind {
         "circle" => read_circle(reader, entry),
         "rounded_rectangle" => read_rounded_rectangle(reader, entry),
@@ -56,12 +58,13 @@ fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Placed<Object>> 
         "regular_polygon" => read_regular_polygon(reader, entry),
         "polar" => polar::read(reader, entry),
         "path" => path::read(reader, entry),
+        "outline" => return outline::read(reader, entry).map(|contours| contours.map(plain).collect()),
         _ => {
             let tunnel = Object::Tunnel(Box::new(tunnel::read(reader, entry)?));
-            return Some(Placed { value: tunnel, span: entry.key.span });
+            return Some(vec![Placed { value: tunnel, span: entry.key.span }]);
         }
     };
-    Some(Placed { value: Object::Plain(contour?), span: entry.key.span })
+    Some(vec![plain(contour?)])
 }
 
 fn read_circle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {

@@ -4,19 +4,26 @@ use super::fault;
 use super::fields::list;
 use super::node::{Entry, Node, Placed};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span, suggest};
+use crate::scene::Files;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 /// Reads values, and collects what is wrong with them. A value that cannot be used is `None`, and has been reported.
 pub(super) struct Reader<'s> {
     source: &'s Source,
+    files: &'s mut Files<'s>,
     faults: Vec<Diagnostic>,
 }
 
 impl<'s> Reader<'s> {
-    /// A reader of the values of `source`, in which `faults` have been found so far.
-    pub(super) fn new(source: &'s Source, faults: Vec<Diagnostic>) -> Self {
-        Self { source, faults }
+    /// A reader of the values of `source`, in which `faults` have been found so far; it finds what they refer to in `files`.
+    pub(super) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
+        Self { source, files, faults }
+    }
+
+    /// The bytes of the file that the text calls `path`.
+    pub(super) fn file(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        (self.files)(path)
     }
 
     /// How many faults there are so far.

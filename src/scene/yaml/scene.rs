@@ -7,13 +7,13 @@ use super::reader::Reader;
 use super::{expect, fault, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::rig::Rig;
-use crate::scene::Scene;
+use crate::scene::{Files, Scene};
 use std::path::PathBuf;
 
 /// Reads a scenario. The list of faults is never empty, and in the order of the text.
-pub(in crate::scene) fn read(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
+pub(in crate::scene) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
     let (tree, faults) = fault::parse(source)?;
-    let mut reader = Reader::new(source, faults);
+    let mut reader = Reader::new(source, files, faults);
     let scene = read_scene(&mut reader, &tree);
     let faults = reader.into_faults();
     match scene {

@@ -1,0 +1,93 @@
+//! Pieces made to follow each other.
+
+use std::f64::consts::PI;
+
+use crate::geometry::{Arc, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, perpendicular};
+
+use super::{OutlineFault, TOLERANCE};
+
+/// The same pieces so that each starts where the one before it ends, and the first where the last ends: ends within the
+/// tolerance of each other are moved together, and what is too short to be a piece is left out.
+pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
+    let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| piece.length() >= 2.0 * SHORTEST_PIECE).collect();
+    // Where each piece is to end.
+    let starts = pieces.iter().cycle().skip(1).map(Piece::start);
+    let mut closed = Vec::with_capacity(pieces.len());
+    for (piece, end) in pieces.iter().zip(starts) {
+        let gap = (end - piece.end()).norm();
+        if gap <= 0.5 * JOIN_TOLERANCE {
+            closed.push(*piece);
+        } else if gap <= 2.0 * TOLERANCE {
+            // Two ends that are one because both are within the tolerance of a third.
+            closed.extend(ending(piece, end));
+        } else {
+            return Err(OutlineFault::Open { from: piece.end(), to: end });
+        }
+    }
+    Ok(closed)
+}
+
+/// A piece that goes from the same start to another end, near its own.
+fn ending(piece: &Piece, end: Point2) -> Vec<Piece> {
+    match piece {
+        Piece::Segment(segment) => vec![Piece::segment(segment.start, end)],
+        Piece::Arc(arc) if arc.sweep.abs() <= PI => vec![between(arc.start(), end, arc.sweep)],
+        // Of an arc that is nearly a circle the ends are near each other, and would tell little of where it is.
+        Piece::Arc(arc) => {
+            let half = Arc { sweep: 0.5 * arc.sweep, ..*arc };
+            vec![Piece::Arc(half), between(half.end(), end, half.sweep)]
+        }
+    }
+}
+
+/// The arc over a sweep (rad, positive to the left, not 0, within ±2π) from one point to another.
+pub(super) fn between(start: Point2, end: Point2, sweep: f64) -> Piece {
+    let chord = end - start;
+    let half = 0.5 * sweep;
+    // The centre lies to the left of the chord's middle for a left turn.
+    let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / half.tan());
+    let radius = (start - centre).norm();
+    let outward = start - centre;
+    Piece::arc(centre, radius, outward.y.atan2(outward.x), sweep)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::Contour;
+
+    proptest! {
+        #[test]
+        fn an_arc_between_its_own_ends_is_itself(
+            x in -1.0..1.0_f64, radius in 1e-3..1.0_f64, from in -PI..PI, sweep in -PI..PI,
+        ) {
+            prop_assume!(sweep.abs() > 1e-2);
+            let Piece::Arc(arc) = Piece::arc(Point2::new(x, 0.2), radius, from, sweep) else { unreachable!() };
+            let Piece::Arc(again) = between(arc.start(), arc.end(), sweep) else { unreachable!() };
+            prop_assert!((again.centre - arc.centre).norm() + (again.radius - arc.radius).abs() < 1e-11);
+            prop_assert!((again.start() - arc.start()).norm() + (again.end() - arc.end()).norm() < 1e-14);
+        }
+
+        #[test]
+        fn a_small_gap_is_closed_and_nothing_moves_far(gap in -9e-7..9e-7_f64, sweep in 0.1..6.0_f64) {
+            let arc = Piece::arc(Point2::origin(), 0.1, 0.0, sweep);
+            let shifted = arc.end() + nalgebra::Vector2::new(gap, 0.0);
+            let pieces = close(vec![arc, Piece::segment(shifted, arc.start())]).unwrap();
+            let contour = Contour::closed(pieces).unwrap();
+            for k in 0..=100 {
+                let place = arc.point_at(arc.length() * f64::from(k) / 100.0);
+                prop_assert!(contour.nearest(place).distance <= 2e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn a_wide_gap_is_told_with_its_ends() {
+        let side = Piece::segment(Point2::origin(), Point2::new(0.1, 0.0));
+        assert_eq!(close(vec![side]), Err(OutlineFault::Open { from: side.end(), to: side.start() }));
+    }
+}

@@ -1,0 +1,142 @@
+//! What entities draw.
+
+use std::f64::consts::TAU;
+
+use crate::geometry::{EllipticArc, Piece, Vector2, perpendicular};
+
+use super::super::chain::between;
+use super::super::plane::Plane;
+use super::super::{OutlineError, OutlineFault, TOLERANCE};
+use super::record::Record;
+
+/// Arcs that may be larger (m) would lose their digits.
+const LARGEST_RADIUS: f64 = 1e6;
+
+/// What an entity draws.
+pub(super) enum Drawn {
+    Nothing,
+    /// An outline.
+    Whole(Vec<Piece>),
+    /// A part of one.
+    Loose(Vec<Piece>),
+}
+
+/// A vertex of a polyline: where it is, and how much the side behind it bulges.
+type Vertex = ([f64; 2], f64);
+
+pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, OutlineError> {
+    let drawn = match entity.kind {
+        "LINE" => {
+            let end = |code| -> Result<_, OutlineError> { Ok(plane.point(entity.place(code)?)?) };
+            return Ok(Drawn::Loose(vec![Piece::segment(end(10)?, end(11)?)]));
+        }
+        "CIRCLE" | "ARC" => {
+            let radius = entity.number(40, 0.0)?;
+            let angles = match entity.kind {
+                "ARC" => [entity.number(50, 0.0)?, entity.number(51, 360.0)?].map(f64::to_radians),
+                _ => [0.0, TAU],
+            };
+            let radii = [Vector2::new(radius, 0.0), Vector2::new(0.0, radius)];
+            elliptic(&own(entity, plane)?, entity.place(10)?, radii, angles)
+        }
+        "ELLIPSE" => {
+            // Its centre and its axis are the world's, whichever side it is seen from.
+            let hand = own(entity, plane)?.x_axis.dot(&plane.x_axis).signum();
+            let major = Vector2::from(entity.place(11)?);
+            let minor = perpendicular(major) * (hand * entity.number(40, 1.0)?);
+            let angles = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
+            elliptic(plane, entity.place(10)?, [major, minor], angles)
+        }
+        "LWPOLYLINE" => polyline(&light(entity)?, entity.integer(70)?, &own(entity, plane)?),
+        "POLYLINE" => polyline(&heavy(entity)?, entity.integer(70)?, &own(entity, plane)?),
+        "SPLINE" => Err(unsupported("SPLINE", "turn it into a polyline with arcs, or save the drawing as SVG")),
+        "INSERT" => Err(unsupported("INSERT", "explode the block")),
+        "3DFACE" | "3DSOLID" | "BODY" | "HELIX" | "MLINE" | "REGION" | "SHAPE" | "SOLID" | "TRACE" => {
+            Err(unsupported(entity.kind, "explode it into lines and arcs, or take it out"))
+        }
+        // Texts, dimensions, hatches, points, pictures and what helps to construct.
+        _ => Ok(Drawn::Nothing),
+    };
+    Ok(drawn?)
+}
+
+/// The plane of an entity's own coordinates. An entity that is seen from below has its x axis turned round.
+fn own(entity: &Record<'_>, plane: &Plane) -> Result<Plane, OutlineError> {
+    let [x, y, z] = [entity.number(210, 0.0)?, entity.number(220, 0.0)?, entity.number(230, 1.0)?];
+    let is_level = z != 0.0 && x.abs() + y.abs() <= 1e-9 * z.abs();
+    if !is_level {
+        return Err(unsupported("an entity that is tilted", "draw it in the x-y plane").into());
+    }
+    Ok(plane.inner([z.signum(), 0.0], [0.0, 1.0], [0.0, 0.0]))
+}
+
+fn elliptic(plane: &Plane, centre: [f64; 2], radii: [Vector2; 2], [from, to]: [f64; 2]) -> Result<Drawn, OutlineFault> {
+    for radius in radii {
+        plane.point([centre[0] + radius.x, centre[1] + radius.y])?;
+    }
+    let turn = (to - from).rem_euclid(TAU);
+    if !from.is_finite() || !turn.is_finite() {
+        return Err(OutlineFault::FarOff);
+    }
+    // From an angle to itself is all the way round.
+    let is_whole = turn <= 1e-9 || TAU - turn <= 1e-9;
+    let sweep = if is_whole { TAU } else { turn };
+    let radii = radii.map(|radius| plane.direction(radius.into()));
+    let arc = EllipticArc { centre: plane.point(centre)?, radii, start_angle: from, sweep };
+    let pieces = arc.pieces().ok_or(OutlineFault::Curve)?;
+    Ok(if is_whole { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
+}
+
+/// The vertices of a polyline that has them in itself.
+fn light(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
+    let mut vertices: Vec<Vertex> = Vec::new();
+    for pair in &entity.pairs {
+        match (pair.code, vertices.last_mut()) {
+            (10, _) => vertices.push(([pair.number()?, 0.0], 0.0)),
+            (20, Some((place, _))) => place[1] = pair.number()?,
+            (42, Some((_, bulge))) => *bulge = pair.number()?,
+            _ => {}
+        }
+    }
+    Ok(vertices)
+}
+
+/// The vertices of a polyline that has them behind it.
+fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
+    const CLOSED_OR_FITTED_BY_ARCS: i32 = 1 | 2;
+    const CONTINUOUS_PATTERN: i32 = 128;
+    if entity.integer(70)? & !(CLOSED_OR_FITTED_BY_ARCS | CONTINUOUS_PATTERN) != 0 {
+        return Err(
+            unsupported("a POLYLINE of splines, in space, or of a mesh", "explode it into lines and arcs").into()
+        );
+    }
+    entity.vertices.iter().map(|vertex| Ok((vertex.place(10)?, vertex.number(42, 0.0)?))).collect()
+}
+
+/// A polyline whose sides are arcs where they bulge: by the tangent of a quarter of the angle, positive to the left.
+fn polyline(vertices: &[Vertex], flags: i32, plane: &Plane) -> Result<Drawn, OutlineFault> {
+    let hand = plane.x_axis.perp(&plane.y_axis).signum();
+    let is_closed = flags & 1 != 0;
+    let count = if is_closed { vertices.len() } else { vertices.len().saturating_sub(1) };
+    let mut pieces = Vec::with_capacity(count);
+    for (&(start, bulge), &(end, _)) in vertices.iter().zip(vertices.iter().cycle().skip(1)).take(count) {
+        let (start, end) = (plane.point(start)?, plane.point(end)?);
+        if !bulge.is_finite() {
+            return Err(OutlineFault::FarOff);
+        }
+        let length = (end - start).norm();
+        let (bend, size) = (0.5 * length * bulge.abs(), bulge.abs().max(bulge.abs().recip()));
+        if length * size <= LARGEST_RADIUS {
+            pieces.push(between(start, end, 4.0 * (hand * bulge).atan()));
+        } else if bend <= TOLERANCE {
+            pieces.push(Piece::segment(start, end));
+        } else {
+            return Err(OutlineFault::Curve);
+        }
+    }
+    Ok(if is_closed { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
+}
+
+fn unsupported(what: &str, advice: &'static str) -> OutlineFault {
+    OutlineFault::Unsupported { what: what.to_owned(), advice }
+}

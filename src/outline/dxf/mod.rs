@@ -1,0 +1,67 @@
+//! DXF: lines, arcs, circles, ellipses and polylines, seen from above.
+
+mod drawing;
+mod entity;
+mod pair;
+mod record;
+
+use crate::diagnostic::suggest;
+
+use super::found::{Outline, Outlines};
+use super::join::join;
+use super::plane::Plane;
+use super::{MOST_PIECES, OutlineError, OutlineFault, Request};
+use drawing::Drawing;
+use entity::{Drawn, drawn};
+use record::Record;
+
+/// What a binary DXF begins with.
+const BINARY: &[u8] = b"AutoCAD Binary DXF";
+
+/// Reads the outlines of all layers that are shown, or those of one layer.
+pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
+    if bytes.starts_with(BINARY) {
+        let advice = "save it as a DXF of text (ASCII)";
+        return Err(OutlineFault::Unsupported { what: "a binary DXF".to_owned(), advice }.into());
+    }
+    // Older files have names in other encodings; all else is ASCII.
+    let text = String::from_utf8_lossy(bytes);
+    let drawing = Drawing::read(&text)?;
+    let plane = Plane::scaled(request.unit.or(drawing.unit).ok_or(OutlineFault::NoUnit)?);
+    let mut outlines = Outlines::default();
+    let mut loose = Vec::new();
+    for entity in chosen(&drawing, request.element)? {
+        match drawn(entity, &plane).map_err(|error| error.or_at(entity.line))? {
+            Drawn::Nothing => {}
+            Drawn::Whole(pieces) => outlines.add(pieces, Some(entity.line))?,
+            Drawn::Loose(pieces) => loose.extend(pieces.into_iter().map(|piece| (piece, Some(entity.line)))),
+        }
+        if loose.len() > MOST_PIECES {
+            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES }.at(Some(entity.line)));
+        }
+    }
+    for (pieces, line) in join(&loose)? {
+        outlines.add(pieces, line)?;
+    }
+    outlines.into_found()
+}
+
+/// The entities of a layer; or all that are to be seen. Names of layers do not tell capitals from small letters.
+fn chosen<'d>(drawing: &'d Drawing<'_>, layer: Option<&str>) -> Result<Vec<&'d Record<'d>>, OutlineError> {
+    let in_the_model = drawing.entities.iter().filter(|entity| !entity.is_on_paper());
+    let Some(layer) = layer else {
+        let is_seen =
+            |entity: &&Record<'_>| entity.is_visible() && !drawing.hidden.contains(&entity.layer().to_lowercase());
+        return Ok(in_the_model.filter(is_seen).collect());
+    };
+    let is_named = |entity: &&Record<'_>| entity.layer().to_lowercase() == layer.to_lowercase();
+    let entities: Vec<_> = in_the_model.clone().filter(is_named).collect();
+    if entities.is_empty() {
+        let mut names: Vec<&str> = in_the_model.map(Record::layer).collect();
+        names.sort_unstable();
+        names.dedup();
+        let meant = suggest(layer, names).map(str::to_owned);
+        return Err(OutlineFault::NoElement { element: layer.to_owned(), meant }.into());
+    }
+    Ok(entities)
+}

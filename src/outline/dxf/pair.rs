@@ -1,0 +1,50 @@
+//! What a DXF is made of: pairs of lines, the first with a number that says what the second is.
+
+use super::super::{OutlineError, OutlineFault};
+
+/// A value with the number of its group.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Pair<'t> {
+    pub(super) code: i32,
+    pub(super) value: &'t str,
+    /// The line of the value.
+    pub(super) line: usize,
+}
+
+impl Pair<'_> {
+    /// The value as a number.
+    pub(super) fn number(&self) -> Result<f64, OutlineError> {
+        self.value.parse().map_err(|_| syntax(self.line, "a number", self.value))
+    }
+
+    /// The value as a whole number.
+    pub(super) fn integer(&self) -> Result<i32, OutlineError> {
+        self.value.parse().map_err(|_| syntax(self.line, "a whole number", self.value))
+    }
+}
+
+/// The pairs of a text, up to the first that is none.
+pub(super) fn pairs(text: &str) -> impl Iterator<Item = Result<Pair<'_>, OutlineError>> {
+    let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..);
+    let mut is_over = false;
+    std::iter::from_fn(move || {
+        let (code, line) = lines.next().filter(|_| !is_over)?;
+        let pair = match (code.trim().parse(), lines.next()) {
+            (Ok(code), Some((value, line))) => Ok(Pair { code, value: value.trim(), line }),
+            (Ok(_), None) => Err(cut_off().at(Some(line))),
+            (Err(_), _) => Err(syntax(line, "the number of a group", code)),
+        };
+        is_over = pair.is_err();
+        Some(pair)
+    })
+}
+
+/// The report of a text that ends too soon.
+pub(super) fn cut_off() -> OutlineFault {
+    OutlineFault::Syntax { reason: "it ends before the drawing does".to_owned() }
+}
+
+fn syntax(line: usize, expected: &str, found: &str) -> OutlineError {
+    let found: String = found.chars().filter(|letter| !letter.is_control()).take(40).collect();
+    OutlineFault::Syntax { reason: format!("expected {expected}, found `{found}`") }.at(Some(line))
+}

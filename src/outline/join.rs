@@ -1,0 +1,155 @@
+//! Loose pieces joined to outlines.
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use crate::geometry::{Piece, Point2};
+
+use super::{OutlineError, OutlineFault, TOLERANCE};
+
+/// The pieces of an outline, and the line of the first.
+type Loop = (Vec<Piece>, Option<usize>);
+
+/// A piece with its line in the file, where that is known.
+pub(super) type Loose = (Piece, Option<usize>);
+
+/// The outlines that loose pieces make, each in the order of travel, with the line of its first piece: ends that are within
+/// the tolerance of each other belong together. The pieces may stand in any order and point either way.
+///
+/// # Errors
+/// The place where an end is alone, or where there are more than two.
+pub(super) fn join(pieces: &[Loose]) -> Result<Vec<Loop>, OutlineError> {
+    let nodes = Nodes::of(pieces)?;
+    let mut is_used: Vec<bool> =
+        pieces.iter().zip(&nodes.ends).map(|((piece, _), &ends)| is_dot(piece, ends)).collect();
+    let mut outlines = Vec::new();
+    for (index, &(first, line)) in pieces.iter().enumerate() {
+        if is_used[index] {
+            continue;
+        }
+        let mut outline = vec![first];
+        is_used[index] = true;
+        // On from the end of the last piece, until there is no piece there that is not used.
+        let mut node = nodes.ends[index][1];
+        while let Some(next) = nodes.pieces[node].into_iter().flatten().find(|&piece| !is_used[piece]) {
+            is_used[next] = true;
+            let is_forward = nodes.ends[next][0] == node;
+            outline.push(if is_forward { pieces[next].0 } else { pieces[next].0.reversed() });
+            node = nodes.ends[next][usize::from(is_forward)];
+        }
+        outlines.push((outline, line));
+    }
+    Ok(outlines)
+}
+
+/// Whether a piece between two nodes is so short that both are one: nothing is lost without it.
+fn is_dot(piece: &Piece, [start, end]: [usize; 2]) -> bool {
+    start == end && piece.length() <= 2.0 * TOLERANCE
+}
+
+/// The places where ends meet.
+struct Nodes {
+    /// The nodes of the start and the end of each piece.
+    ends: Vec<[usize; 2]>,
+    /// The two pieces of each node; twice the same if it comes back to its own start.
+    pieces: Vec<[Option<usize>; 2]>,
+}
+
+impl Nodes {
+    fn of(pieces: &[Loose]) -> Result<Self, OutlineError> {
+        let mut tree: RTree<GeomWithData<[f64; 2], usize>> = RTree::new();
+        let mut places: Vec<Point2> = Vec::new();
+        let mut nodes = Self { ends: Vec::with_capacity(pieces.len()), pieces: Vec::new() };
+        for (index, (piece, line)) in pieces.iter().enumerate() {
+            let ends = [piece.start(), piece.end()].map(|place| {
+                let near = tree.locate_within_distance([place.x, place.y], TOLERANCE * TOLERANCE).next();
+                if let Some(node) = near {
+                    return node.data;
+                }
+                tree.insert(GeomWithData::new([place.x, place.y], places.len()));
+                places.push(place);
+                nodes.pieces.push([None; 2]);
+                places.len() - 1
+            });
+            nodes.ends.push(ends);
+            if is_dot(piece, ends) {
+                continue;
+            }
+            for (end, at) in ends.into_iter().zip([piece.start(), piece.end()]) {
+                match nodes.pieces.get_mut(end) {
+                    Some([free @ None, _] | [_, free @ None]) => *free = Some(index),
+                    _ => return Err(OutlineFault::Branches { at }.at(*line)),
+                }
+            }
+        }
+        nodes.check(pieces, &places)?;
+        Ok(nodes)
+    }
+
+    /// Whether no end is alone. Of two that are, the nearest to each other are told.
+    fn check(&self, pieces: &[Loose], places: &[Point2]) -> Result<(), OutlineError> {
+        let alone = self.pieces.iter().zip(places).filter_map(|(met, &place)| match met {
+            [Some(piece), None] => Some((place, *piece)),
+            _ => None,
+        });
+        let Some((from, piece)) = alone.clone().next() else { return Ok(()) };
+        let others = alone.skip(1).map(|(place, _)| place);
+        let nearest = others.min_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()));
+        Err(OutlineFault::Open { from, to: nearest.unwrap_or(from) }.at(pieces[piece].1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::{Contour, regular_polygon};
+
+    /// The sides of two polygons.
+    fn sides() -> Vec<Loose> {
+        let polygons =
+            [(0.0, 5), (1.0, 7)].map(|(x, sides)| regular_polygon(Point2::new(x, 0.0), 0.3, sides, 0.1).unwrap());
+        polygons.iter().flat_map(Contour::pieces).zip(1..).map(|(&side, line)| (side, Some(line))).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn sides_in_any_order_and_direction_are_joined(
+            order in Just(sides()).prop_shuffle(), turned in prop::collection::vec(any::<bool>(), 12),
+            moved in prop::collection::vec(-2e-7..2e-7_f64, 12),
+        ) {
+            let moved = moved.into_iter().map(|by| nalgebra::Vector2::new(by, -by));
+            let loose: Vec<Loose> = order
+                .into_iter()
+                .zip(turned)
+                .zip(moved)
+                .map(|(((side, line), turned), by)| {
+                    let side = Piece::segment(side.start() + by, side.end() + by);
+                    (if turned { side.reversed() } else { side }, line)
+                })
+                .collect();
+            let mut found = join(&loose).unwrap();
+            found.sort_by_key(|(pieces, _)| pieces.len());
+            prop_assert_eq!(found.iter().map(|(pieces, _)| pieces.len()).collect::<Vec<_>>(), vec![5, 7]);
+            for (pieces, _) in found {
+                let next = pieces.iter().cycle().skip(1);
+                prop_assert!(pieces.iter().zip(next).all(|(a, b)| (b.start() - a.end()).norm() < 1e-6));
+            }
+        }
+    }
+
+    #[test]
+    fn an_end_alone_and_a_third_end_are_told() {
+        let mut loose = sides();
+        let (gone, _) = loose.remove(2);
+        let open = OutlineFault::Open { from: gone.start(), to: gone.end() };
+        assert_eq!(join(&loose).unwrap_err(), open.at(Some(2)));
+        let mut loose = sides();
+        let (first, _) = loose[0];
+        loose.push((Piece::segment(first.start(), Point2::new(2.0, 2.0)), Some(99)));
+        assert_eq!(join(&loose).unwrap_err(), OutlineFault::Branches { at: first.start() }.at(Some(99)));
+    }
+}

@@ -1,0 +1,43 @@
+//! The plane of a drawing.
+
+use crate::geometry::{Point2, Vector2};
+
+use super::OutlineFault;
+
+/// The farthest (m) that a coordinate may be from the origin: as far as scenarios reach.
+const REACH: f64 = 100.0;
+
+/// A linear map of a file's coordinates to metres, y up.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub(super) struct Plane {
+    /// Where the file's own axes and origin come to lie (m).
+    pub(super) x_axis: Vector2,
+    pub(super) y_axis: Vector2,
+    pub(super) origin: Vector2,
+}
+
+impl Plane {
+    /// With 1 in the file so long (m).
+    pub(super) fn scaled(unit: f64) -> Self {
+        Self { x_axis: Vector2::new(unit, 0.0), y_axis: Vector2::new(0.0, unit), origin: Vector2::zeros() }
+    }
+
+    /// The map of coordinates whose axes and origin are given in this plane's own coordinates.
+    pub(super) fn inner(&self, x_axis: [f64; 2], y_axis: [f64; 2], origin: [f64; 2]) -> Self {
+        Self {
+            x_axis: self.direction(x_axis),
+            y_axis: self.direction(y_axis),
+            origin: self.origin + self.direction(origin),
+        }
+    }
+
+    pub(super) fn direction(&self, [x, y]: [f64; 2]) -> Vector2 {
+        self.x_axis * x + self.y_axis * y
+    }
+
+    pub(super) fn point(&self, place: [f64; 2]) -> Result<Point2, OutlineFault> {
+        let point = Point2::from(self.origin + self.direction(place));
+        let is_near = point.coords.iter().all(|coordinate| coordinate.abs() <= REACH);
+        if is_near { Ok(point) } else { Err(OutlineFault::FarOff) }
+    }
+}

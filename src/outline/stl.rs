@@ -1,0 +1,149 @@
+//! STL: the outlines in which a plane cuts a mesh.
+
+use std::io::{Cursor, ErrorKind};
+
+use stl_io::{Vector, Vertex, create_stl_reader};
+
+use crate::geometry::{Piece, Point2};
+
+use super::found::{Outline, Outlines};
+use super::join::{Loose, join};
+use super::plane::Plane;
+use super::{MOST_PIECES, OutlineError, OutlineFault, Request, TOLERANCE};
+
+/// How many bytes stand before the triangles of a binary file, and how many a triangle has.
+const HEADER: usize = 84;
+const TRIANGLE: usize = 50;
+
+/// The most sides that triangles may leave in the plane, before those in a line become one.
+const MOST_SIDES: usize = 2 * MOST_PIECES;
+
+/// Reads the outlines in a plane of one height.
+pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
+    let unit = request.unit.ok_or(OutlineFault::NoUnit)?;
+    let mut sides: Vec<Loose> = Vec::new();
+    let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
+    let cut = Cut { plane: Plane::scaled(unit), unit, height: request.height };
+    let mut bytes = Cursor::new(prepared(bytes));
+    for triangle in create_stl_reader(&mut bytes).map_err(|error| refusal(&error))? {
+        let corners = triangle.map_err(|error| refusal(&error))?.vertices.map(|vertex| cut.place(vertex));
+        let [a, b, c] = corners;
+        let corners = [a?, b?, c?];
+        for corner in &corners {
+            extent = (extent.0.min(corner.above), extent.1.max(corner.above));
+        }
+        sides.extend(side(&corners).map(|side| (side, None)));
+        if sides.len() > MOST_SIDES {
+            return Err(OutlineFault::TooLarge { what: "triangles in the plane", limit: MOST_SIDES }.into());
+        }
+    }
+    if sides.is_empty() {
+        return Err(match extent {
+            (low, high) if low <= high => {
+                OutlineFault::Missed { height: cut.height, lowest: low + cut.height, highest: high + cut.height }
+            }
+            _ => OutlineFault::NoOutline,
+        }
+        .into());
+    }
+    let loops = join(&sides).map_err(|error| match error.fault {
+        OutlineFault::Open { from, .. } => OutlineFault::NotWatertight { at: from }.into(),
+        _ => error,
+    })?;
+    let mut outlines = Outlines::default();
+    for (pieces, _) in loops {
+        outlines.add(straightened(&pieces), None)?;
+    }
+    outlines.into_found()
+}
+
+/// The bytes as the reader knows the two kinds of file apart: by `solid ` at the beginning. A text may do without the blank,
+/// and a binary file may begin so too; its length tells.
+fn prepared(bytes: &[u8]) -> Vec<u8> {
+    let count = bytes.first_chunk::<HEADER>().map(|&[.., a, b, c, d]| u32::from_le_bytes([a, b, c, d]));
+    let length = count.and_then(|count| usize::try_from(count).ok()?.checked_mul(TRIANGLE)?.checked_add(HEADER));
+    let is_binary = length == Some(bytes.len());
+    let mut prepared = bytes.to_vec();
+    if is_binary {
+        prepared[..HEADER - 4].fill(0);
+    } else if bytes.starts_with(b"solid") && bytes.get(5).is_some_and(|&next| next != b' ') {
+        prepared.insert(5, b' ');
+    }
+    prepared
+}
+
+/// A cut by a plane.
+struct Cut {
+    plane: Plane,
+    unit: f64,
+    height: f64,
+}
+
+/// A corner of a triangle: its place in the plane's coordinates, and how far (m) it is above the plane.
+struct Corner {
+    place: Point2,
+    above: f64,
+}
+
+impl Cut {
+    fn place(&self, Vector([x, y, z]): Vertex) -> Result<Corner, OutlineFault> {
+        let above = f64::from(z) * self.unit - self.height;
+        let place = self.plane.point([x.into(), y.into()])?;
+        if above.abs() <= 100.0 { Ok(Corner { place, above }) } else { Err(OutlineFault::FarOff) }
+    }
+}
+
+/// The straight line in which a triangle meets the plane, if it does. What lies in the plane counts as above it, so that it is
+/// told by all triangles alike, and a mesh without holes has no open outline.
+fn side(corners: &[Corner; 3]) -> Option<Piece> {
+    let mut crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter_map(|(from, to)| {
+        let (from, to) = (&corners[from], &corners[to]);
+        // From below, so that both triangles at an edge find the very same point.
+        let (low, high) = if from.above < 0.0 { (from, to) } else { (to, from) };
+        let crosses = low.above < 0.0 && high.above >= 0.0;
+        crosses.then(|| low.place + (high.place - low.place) * (low.above / (low.above - high.above)))
+    });
+    let (start, end) = (crossings.next()?, crossings.next()?);
+    // A triangle that only touches the plane, with a corner.
+    (start != end).then(|| Piece::segment(start, end))
+}
+
+/// The corners of a closed outline without those that lie in a line with others, to the tolerance.
+fn straightened(sides: &[Piece]) -> Vec<Piece> {
+    let corners: Vec<Point2> = sides.iter().map(Piece::start).collect();
+    // The leftmost, of these the lowest, is a corner whatever lies beside it.
+    let first = (0..corners.len()).min_by(|&a, &b| {
+        let key = |index: usize| [corners[index].x, corners[index].y];
+        key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    let around: Vec<Point2> =
+        corners.iter().cycle().skip(first.unwrap_or(0)).take(corners.len() + 1).copied().collect();
+    let mut kept = Vec::new();
+    let mut start = 0;
+    while start + 1 < around.len() {
+        let reach = (start + 2..around.len()).take_while(|&end| is_straight(&around[start..=end])).last();
+        let end = reach.unwrap_or(start + 1);
+        kept.push(Piece::segment(around[start], around[end]));
+        start = end;
+    }
+    kept
+}
+
+/// Whether places go straight ahead from the first to the last.
+fn is_straight(places: &[Point2]) -> bool {
+    let [first, between @ .., last] = places else { return true };
+    let Some(along) = (last - first).try_normalize(TOLERANCE) else { return false };
+    let length = (last - first).norm();
+    between.iter().all(|place| {
+        let offset = place - first;
+        along.perp(&offset).abs() <= 0.5 * TOLERANCE && (0.0..=length).contains(&along.dot(&offset))
+    })
+}
+
+fn refusal(error: &std::io::Error) -> OutlineError {
+    let reason = match error.kind() {
+        ErrorKind::UnexpectedEof => "it ends in the middle of a triangle".to_owned(),
+        _ => format!("it is no STL: {error}"),
+    };
+    OutlineFault::Syntax { reason }.into()
+}

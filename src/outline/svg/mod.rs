@@ -1,0 +1,59 @@
+//! SVG: shapes and paths, where they are drawn.
+
+mod arc;
+mod attribute;
+mod path;
+mod root;
+mod shape;
+mod walk;
+
+use std::collections::HashMap;
+
+use roxmltree::{Document, ParsingOptions};
+
+use crate::diagnostic::{Source, suggest};
+
+use super::found::{Outline, Outlines};
+use super::{OutlineError, OutlineFault, Request};
+use walk::Walk;
+
+/// The most elements, attributes and texts of a document.
+const MOST_NODES: u32 = 500_000;
+
+/// Reads the outlines of all shapes, or of those of one element.
+pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
+    let text = std::str::from_utf8(bytes).map_err(|_| syntax("it is no text in UTF-8"))?;
+    // Drawing programs write a document type; the parser bounds what its entities become.
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        // The parser says 1:1 where it knows no place.
+        let line = usize::try_from(error.pos().row).ok().filter(|&row| row > 1 || error.pos().col > 1);
+        syntax(&error.to_string()).at(line)
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        let reason = format!("it is no SVG: it begins with `{}`", root.tag_name().name());
+        return Err(OutlineFault::Syntax { reason }.into());
+    }
+    let plane = root::plane(root, request.unit)?;
+    let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
+    // Of two of one name the first counts.
+    let named: HashMap<_, _> = ids.rev().collect();
+    let mut walk = Walk { named, source: Source::new("", text), outlines: Outlines::default(), steps: 0 };
+    let Some(element) = request.element else {
+        walk.all(root, &plane, 0)?;
+        return walk.outlines.into_found();
+    };
+    let Some(&node) = walk.named.get(element) else {
+        let mut ids: Vec<&str> = walk.named.keys().copied().collect();
+        ids.sort_unstable();
+        let meant = suggest(element, ids).map(str::to_owned);
+        return Err(OutlineFault::NoElement { element: element.to_owned(), meant }.into());
+    };
+    walk.one(node, &plane)?;
+    walk.outlines.into_found()
+}
+
+fn syntax(reason: &str) -> OutlineFault {
+    OutlineFault::Syntax { reason: reason.to_owned() }
+}

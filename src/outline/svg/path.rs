@@ -1,0 +1,138 @@
+//! Paths.
+
+use roxmltree::Node;
+use svgtypes::{PathParser, PathSegment};
+
+use crate::geometry::{Bezier, EllipticArc, Piece, Vector2};
+
+use super::super::plane::Plane;
+use super::super::{MOST_PIECES, OutlineFault};
+use super::arc::Given;
+use super::attribute::unreadable;
+
+/// The subpaths of a path, each in pieces. Those that `Z` closes come back to their start.
+pub(super) fn read(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Vec<Piece>>, OutlineFault> {
+    let text = node.attribute("d").unwrap_or_default();
+    let mut pen = Pen::new(plane);
+    for segment in PathParser::from(text) {
+        pen.draw(segment.map_err(|_| unreadable(node, "d", text))?)?;
+        if pen.count > MOST_PIECES {
+            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES });
+        }
+    }
+    pen.lift();
+    Ok(pen.drawn)
+}
+
+/// What a smooth curve takes over from the one before it.
+#[derive(Copy, Clone, PartialEq)]
+enum Before {
+    Cubic,
+    Quadratic,
+    Other,
+}
+
+/// A pen on paper; places are in user units.
+struct Pen<'p> {
+    plane: &'p Plane,
+    drawn: Vec<Vec<Piece>>,
+    subpath: Vec<Piece>,
+    start: Vector2,
+    at: Vector2,
+    /// The last point that pulled at a curve, and at which kind of curve.
+    pull: Vector2,
+    before: Before,
+    count: usize,
+}
+
+impl<'p> Pen<'p> {
+    fn new(plane: &'p Plane) -> Self {
+        let [start, at, pull] = [Vector2::zeros(); 3];
+        Self { plane, drawn: Vec::new(), subpath: Vec::new(), start, at, pull, before: Before::Other, count: 0 }
+    }
+
+    fn draw(&mut self, segment: PathSegment) -> Result<(), OutlineFault> {
+        let from = if segment.is_abs() { Vector2::zeros() } else { self.at };
+        let place = |x, y| from + Vector2::new(x, y);
+        // The last pull, mirrored where the pen is.
+        let mirrored = |kind| if self.before == kind { 2.0 * self.at - self.pull } else { self.at };
+        match segment {
+            PathSegment::MoveTo { x, y, .. } => {
+                self.lift();
+                (self.start, self.at, self.before) = (place(x, y), place(x, y), Before::Other);
+                Ok(())
+            }
+            PathSegment::LineTo { x, y, .. } => self.line(place(x, y)),
+            PathSegment::HorizontalLineTo { x, .. } => self.line(Vector2::new(from.x + x, self.at.y)),
+            PathSegment::VerticalLineTo { y, .. } => self.line(Vector2::new(self.at.x, from.y + y)),
+            PathSegment::CurveTo { x1, y1, x2, y2, x, y, .. } => self.cubic(place(x1, y1), place(x2, y2), place(x, y)),
+            PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
+                self.cubic(mirrored(Before::Cubic), place(x2, y2), place(x, y))
+            }
+            PathSegment::Quadratic { x1, y1, x, y, .. } => self.quadratic(place(x1, y1), place(x, y)),
+            PathSegment::SmoothQuadratic { x, y, .. } => self.quadratic(mirrored(Before::Quadratic), place(x, y)),
+            PathSegment::EllipticalArc { rx, ry, x_axis_rotation, large_arc, sweep, x, y, .. } => {
+                let (start, end, rotation) = (self.at, place(x, y), x_axis_rotation.to_radians());
+                self.arc(&Given { start, end, radii: [rx, ry], rotation, is_large: large_arc, is_positive: sweep })
+            }
+            PathSegment::ClosePath { .. } => {
+                self.line(self.start)?;
+                self.lift();
+                Ok(())
+            }
+        }
+    }
+
+    /// Ends a subpath.
+    fn lift(&mut self) {
+        if !self.subpath.is_empty() {
+            self.drawn.push(std::mem::take(&mut self.subpath));
+        }
+    }
+
+    fn line(&mut self, end: Vector2) -> Result<(), OutlineFault> {
+        let piece = Piece::segment(self.plane.point(self.at.into())?, self.plane.point(end.into())?);
+        // Most paths are back at their start when they are closed.
+        let pieces = if end == self.at { Vec::new() } else { vec![piece] };
+        self.go(pieces, end);
+        Ok(())
+    }
+
+    fn cubic(&mut self, first: Vector2, second: Vector2, end: Vector2) -> Result<(), OutlineFault> {
+        let point = |place: Vector2| self.plane.point(place.into());
+        let curve = Bezier { control: [point(self.at)?, point(first)?, point(second)?, point(end)?] };
+        self.go(curve.pieces().ok_or(OutlineFault::Curve)?, end);
+        (self.pull, self.before) = (second, Before::Cubic);
+        Ok(())
+    }
+
+    fn quadratic(&mut self, pull: Vector2, end: Vector2) -> Result<(), OutlineFault> {
+        let point = |place: Vector2| self.plane.point(place.into());
+        let curve = Bezier::quadratic(point(self.at)?, point(pull)?, point(end)?);
+        self.go(curve.pieces().ok_or(OutlineFault::Curve)?, end);
+        (self.pull, self.before) = (pull, Before::Quadratic);
+        Ok(())
+    }
+
+    fn arc(&mut self, given: &Given) -> Result<(), OutlineFault> {
+        // One that ends where it starts is not drawn.
+        if given.start == given.end {
+            return Ok(());
+        }
+        let Some(arc) = given.centred() else { return self.line(given.end) };
+        for corner in [arc.centre, given.start, given.end, arc.centre + arc.radii[0], arc.centre + arc.radii[1]] {
+            self.plane.point(corner.into())?;
+        }
+        let radii = arc.radii.map(|radius| self.plane.direction(radius.into()));
+        let centre = self.plane.point(arc.centre.into())?;
+        let arc = EllipticArc { centre, radii, start_angle: arc.start_angle, sweep: arc.sweep };
+        self.go(arc.pieces().ok_or(OutlineFault::Curve)?, given.end);
+        Ok(())
+    }
+
+    fn go(&mut self, pieces: Vec<Piece>, end: Vector2) {
+        self.count += pieces.len();
+        self.subpath.extend(pieces);
+        (self.at, self.before) = (end, Before::Other);
+    }
+}

@@ -1,0 +1,38 @@
+//! What a user unit of a document is.
+
+use roxmltree::Node;
+use svgtypes::{Length, LengthUnit, ViewBox};
+
+use super::super::plane::Plane;
+use super::super::{OutlineError, OutlineFault};
+
+/// How much of themselves the scales of width and height may differ by: their digits are rounded.
+const EVEN: f64 = 1e-4;
+
+/// The plane of the document's own coordinates, y up; a user unit is `unit` (m), or what width, height and view box say.
+pub(super) fn plane(root: Node<'_, '_>, unit: Option<f64>) -> Result<Plane, OutlineError> {
+    let unit = unit.or_else(|| unit_of(root)).ok_or(OutlineFault::NoUnit)?;
+    // In the file y points down.
+    Ok(Plane::scaled(unit).inner([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
+}
+
+/// A user unit (m) where width and height are lengths on paper, and the view box says how many units they have.
+fn unit_of(root: Node<'_, '_>) -> Option<f64> {
+    let view: ViewBox = root.attribute("viewBox")?.parse().ok()?;
+    let paper = |name| metres(root.attribute(name)?.parse().ok()?);
+    let (across, up) = (paper("width")? / view.w, paper("height")? / view.h);
+    ((across - up).abs() <= EVEN * across).then_some(across)
+}
+
+/// A length on paper (m).
+fn metres(length: Length) -> Option<f64> {
+    let unit = match length.unit {
+        LengthUnit::Mm => 1e-3,
+        LengthUnit::Cm => 1e-2,
+        LengthUnit::In => 25.4e-3,
+        LengthUnit::Pt => 25.4e-3 / 72.0,
+        LengthUnit::Pc => 25.4e-3 / 6.0,
+        LengthUnit::None | LengthUnit::Px | LengthUnit::Em | LengthUnit::Ex | LengthUnit::Percent => return None,
+    };
+    Some(length.number * unit)
+}

@@ -1,0 +1,109 @@
+//! SVG, element by element.
+
+use std::f64::consts::PI;
+
+use vibrissa::geometry::{Contour, Point2, circle};
+use vibrissa::outline::{Format, OutlineError, OutlineFault, Request, read};
+
+use super::apart;
+
+fn all(inner: &str, request: &Request<'_>) -> Result<Vec<Contour>, OutlineError> {
+    let text = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>\n{inner}\n</svg>");
+    read(text.as_bytes(), Format::Svg, request)
+}
+
+const MILLIMETRES: Request<'_> = Request { unit: Some(1e-3), element: None, height: 0.0 };
+
+fn one(inner: &str) -> Contour {
+    let [contour] = all(inner, &MILLIMETRES).unwrap().try_into().unwrap();
+    contour
+}
+
+/// The disk of 30 mm about (40 mm, 50 mm) in the file.
+fn disk() -> Contour {
+    circle(Point2::new(0.04, -0.05), 0.03).unwrap()
+}
+
+#[test]
+fn a_circle_is_a_circle_however_it_is_drawn() {
+    let drawings = [
+        "<circle cx='40' cy='50' r='30'/>",
+        "<ellipse cx='40' cy='50' rx='30' ry='30'/>",
+        "<path d='M 70 50 A 30 30 0 0 1 10 50 A 30 30 0 0 1 70 50 Z'/>",
+        "<path d='M 70 50 a 30 30 0 1 0 -30 30 30 30 0 0 0 30 -30'/>",
+        "<rect x='10' y='20' width='60' height='60' rx='30'/>",
+        "<g transform='translate(40 50) rotate(33)'><circle r='3' transform='scale(-10 10)'/></g>",
+        "<ellipse cx='4' cy='25' rx='3' ry='15' transform='scale(10 2)'/>",
+        "<circle cx='4cm' r='3cm' cy='5cm' transform='scale(0.26458333333333334)'/>",
+        "<defs><circle id='c' r='30'/></defs><use href='#c' x='40' y='50'/>",
+        "<symbol id='s'><circle r='30'/></symbol><use href='#s' transform='translate(40,50)'/>",
+    ];
+    for drawing in drawings {
+        let found = one(drawing);
+        assert!(apart(&found, &disk()) < 1e-9, "{drawing}: {} m", apart(&found, &disk()));
+        assert!(found.pieces().iter().all(|piece| (piece.curvature() - 1.0 / 0.03).abs() < 1e-6), "{drawing}");
+    }
+}
+
+#[test]
+fn curves_are_followed_to_a_micrometre() {
+    // A parabola over a chord: two thirds of the triangle of its control points.
+    let parabola = one("<path d='M 0 0 Q 50 80 100 0 Z'/>");
+    assert!((parabola.area() - 2.0 / 3.0 * 0.5 * 0.1 * 0.08).abs() < 1e-7);
+    for k in 0..=100 {
+        let x = f64::from(k) / 100.0;
+        let place = Point2::new(0.1 * x, -0.16 * x * (1.0 - x));
+        assert!(parabola.nearest(place).distance < 1.1e-6);
+    }
+    // The same in two, the second smooth behind the first.
+    let halves = one("<path d='M 0 0 Q 25 40 50 40 T 100 0 Z'/>");
+    assert!(apart(&halves, &parabola) < 2.2e-6);
+    let raised = one(
+        "<path d='M 0 0 C 16.6666666667 26.6666666667 33.3333333333 40 50 40 S 83.3333333333 26.6666666667 100 0 Z'/>",
+    );
+    assert!(apart(&raised, &parabola) < 2.2e-6);
+    let ellipse = one("<ellipse cx='50' cy='50' rx='40' ry='15' transform='rotate(20)'/>");
+    assert!((ellipse.area() - PI * 0.04 * 0.015).abs() < 1e-7 && ellipse.corners().is_empty());
+}
+
+#[test]
+fn what_is_not_to_be_seen_is_left_out_unless_it_is_asked_for() {
+    let drawing =
+        "<circle r='5'/><g id='more' style='display: none'><circle cx='20' r='5'/><circle cx='40' r='5'/></g>";
+    assert_eq!(all(drawing, &MILLIMETRES).unwrap().len(), 1);
+    assert_eq!(all(drawing, &Request { element: Some("more"), ..MILLIMETRES }).unwrap().len(), 2);
+}
+
+#[test]
+fn an_element_lies_where_its_ancestors_put_it() {
+    let drawing =
+        "<circle r='500'/><g transform='scale(10)'><g transform='translate(4 5)'><circle id='c' r='3'/></g></g>";
+    let [found] = all(drawing, &Request { element: Some("c"), ..MILLIMETRES }).unwrap().try_into().unwrap();
+    assert!(apart(&found, &disk()) < 1e-12);
+}
+
+#[test]
+fn paper_and_view_box_say_what_a_unit_is_and_the_scenario_overrules_them() {
+    let width = |paper: &str, unit| {
+        let text = format!("<svg {paper} viewBox='0 0 200 100'><rect width='10' height='10'/></svg>");
+        let outlines = read(text.as_bytes(), Format::Svg, &Request { unit, ..Request::default() });
+        outlines.map(|outlines| outlines[0].bounding_box().max.x)
+    };
+    assert!((width("width='100mm' height='5cm'", None).unwrap() - 0.005).abs() < 1e-15);
+    assert!((width("width='2in' height='1in'", None).unwrap() - 0.00254).abs() < 1e-15);
+    assert!((width("width='100mm' height='5cm'", Some(1e-3)).unwrap() - 0.01).abs() < 1e-15);
+    for unknown in
+        ["", "width='100' height='50'", "width='100mm'", "width='100mm' height='60mm'", "width='100%' height='100%'"]
+    {
+        assert_eq!(width(unknown, None).unwrap_err().fault, OutlineFault::NoUnit, "{unknown}");
+    }
+}
+
+#[test]
+fn a_fault_has_its_line() {
+    let line = |inner: &str| all(inner, &MILLIMETRES).unwrap_err().line;
+    assert_eq!(line("<circle r='5'/>\n<g>\n<path d='M 0 0 L 9 9'/></g>"), Some(4));
+    assert_eq!(line("<circle r='5'/>\n<circle r='2'/>"), Some(3));
+    assert_eq!(line("<g transform='turn(3)'>\n<circle r='5'/></g>"), Some(2));
+    assert_eq!(line("<circle r='5'>"), Some(3));
+}
