@@ -29,14 +29,13 @@ fn turns(outline: &Contour) -> Vec<f64> {
 fn every_draw_is_a_scene_with_a_clear_start_an_aim_and_a_speed() {
     for family in FAMILIES {
         for (trial, draw) in draws(&family).enumerate() {
-            let Draw { text, scene, settings } = draw;
+            let Draw { text, scene, speed } = draw;
             let context = format!("{}, trial {trial}:\n{text}", family.name);
             assert_eq!(scene.name, format!("{}-{trial}", family.name));
             assert!(!scene.solids.is_empty() && scene.is_clear_at(&scene.start), "{context}");
             assert!(scene.stop.loop_closed.is_some() != scene.stop.reached.is_some(), "{context}");
             assert!(scene.stop.stalled.is_some() && (60.0..2000.0).contains(&scene.stop.time), "{context}");
-            let [("speed", speed)] = settings.as_slice() else { panic!("{context}") };
-            assert!(SPEEDS.contains(&speed.value_si), "{context}");
+            assert!(SPEEDS.contains(&speed), "{context}");
             let length = scene.truth.reference.length();
             assert!((0.3..8.0).contains(&length), "{length} m: {context}");
             let read = Scene::from_yaml(&Source::new("drawn.yaml", text)).unwrap();

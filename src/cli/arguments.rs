@@ -86,7 +86,7 @@ pub(super) struct BenchArguments {
     /// Coefficients of friction of what is touched, with a run for each: --friction 0,0.1,0.3
     #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", value_parser = parse_friction)]
     pub(super) friction: Vec<f64>,
-    /// Give the sensors the noise and the resolution of the real one
+    /// Give the sensors the noise and the resolution that the real one is estimated to have
     #[arg(long)]
     pub(super) noise: bool,
     /// Write all results, a picture of every run and a page that shows them into this directory

@@ -9,6 +9,7 @@ use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 use crate::study::bench::DEFAULT_POLICY;
 use crate::study::families::{FamilyRun, FamilyTally, families_table};
 use crate::study::{WorldKind, in_parallel, processors};
+use crate::units::{Dimension, format_si};
 
 use super::arguments::FamiliesArguments;
 use super::batch::{Finished, run_all};
@@ -54,8 +55,8 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
 /// The scenes that are asked for, drawn several at a time.
 fn trials(arguments: &FamiliesArguments) -> Result<Vec<Trial>, Failure> {
     let families = chosen(&arguments.names)?;
-    let numbers = arguments.trial.map_or(0..arguments.count, |trial| trial..trial.saturating_add(1));
-    let keys: Vec<_> = families.iter().flat_map(|family| numbers.clone().map(move |trial| (family, trial))).collect();
+    let numbers: Vec<u64> = arguments.trial.map_or_else(|| (0..arguments.count).collect(), |trial| vec![trial]);
+    let keys: Vec<_> = families.iter().flat_map(|family| numbers.iter().map(move |&trial| (family, trial))).collect();
     let draw = |&(family, trial): &(&Family, u64)| {
         let draw = family.draw(arguments.seed, trial)?;
         Ok(Trial { family: family.name, number: trial, draw })
@@ -63,34 +64,30 @@ fn trials(arguments: &FamiliesArguments) -> Result<Vec<Trial>, Failure> {
     in_parallel(&keys, arguments.jobs.unwrap_or_else(processors), draw, |_| ()).into_iter().collect()
 }
 
-/// The families with these names, or all.
+/// The families with these names, each once, or all.
 fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
-    if names.is_empty() {
-        return Ok(FAMILIES.to_vec());
+    if let Some(name) = names.iter().find(|name| FAMILIES.iter().all(|family| family.name != **name)) {
+        return Err(Failure::NoSuchFamily { name: name.clone() });
     }
-    let family = |name: &String| {
-        let known = FAMILIES.iter().find(|family| family.name == name);
-        known.copied().ok_or_else(|| Failure::NoSuchFamily { name: name.clone() })
-    };
-    names.iter().map(family).collect()
+    let is_chosen = |family: &Family| names.is_empty() || names.iter().any(|name| name == family.name);
+    Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
 }
 
 fn job(trial: &Trial, policy: &Loaded<Policy>) -> Result<Job, Failure> {
-    let Draw { text, scene, settings } = &trial.draw;
+    let Draw { text, scene, speed } = &trial.draw;
     let mut program = policy.value.artifact.program.clone();
-    for (name, value) in settings {
-        program.set(name, value.value_si, value.dimension).map_err(Failure::FamilySetting)?;
-    }
-    let set = settings.iter().map(|(name, value)| (*name, value.value_si));
-    let hashes = (Sha256::digest(text), with_settings(policy.hash.clone(), set).finalize());
+    program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
+    let hashes = (Sha256::digest(text), with_settings(policy.hash.clone(), [("speed", *speed)].into_iter()).finalize());
     Ok(Job::with(Path::new(&scene.name), scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes))
 }
 
 /// Prints a scenario, and how it is run by itself.
 fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
-    let set = draw.settings.iter().map(|(name, value)| format!(" --set \"{name}={value}\""));
-    let set: String = set.collect();
-    output::text(format_args!("# seed {seed}; vibrissa run FILE --policy POLICY{set}\n{}", draw.text))
+    let speed = format_si(draw.speed, Dimension::SPEED);
+    output::text(format_args!(
+        "# seed {seed}; vibrissa run FILE --policy POLICY --set \"speed={speed}\"\n{}",
+        draw.text
+    ))
 }
 
 /// Tells the runs that did not pass, and writes all results and the pictures of those.
@@ -103,9 +100,8 @@ fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>)
         if let (Some(directory), Some(picture)) = (directory, picture) {
             file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
         }
-        let speed = draw.settings.iter().find(|(name, _)| *name == "speed").map_or(0.0, |(_, speed)| speed.value_si);
         let passed = violations.is_empty();
-        let run = FamilyRun { family, trial, about: draw.scene.description, speed, passed, result };
+        let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             tell(&run, &violations);
         }

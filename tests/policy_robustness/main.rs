@@ -20,7 +20,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::compile;
 
 const THESIS: &str = include_str!("../../policies/thesis.fsm");
-/// A policy that only swipes: small enough to be broken thousands of times.
+/// A policy that only swipes: small enough to be broken thousands of times. The campaign breaks the others, `thesis.fsm` too.
 const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 /// The stack (bytes) of a thread of Rust's that asks for no other.
 const STACK: usize = 2 << 20;

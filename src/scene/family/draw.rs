@@ -6,7 +6,6 @@ use super::dice::{Dice, scene_seed};
 use super::{Family, Layout};
 use crate::diagnostic::Source;
 use crate::scene::{Jitter, Scene};
-use crate::units::{Dimension, Quantity};
 
 /// The speeds that scenes are drawn with (m/s).
 pub const SPEEDS: [f64; 3] = [0.02, 0.05, 0.1];
@@ -21,8 +20,8 @@ pub struct Draw {
     pub text: String,
     /// The same, read.
     pub scene: Scene,
-    /// Parameters of the policy that the run sets, by name.
-    pub settings: Vec<(&'static str, Quantity)>,
+    /// The speed (m/s) that the run sets, as the policy's parameter `speed`.
+    pub speed: f64,
 }
 
 /// A family has no scene for a seed and a trial.
@@ -59,6 +58,5 @@ fn drawn(layout: &Layout, name: &str, seed: u64, speed: f64) -> Option<Draw> {
     };
     let (_, plain) = read(layout)?;
     let (text, scene) = read(&Layout { start: JITTER.start(&plain, seed)?, ..layout.clone() })?;
-    let speed = Quantity { value_si: speed, dimension: Dimension::SPEED, unit: None };
-    Some(Draw { scene, text, settings: vec![("speed", speed)] })
+    Some(Draw { scene, text, speed })
 }

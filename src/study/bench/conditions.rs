@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use crate::scene::Scene;
 
-/// What makes a run of the bench harder than the thesis's scenes are: friction, and the noise of the real sensor.
+/// What makes a run of the bench harder than the thesis's scenes are: friction, and the estimated noise of the real sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Conditions {
     /// Coefficient of sliding friction of whatever is touched. The tip model knows it, as one knows it that was calibrated on
     /// such a surface.
     pub friction: f64,
-    /// Whether sensors have the noise and the resolution of the real one.
+    /// Whether sensors have the noise and the resolution that the real one is estimated to have.
     pub noise: bool,
 }
 

@@ -28,7 +28,7 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     let mut page = format!(
         "{HEAD}<h1>Vibrissa bench</h1>\n<p>{passed} of {} runs completed with no figure worse than the thesis's. Figures are \
          mean ± sample standard deviation; those of the thesis, which has neither friction nor noise, stand beside. A run under \
-         friction or noise only has to complete.</p>\n<div class=\"wide\"><table>\n<tr>",
+         friction or noise only has to complete; its tip model knows the coefficient.</p>\n<div class=\"wide\"><table>\n<tr>",
         rows.len()
     );
     // Writing to a string cannot fail.
