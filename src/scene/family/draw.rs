@@ -58,5 +58,5 @@ fn drawn(layout: &Layout, name: &str, seed: u64, speed: f64) -> Option<Draw> {
     };
     let (_, plain) = read(layout)?;
     let (text, scene) = read(&Layout { start: JITTER.start(&plain, seed)?, ..layout.clone() })?;
-    Some(Draw { scene, text, speed })
+    Some(Draw { text, scene, speed })
 }
