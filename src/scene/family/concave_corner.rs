@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, polygon};
+use super::layout::{Aim, Layout, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, perpendicular, unit};
 
@@ -32,7 +32,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("an inner corner that turns by {:.1}°", turn.to_degrees()),
         objects: vec![polygon(&along(dice, hand, &corners, &flank))],
-        physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (first + second + thickness),

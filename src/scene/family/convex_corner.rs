@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, polygon};
+use super::layout::{Aim, Layout, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, rotate};
 
@@ -28,7 +28,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("a corner that turns by {:.1}°", turn.to_degrees()),
         objects: vec![polygon(&along(dice, hand, &corners, &corners))],
-        physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (side + back) + 0.5,

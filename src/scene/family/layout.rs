@@ -12,23 +12,12 @@ pub(super) struct Layout {
     pub(super) about: String,
     /// The objects as YAML.
     pub(super) objects: Vec<String>,
-    /// How whiskers meet them in the simulation.
-    pub(super) physics: Contact,
     /// The start that those of runs are near. The rig stands clear at all of them.
     pub(super) start: Pose,
     /// When a run is completed.
     pub(super) aim: Aim,
     /// About how long the way is (m).
     pub(super) way: f64,
-}
-
-/// What a scene is to the simulation, as in the scenes of the thesis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Contact {
-    /// A whisker slides and nothing else.
-    Smooth,
-    /// It springs round a sharp corner against what lies behind, and sinks in for a moment.
-    Sharp,
 }
 
 /// When a run is completed.
@@ -46,20 +35,19 @@ const APPROACH: f64 = 1.0;
 const WAYS: f64 = 6.0;
 /// Time for what does not depend on the speed (s).
 const REST: f64 = 60.0;
+/// Small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round a corner, or comes to
+/// an object on the swing, sinks in for a moment, and deeper the longer the steps are.
+const RIG: &str = "rig: {physics: {step: 1.1111 ms, contact_time: 2.5 ms, penetration_limit: 3 mm}}";
 
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.
     pub(super) fn text(&self, name: &str, seed: u64, speed: f64) -> String {
-        let rig = match self.physics {
-            Contact::Smooth => "",
-            Contact::Sharp => "rig: {physics: {step: 1.1111 ms, contact_time: 2.5 ms, penetration_limit: 3 mm}}\n",
-        };
         let time = (REST + WAYS * (APPROACH + self.way) / speed).ceil();
         let aim = match self.aim {
             Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
             Aim::Place(place) => format!("reached: {{place: {}, within: 50 mm, after: 5 s}}", point(place)),
         };
-        let mut text = format!("name: {name}\ndescription: {}\nseed: {seed}\n{rig}objects:\n", self.about);
+        let mut text = format!("name: {name}\ndescription: {}\nseed: {seed}\n{RIG}\nobjects:\n", self.about);
         for object in &self.objects {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  - {object}");

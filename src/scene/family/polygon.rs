@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, rounded_polygon};
+use super::layout::{Aim, Layout, rounded_polygon};
 use super::outline::{convex_polygon, rounded, turn};
 use super::place::{ahead, beside};
 use crate::geometry::Vector2;
@@ -30,7 +30,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("{count} corners, {arcs} of them rounded"),
         objects: vec![rounded_polygon(&corners, &radii, centre)],
-        physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * radius,

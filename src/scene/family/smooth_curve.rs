@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, polar};
+use super::layout::{Aim, Layout, polar};
 use super::place::{ahead, beside};
 use crate::geometry::{Harmonic, Vector2, unit};
 
@@ -46,7 +46,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("bulges of {:.0} mm{inwards}", 1e3 / bends.1),
         objects: vec![polar(ahead(dice, hand, &outline), radius, &harmonics)],
-        physics: Contact::Smooth,
         start: beside(hand),
         aim: Aim::Loop,
         way: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),

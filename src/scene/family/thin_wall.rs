@@ -2,7 +2,7 @@
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, polygon};
+use super::layout::{Aim, Layout, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, rotate};
 
@@ -17,7 +17,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("{:.0} mm long, {:.1} mm thick", 1e3 * length, 1e3 * thickness),
         objects: vec![polygon(&along(dice, hand, &corners, &corners))],
-        physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (length + thickness) + 0.8,

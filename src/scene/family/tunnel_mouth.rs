@@ -2,7 +2,7 @@
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, tunnel};
+use super::layout::{Aim, Layout, tunnel};
 use super::place::{before, mouth};
 use crate::geometry::unit;
 
@@ -15,7 +15,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("{:.0} mm clear, walls of {:.0} mm", 1e3 * clear, 1e3 * thickness),
         objects: vec![tunnel(&from, &[(length, 0.0)], clear, thickness)],
-        physics: Contact::Sharp,
         start: before(),
         aim: Aim::Place(from.position + length * unit(from.heading)),
         way: length,

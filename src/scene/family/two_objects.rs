@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, circle, polygon};
+use super::layout::{Aim, Layout, circle, polygon};
 use super::outline::{convex_polygon, disk};
 use super::place::{ahead, beside};
 use crate::geometry::{Vector2, unit};
@@ -34,7 +34,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("{:.0} mm between the circles around them", 1e3 * gap),
         objects: vec![object(&corners[0], centre, radii[0]), object(&corners[1], beyond, radii[1])],
-        physics: Contact::Sharp,
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * (radii[0] + radii[1]),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Contact, Layout, tunnel};
+use super::layout::{Aim, Layout, tunnel};
 use super::place::{before, mouth};
 use crate::geometry::{Vector2, unit};
 
@@ -28,7 +28,6 @@ fn lay(dice: &mut Dice) -> Layout {
     Layout {
         about: format!("turns of {:.1}°, {:.0} mm clear", turn.to_degrees(), 1e3 * clear),
         objects: vec![tunnel(&from, &runs, clear, THICKNESS)],
-        physics: Contact::Sharp,
         start: before(),
         aim: Aim::Place(from.position + along),
         way: runs.iter().map(|run| run.0).sum(),
