@@ -53,8 +53,8 @@ fn tests_pass_or_show_what_was_measured() {
 
 #[cfg(feature = "sim")]
 #[test]
-fn the_policies_pass_their_own_tests() {
-    let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm"]);
+fn several_policies_are_tested_in_turn() {
+    let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm", "--filter", "it comes round the disk"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("policies/thesis.fsm: ") && stdout(&output).contains("policies/bang.fsm: "));
 }
