@@ -15,8 +15,10 @@ use super::{path, shape};
 /// How deep elements may lie in each other.
 const DEEPEST: usize = 100;
 
-/// The most elements that are visited: those that `use` repeats count each time.
-const MOST_STEPS: usize = 500_000;
+/// The most steps: one for each node and one more for so many bytes of its attributes, and what `use` repeats counts each
+/// time. A file without `use` always has fewer.
+const MOST_STEPS: usize = 1_000_000;
+const BYTES_PER_STEP: usize = 64;
 
 /// A way through a document, and what was found on it.
 pub(super) struct Walk<'d> {
@@ -36,11 +38,27 @@ impl<'d> Walk<'d> {
         for outer in above.into_iter().rev() {
             plane = self.within(outer, &plane)?;
         }
+        self.step(node, 0)?;
         self.draw(node, &plane, 0)
+    }
+
+    /// Counts what it costs to look at a node, before that is done.
+    fn step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
+        let bytes: usize = node.attributes().map(|attribute| attribute.name().len() + attribute.value().len()).sum();
+        self.steps += 1 + bytes / BYTES_PER_STEP;
+        if depth > DEEPEST {
+            return Err(self.at(node, OutlineFault::TooLarge { what: "elements in each other", limit: DEEPEST }));
+        }
+        if self.steps > MOST_STEPS {
+            let what = "elements and numbers, with what `use` repeats";
+            return Err(self.at(node, OutlineFault::TooLarge { what, limit: MOST_STEPS }));
+        }
+        Ok(())
     }
 
     /// Takes what is to be seen of an element and what is in it.
     pub(super) fn all(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize) -> Result<(), OutlineError> {
+        self.step(node, depth)?;
         let hidden = |style: &str| style.split(';').any(|rule| rule.replace(' ', "") == "display:none");
         let is_hidden = node.attribute("display") == Some("none") || node.attribute("style").is_some_and(hidden);
         // A symbol is there to be used.
@@ -51,17 +69,11 @@ impl<'d> Walk<'d> {
     }
 
     fn draw(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize) -> Result<(), OutlineError> {
-        self.steps += 1;
-        if depth > DEEPEST {
-            return Err(self.at(node, OutlineFault::TooLarge { what: "elements in each other", limit: DEEPEST }));
-        }
-        if self.steps > MOST_STEPS {
-            return Err(self.at(node, OutlineFault::TooLarge { what: "elements", limit: MOST_STEPS }));
-        }
         match node.tag_name().name() {
             "svg" | "g" | "a" | "symbol" | "switch" => {
                 let plane = self.within(node, plane)?;
-                for child in node.children().filter(Node::is_element) {
+                // Texts and comments count as steps, too.
+                for child in node.children() {
                     self.all(child, &plane, depth + 1)?;
                 }
             }
@@ -69,8 +81,10 @@ impl<'d> Walk<'d> {
             "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" => {
                 let plane = self.within(node, plane)?;
                 let drawn = if is(node, "path") { path::read(node, &plane) } else { shape::read(node, &plane) };
-                let line = Some(self.line(node));
-                for pieces in drawn.map_err(|fault| fault.at(line))? {
+                let drawn = drawn.map_err(|fault| self.at(node, fault))?;
+                // Lines are counted for those few only that draw something.
+                let line = if drawn.is_empty() { None } else { Some(self.line(node)) };
+                for pieces in drawn {
                     self.outlines.add(pieces, line)?;
                 }
             }
@@ -91,7 +105,11 @@ impl<'d> Walk<'d> {
         let offset = length_or_zero(node, "x").and_then(|x| Ok([x, length_or_zero(node, "y")?]));
         let offset = offset.map_err(|fault| self.at(node, fault))?;
         let plane = plane.inner([1.0, 0.0], [0.0, 1.0], offset);
-        if is(found, "symbol") { self.draw(found, &plane, depth + 1) } else { self.all(found, &plane, depth + 1) }
+        if !is(found, "symbol") {
+            return self.all(found, &plane, depth + 1);
+        }
+        self.step(found, depth + 1)?;
+        self.draw(found, &plane, depth + 1)
     }
 
     /// The plane within an element.
