@@ -1,7 +1,9 @@
 //! Loose pieces joined to outlines.
 
-use rstar::RTree;
+use std::collections::HashMap;
+
 use rstar::primitives::GeomWithData;
+use rstar::{PointDistance, RTree};
 
 use crate::geometry::{Piece, Point2};
 
@@ -13,8 +15,8 @@ type Loop = (Vec<Piece>, Option<usize>);
 /// A piece with its line in the file, where that is known.
 pub(super) type Loose = (Piece, Option<usize>);
 
-/// The outlines that loose pieces make, each in the order of travel, with the line of its first piece: ends that are within
-/// the tolerance of each other belong together. The pieces may stand in any order and point either way.
+/// The outlines that loose pieces make, each in the order of travel, with the line of its first piece: two ends in the very same
+/// place belong together, others with the nearest within the tolerance. The pieces may stand in any order and point either way.
 ///
 /// # Errors
 /// The place where an end is alone, or where there are more than two.
@@ -57,20 +59,11 @@ struct Nodes {
 
 impl Nodes {
     fn of(pieces: &[Loose]) -> Result<Self, OutlineError> {
-        let mut tree: RTree<GeomWithData<[f64; 2], usize>> = RTree::new();
-        let mut places: Vec<Point2> = Vec::new();
-        let mut nodes = Self { ends: Vec::with_capacity(pieces.len()), pieces: Vec::new() };
-        for (index, (piece, line)) in pieces.iter().enumerate() {
-            let ends = [piece.start(), piece.end()].map(|place| {
-                let near = tree.locate_within_distance([place.x, place.y], TOLERANCE * TOLERANCE).next();
-                if let Some(node) = near {
-                    return node.data;
-                }
-                tree.insert(GeomWithData::new([place.x, place.y], places.len()));
-                places.push(place);
-                nodes.pieces.push([None; 2]);
-                places.len() - 1
-            });
+        let (places, ends) = places(pieces);
+        let same = merged(&places, &ends);
+        let mut nodes = Self { ends: Vec::with_capacity(pieces.len()), pieces: vec![[None; 2]; places.len()] };
+        for (index, ((piece, line), ends)) in pieces.iter().zip(ends).enumerate() {
+            let ends = ends.map(|end| same[end]);
             nodes.ends.push(ends);
             if is_dot(piece, ends) {
                 continue;
@@ -97,6 +90,47 @@ impl Nodes {
         let nearest = others.min_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()));
         Err(OutlineFault::Open { from, to: nearest.unwrap_or(from) }.at(pieces[piece].1))
     }
+}
+
+/// The places of ends, each once, and which of them are those of each piece.
+fn places(pieces: &[Loose]) -> (Vec<Point2>, Vec<[usize; 2]>) {
+    let mut known: HashMap<[u64; 2], usize> = HashMap::new();
+    let mut places = Vec::new();
+    let ends = pieces.iter().map(|(piece, _)| {
+        [piece.start(), piece.end()].map(|place| {
+            // -0 is 0.
+            let bits = [place.x, place.y].map(|number| (number + 0.0).to_bits());
+            *known.entry(bits).or_insert_with(|| {
+                places.push(place);
+                places.len() - 1
+            })
+        })
+    });
+    let ends = ends.collect();
+    (places, ends)
+}
+
+/// The node of each place. Where exactly two ends meet is one by itself, however near others are; any other place goes to the
+/// nearest such within the tolerance.
+fn merged(places: &[Point2], ends: &[[usize; 2]]) -> Vec<usize> {
+    let mut counts = vec![0_usize; places.len()];
+    for &end in ends.as_flattened() {
+        counts[end] += 1;
+    }
+    let mut tree: RTree<GeomWithData<[f64; 2], usize>> = RTree::new();
+    let node = |(index, (place, count)): (usize, (&Point2, usize))| {
+        let place = [place.x, place.y];
+        if count == 2 {
+            return index;
+        }
+        let near = tree.locate_within_distance(place, TOLERANCE * TOLERANCE);
+        if let Some(node) = near.min_by(|a, b| a.distance_2(&place).total_cmp(&b.distance_2(&place))) {
+            return node.data;
+        }
+        tree.insert(GeomWithData::new(place, index));
+        index
+    };
+    places.iter().zip(counts).enumerate().map(node).collect()
 }
 
 #[cfg(test)]
@@ -138,6 +172,35 @@ mod tests {
                 let next = pieces.iter().cycle().skip(1);
                 prop_assert!(pieces.iter().zip(next).all(|(a, b)| (b.start() - a.end()).norm() < 1e-6));
             }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn sides_that_meet_exactly_are_joined_however_short_they_are(
+            order in Just((0..24).collect::<Vec<usize>>()).prop_shuffle(),
+            turned in prop::collection::vec(any::<bool>(), 24),
+        ) {
+            // Corners 0.7 µm apart, so that each has two others within the tolerance.
+            let turn = std::f64::consts::TAU / 24.0;
+            let radius = 0.35e-6 / (0.5 * turn).sin();
+            let angles = (0_u8..24).map(|k| turn * f64::from(k));
+            let corners: Vec<Point2> =
+                angles.map(|angle| Point2::new(radius * angle.cos(), radius * angle.sin())).collect();
+            let loose: Vec<Loose> = order
+                .into_iter()
+                .zip(turned)
+                .map(|(k, turned)| {
+                    let side = Piece::segment(corners[k], corners[(k + 1) % 24]);
+                    (if turned { side.reversed() } else { side }, None)
+                })
+                .collect();
+            let found = join(&loose).unwrap();
+            prop_assert_eq!(found.len(), 1);
+            let sides = &found[0].0;
+            prop_assert_eq!(sides.len(), 24);
+            let next = sides.iter().cycle().skip(1);
+            prop_assert!(sides.iter().zip(next).all(|(a, b)| b.start() == a.end()));
         }
     }
 

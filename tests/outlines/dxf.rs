@@ -86,10 +86,24 @@ fn the_drawing_says_its_unit_and_the_scenario_overrules_it() {
 #[test]
 fn what_is_no_outline_is_passed_over_and_what_may_be_one_is_not() {
     let circle = "0 CIRCLE 10 40 20 50 40 30";
-    for other in ["0 TEXT 10 1 20 2 1 a", "0 POINT 10 1 20 2", "0 DIMENSION 10 1", "0 LINE 67 1 10 0 20 0 11 9 21 9"] {
+    for other in [
+        "0 TEXT 10 1 20 2 1 a",
+        "0 POINT 10 1 20 2",
+        "0 DIMENSION 10 1",
+        "0 VIEWPORT 10 1",
+        "0 HATCH 10 1",
+        "0 LINE 67 1 10 0 20 0 11 9 21 9",
+    ] {
         assert_eq!(all(&drawing("", &[circle, other]), None).unwrap().len(), 1, "{other}");
     }
-    for other in ["0 SPLINE 70 8", "0 INSERT 2 a", "0 POLYLINE 70 9", "0 CIRCLE 40 1 210 1 230 1", "0 REGION 1 a"] {
+    for other in [
+        "0 SPLINE 70 8",
+        "0 INSERT 2 a",
+        "0 POLYLINE 70 9",
+        "0 CIRCLE 40 1 210 1 230 1",
+        "0 REGION 1 a",
+        "0 ACAD_PROXY_ENTITY 90 1",
+    ] {
         let error = all(&drawing("", &[circle, other]), None).unwrap_err();
         assert!(matches!(error.fault, OutlineFault::Unsupported { .. }) && error.line == Some(14), "{other}: {error}");
     }

@@ -1,7 +1,7 @@
 //! Whatever bytes a file holds, they are answered.
 
 use proptest::prelude::*;
-use vibrissa::outline::{Format, Request, SIZE_LIMIT, read};
+use vibrissa::outline::{Format, OutlineFault, Request, SIZE_LIMIT, read};
 
 use super::folder;
 
@@ -84,4 +84,23 @@ fn elements_that_repeat_each_other_come_to_an_end() {
     let group = |k: u32| format!("<g id='g{}'>{}</g>", k + 1, format!("<use href='#g{k}'/>").repeat(10));
     let groups: String = (0..30).map(group).collect();
     is_answered(&svg(&format!("<g id='g0'><path/></g>{groups}")), Format::Svg);
+}
+
+#[test]
+fn what_draws_nothing_is_bounded_too() {
+    let request = Request { unit: Some(1e-3), element: None, height: 0.0 };
+    let read = |inner: &str| read(format!("<svg>{inner}</svg>").as_bytes(), Format::Svg, &request).unwrap_err();
+    // All in one line, so that each count of its columns would go through it from the start.
+    assert_eq!(read(&"<rect/>".repeat(300_000)).fault, OutlineFault::NoOutline);
+    let uses = "<use href='#a'/>".repeat(10_000);
+    let moves = "M0 0".repeat(250_000);
+    let remarks = "<!---->".repeat(100_000);
+    for repeated in [
+        format!("<path id='a' d='{moves}'/>"),
+        format!("<g id='a' style='{moves};display:none'><rect/></g>"),
+        format!("<g id='a'>{remarks}</g>"),
+    ] {
+        let error = read(&format!("<defs>{repeated}</defs>{uses}"));
+        assert!(matches!(error.fault, OutlineFault::TooLarge { limit: 1_000_000, .. }), "{error}");
+    }
 }

@@ -75,6 +75,38 @@ fn what_is_not_to_be_seen_is_left_out_unless_it_is_asked_for() {
 }
 
 #[test]
+fn what_is_hidden_is_left_out_however_that_is_said() {
+    let hidden = [
+        "<circle cx='20' r='5' display='none'/>",
+        "<circle cx='20' r='5' style='Display : NONE !important; fill: red'/>",
+        "<circle cx='20' r='5' style='display: none ! important; display: inline'/>",
+        "<circle cx='20' r='5' display='inline' style='display:none'/>",
+        "<circle cx='20' r='5' visibility='hidden'/>",
+        "<circle cx='20' r='5' style='visibility: collapse'/>",
+        "<g visibility='hidden'><g><circle cx='20' r='5'/></g></g>",
+        "<defs><circle id='c' r='5'/></defs><use href='#c' x='20' visibility='hidden'/>",
+        "<symbol id='s' visibility='hidden'><circle r='5'/></symbol><use href='#s' x='20'/>",
+    ];
+    for drawing in hidden {
+        let found = all(&format!("<circle r='5'/>{drawing}"), &MILLIMETRES).unwrap();
+        assert_eq!(found.len(), 1, "{drawing}");
+    }
+    let shown = [
+        "<circle cx='20' r='5' display='none' style='display:inline'/>",
+        "<circle cx='20' r='5' style='display:none; display:inline'/>",
+        "<g visibility='hidden'><circle cx='20' r='5' visibility='visible'/></g>",
+        "<circle cx='20' r='5' clip-path='none' style='mask: none'/>",
+    ];
+    for drawing in shown {
+        let found = all(&format!("<circle r='5'/>{drawing}"), &MILLIMETRES).unwrap();
+        assert_eq!(found.len(), 2, "{drawing}");
+    }
+    // What is asked for is taken, be it visible or not.
+    let asked = Request { element: Some("c"), ..MILLIMETRES };
+    assert_eq!(all("<g visibility='hidden'><circle id='c' r='5' visibility='hidden'/></g>", &asked).unwrap().len(), 1);
+}
+
+#[test]
 fn an_element_lies_where_its_ancestors_put_it() {
     let drawing =
         "<circle r='500'/><g transform='scale(10)'><g transform='translate(4 5)'><circle id='c' r='3'/></g></g>";

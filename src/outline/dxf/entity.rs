@@ -12,6 +12,42 @@ use super::record::Record;
 /// Arcs that may be larger (m) would lose their digits.
 const LARGEST_RADIUS: f64 = 1e6;
 
+/// What stands beside outlines and is none: texts, dimensions, hatches, points, pictures, views, what helps to construct, and
+/// the end of the list of a polyline's vertices.
+const ANNOTATIONS: [&str; 31] = [
+    "TEXT",
+    "MTEXT",
+    "RTEXT",
+    "ARCALIGNEDTEXT",
+    "ATTRIB",
+    "ATTDEF",
+    "ACAD_TABLE",
+    "DIMENSION",
+    "ARC_DIMENSION",
+    "LARGE_RADIAL_DIMENSION",
+    "LEADER",
+    "MLEADER",
+    "MULTILEADER",
+    "TOLERANCE",
+    "HATCH",
+    "POINT",
+    "IMAGE",
+    "WIPEOUT",
+    "OLEFRAME",
+    "OLE2FRAME",
+    "PDFUNDERLAY",
+    "DWFUNDERLAY",
+    "DGNUNDERLAY",
+    "UNDERLAY",
+    "VIEWPORT",
+    "XLINE",
+    "RAY",
+    "LIGHT",
+    "SUN",
+    "CAMERA",
+    "SEQEND",
+];
+
 /// What an entity draws.
 pub(super) enum Drawn {
     Nothing,
@@ -51,11 +87,11 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
         "POLYLINE" => polyline(&heavy(entity)?, entity.integer(70)?, &own(entity, plane)?),
         "SPLINE" => Err(unsupported("SPLINE", "turn it into a polyline with arcs, or save the drawing as SVG")),
         "INSERT" => Err(unsupported("INSERT", "explode the block")),
-        "3DFACE" | "3DSOLID" | "BODY" | "HELIX" | "MLINE" | "REGION" | "SHAPE" | "SOLID" | "TRACE" => {
-            Err(unsupported(entity.kind, "explode it into lines and arcs, or take it out"))
+        kind if ANNOTATIONS.contains(&kind) => Ok(Drawn::Nothing),
+        kind => {
+            let kind: String = kind.chars().filter(|letter| !letter.is_control()).take(40).collect();
+            Err(unsupported(&kind, "explode it into lines and arcs, or take it out"))
         }
-        // Texts, dimensions, hatches, points, pictures and what helps to construct.
-        _ => Ok(Drawn::Nothing),
     };
     Ok(drawn?)
 }

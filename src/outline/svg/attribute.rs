@@ -9,6 +9,9 @@ use super::super::plane::Plane;
 /// User units to the inch, by the standard.
 const PER_INCH: f64 = 96.0;
 
+/// Attributes that newer drawings may have in a style. Width and height are not among them: there they tell how a page is laid out.
+const SIZES: [&str; 8] = ["d", "x", "y", "cx", "cy", "r", "rx", "ry"];
+
 /// A length in user units; `None` if there is no such attribute.
 pub(super) fn length(node: Node<'_, '_>, name: &str) -> Result<Option<f64>, OutlineFault> {
     let Some(text) = node.attribute(name) else { return Ok(None) };
@@ -33,10 +36,43 @@ pub(super) fn length_or_zero(node: Node<'_, '_>, name: &str) -> Result<f64, Outl
     Ok(length(node, name)?.unwrap_or(0.0))
 }
 
+/// The value of a property: what an element's style says goes before the attribute of that name, in a style the last, or the last
+/// that is important.
+pub(super) fn property<'n>(node: Node<'n, '_>, name: &str) -> Option<&'n str> {
+    let values = || rules(node).filter(|(rule, _)| rule.eq_ignore_ascii_case(name)).map(|(_, value)| value);
+    let important = |value: &'n str| value.split_once('!').map(|(value, _)| value);
+    let styled = values().filter_map(important).last().or_else(|| values().last());
+    styled.or_else(|| node.attribute(name)).map(str::trim)
+}
+
+/// The names and values in an element's style.
+fn rules<'n>(node: Node<'n, '_>) -> impl Iterator<Item = (&'n str, &'n str)> {
+    let rules = node.attribute("style").unwrap_or_default().split(';').filter_map(|rule| rule.split_once(':'));
+    rules.map(|(name, value)| (name.trim(), value.trim()))
+}
+
+/// Whether a style is written in a way that [`property`] does not understand.
+pub(super) fn is_intricate(node: Node<'_, '_>) -> bool {
+    node.attribute("style").is_some_and(|style| style.contains("/*") || style.contains('\\'))
+}
+
 /// The plane within an element.
 pub(super) fn inner(node: Node<'_, '_>, outer: &Plane) -> Result<Plane, OutlineFault> {
-    let moved = |style: &str| style.split(';').any(|rule| rule.trim_start().starts_with("transform"));
-    if node.attribute("transform-origin").is_some() || node.attribute("style").is_some_and(moved) {
+    for name in ["clip-path", "mask"] {
+        if property(node, name).is_some_and(|value| !value.eq_ignore_ascii_case("none")) {
+            let what = format!("`{}` with a `{name}`", node.tag_name().name());
+            return Err(OutlineFault::Unsupported { what, advice: "cut the shape itself, and take that out" });
+        }
+    }
+    if let Some((name, _)) = rules(node).find(|(name, _)| SIZES.iter().any(|size| name.eq_ignore_ascii_case(size))) {
+        let what = format!("`{name}` in a `style`");
+        return Err(OutlineFault::Unsupported { what, advice: "write it as an attribute" });
+    }
+    let moves = |name: &str| {
+        let name = name.to_ascii_lowercase();
+        name.starts_with("transform") || ["translate", "rotate", "scale"].contains(&name.as_str())
+    };
+    if node.attribute("transform-origin").is_some() || rules(node).any(|(name, _)| moves(name)) {
         let what = "a transformation by style or about an origin of its own".to_owned();
         return Err(OutlineFault::Unsupported { what, advice: "write it as a `transform` attribute" });
     }

@@ -40,8 +40,9 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
     // Of two of one name the first counts.
     let named: HashMap<_, _> = ids.rev().collect();
     let mut walk = Walk { named, source: Source::new("", text), outlines: Outlines::default(), steps: 0 };
+    walk.check(document.root())?;
     let Some(element) = request.element else {
-        walk.all(root, &plane, 0)?;
+        walk.all(root, &plane, 0, true)?;
         return walk.outlines.into_found();
     };
     let Some(&node) = walk.named.get(element) else {

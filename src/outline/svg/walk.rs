@@ -9,14 +9,16 @@ use crate::diagnostic::Source;
 use super::super::found::Outlines;
 use super::super::plane::Plane;
 use super::super::{OutlineError, OutlineFault};
-use super::attribute::{inner, length_or_zero};
+use super::attribute::{inner, is_intricate, length_or_zero, property};
 use super::{path, shape};
 
 /// How deep elements may lie in each other.
 const DEEPEST: usize = 100;
 
-/// The most elements that are visited: those that `use` repeats count each time.
-const MOST_STEPS: usize = 500_000;
+/// The most steps: one for each node and one more for so many bytes of its attributes, and what `use` repeats counts each
+/// time. A file without `use` always has fewer.
+const MOST_STEPS: usize = 1_000_000;
+const BYTES_PER_STEP: usize = 64;
 
 /// A way through a document, and what was found on it.
 pub(super) struct Walk<'d> {
@@ -36,41 +38,79 @@ impl<'d> Walk<'d> {
         for outer in above.into_iter().rev() {
             plane = self.within(outer, &plane)?;
         }
-        self.draw(node, &plane, 0)
+        self.step(node, 0)?;
+        self.draw(node, &plane, 0, true)
     }
 
-    /// Takes what is to be seen of an element and what is in it.
-    pub(super) fn all(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize) -> Result<(), OutlineError> {
-        let hidden = |style: &str| style.split(';').any(|rule| rule.replace(' ', "") == "display:none");
-        let is_hidden = node.attribute("display") == Some("none") || node.attribute("style").is_some_and(hidden);
-        // A symbol is there to be used.
-        if is_hidden || is(node, "symbol") {
-            return Ok(());
-        }
-        self.draw(node, plane, depth)
-    }
-
-    fn draw(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize) -> Result<(), OutlineError> {
-        self.steps += 1;
+    /// Counts what it costs to look at a node, before that is done.
+    fn step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
+        let bytes: usize = node.attributes().map(|attribute| attribute.name().len() + attribute.value().len()).sum();
+        self.steps += 1 + bytes / BYTES_PER_STEP;
         if depth > DEEPEST {
             return Err(self.at(node, OutlineFault::TooLarge { what: "elements in each other", limit: DEEPEST }));
         }
         if self.steps > MOST_STEPS {
-            return Err(self.at(node, OutlineFault::TooLarge { what: "elements", limit: MOST_STEPS }));
+            let what = "elements and numbers, with what `use` repeats";
+            return Err(self.at(node, OutlineFault::TooLarge { what, limit: MOST_STEPS }));
         }
+        if is_intricate(node) {
+            let what = "a comment or a backslash in a `style`".to_owned();
+            return Err(self.at(node, OutlineFault::Unsupported { what, advice: "take it out" }));
+        }
+        Ok(())
+    }
+
+    /// Whether there are no rules for the document as a whole, which may hide, move or change any of its elements.
+    pub(super) fn check(&self, document: Node<'d, 'd>) -> Result<(), OutlineError> {
+        let is_sheet = |node: &Node<'_, '_>| {
+            is(*node, "style") || node.pi().is_some_and(|instruction| instruction.target == "xml-stylesheet")
+        };
+        let Some(sheet) = document.descendants().find(is_sheet) else { return Ok(()) };
+        let what = "a style sheet".to_owned();
+        let advice = "save it with the properties as attributes of the elements, and take the sheet out";
+        Err(self.at(sheet, OutlineFault::Unsupported { what, advice }))
+    }
+
+    /// Takes what is to be seen of an element and what is in it; `is_visible` unless it says otherwise itself.
+    pub(super) fn all(
+        &mut self,
+        node: Node<'d, 'd>,
+        plane: &Plane,
+        depth: usize,
+        is_visible: bool,
+    ) -> Result<(), OutlineError> {
+        self.step(node, depth)?;
+        let is_hidden = property(node, "display").is_some_and(|value| value.eq_ignore_ascii_case("none"));
+        // A symbol is there to be used.
+        if is_hidden || is(node, "symbol") {
+            return Ok(());
+        }
+        self.draw(node, plane, depth, visibility(node).unwrap_or(is_visible))
+    }
+
+    fn draw(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize, is_visible: bool) -> Result<(), OutlineError> {
         match node.tag_name().name() {
-            "svg" | "g" | "a" | "symbol" | "switch" => {
+            "svg" | "g" | "a" | "symbol" => {
                 let plane = self.within(node, plane)?;
-                for child in node.children().filter(Node::is_element) {
-                    self.all(child, &plane, depth + 1)?;
+                // Texts and comments count as steps, too.
+                for child in node.children() {
+                    self.all(child, &plane, depth + 1, is_visible)?;
                 }
             }
-            "use" => self.repeat(node, plane, depth)?,
-            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" => {
+            "use" => self.repeat(node, plane, depth, is_visible)?,
+            "switch" => {
+                let what = "`switch`, which shows one of several things,".to_owned();
+                let advice = "put what it is to show in its place";
+                return Err(self.at(node, OutlineFault::Unsupported { what, advice }));
+            }
+            // Of a group that is not visible parts may be, but a shape is not.
+            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" if is_visible => {
                 let plane = self.within(node, plane)?;
                 let drawn = if is(node, "path") { path::read(node, &plane) } else { shape::read(node, &plane) };
-                let line = Some(self.line(node));
-                for pieces in drawn.map_err(|fault| fault.at(line))? {
+                let drawn = drawn.map_err(|fault| self.at(node, fault))?;
+                // Lines are counted for those few only that draw something.
+                let line = if drawn.is_empty() { None } else { Some(self.line(node)) };
+                for pieces in drawn {
                     self.outlines.add(pieces, line)?;
                 }
             }
@@ -81,7 +121,13 @@ impl<'d> Walk<'d> {
     }
 
     /// Draws what a `use` refers to.
-    fn repeat(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize) -> Result<(), OutlineError> {
+    fn repeat(
+        &mut self,
+        node: Node<'d, 'd>,
+        plane: &Plane,
+        depth: usize,
+        is_visible: bool,
+    ) -> Result<(), OutlineError> {
         let link = node.attributes().find(|attribute| attribute.name() == "href").map_or("", |link| link.value());
         let Some(&found) = link.strip_prefix('#').and_then(|target| self.named.get(target)) else {
             let reason = format!("`use` refers to `{}`, which is not there", link.chars().take(40).collect::<String>());
@@ -91,7 +137,11 @@ impl<'d> Walk<'d> {
         let offset = length_or_zero(node, "x").and_then(|x| Ok([x, length_or_zero(node, "y")?]));
         let offset = offset.map_err(|fault| self.at(node, fault))?;
         let plane = plane.inner([1.0, 0.0], [0.0, 1.0], offset);
-        if is(found, "symbol") { self.draw(found, &plane, depth + 1) } else { self.all(found, &plane, depth + 1) }
+        if !is(found, "symbol") {
+            return self.all(found, &plane, depth + 1, is_visible);
+        }
+        self.step(found, depth + 1)?;
+        self.draw(found, &plane, depth + 1, visibility(found).unwrap_or(is_visible))
     }
 
     /// The plane within an element.
@@ -112,6 +162,15 @@ impl<'d> Walk<'d> {
 
     fn line(&self, node: Node<'d, 'd>) -> usize {
         self.source.line_column(node.range().start).line
+    }
+}
+
+/// Whether an element says itself that it is visible or not.
+fn visibility(node: Node<'_, '_>) -> Option<bool> {
+    match property(node, "visibility")?.to_ascii_lowercase().as_str() {
+        "hidden" | "collapse" => Some(false),
+        "visible" | "initial" => Some(true),
+        _ => None,
     }
 }
 
