@@ -12,7 +12,7 @@ use snapshots::snapshots;
 use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
 use vibrissa::geometry::Vector2;
 use vibrissa::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
-use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa::policy::{compile, compile_with_warnings, gather};
 use vibrissa::units::parse_quantity;
 
 fn warnings(text: &str) -> Vec<Diagnostic> {
@@ -324,7 +324,9 @@ fn good_policies_have_no_warnings() {
     let policies: Vec<_> = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm")).collect();
     assert!(!policies.is_empty());
     for path in policies {
-        let source = Source::new(path.display().to_string(), std::fs::read_to_string(path).unwrap());
+        let file = &mut |path: &str| std::fs::read_to_string(path).map_err(|error| error.to_string());
+        let main = Source::new(path.display().to_string(), std::fs::read_to_string(&path).unwrap());
+        let source = gather(&main, file);
         let warnings = compile_with_warnings(&source).unwrap().warnings;
         assert!(warnings.is_empty(), "{}", terminal(&source, &warnings, Colour::Plain));
     }

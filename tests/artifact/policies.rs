@@ -1,11 +1,12 @@
 //! Policies to make artifacts of.
 
+use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::machine::Artifact;
-use vibrissa::policy::compile_with_warnings;
+use vibrissa::policy::{compile_with_warnings, gather};
 
 /// A policy that reads, computes and does a bit of everything.
 pub(crate) const EVERYTHING: &str = r#"
@@ -45,7 +46,8 @@ always when cross(body.position, vector(1, 0)) > 1e6 m -> Failure("too far")
 
 /// A text's artifact.
 pub(crate) fn artifact(name: &str, text: &str) -> Artifact {
-    let source = Source::new(name, text);
+    let file = &mut |path: &str| fs::read_to_string(path).map_err(|error| error.to_string());
+    let source = gather(&Source::new(name, text), file);
     let compiled = compile_with_warnings(&source);
     compiled.unwrap_or_else(|faults| panic!("{}", terminal(&source, &faults, Colour::Plain))).artifact
 }
@@ -75,9 +77,9 @@ pub(crate) fn nested() -> Artifact {
 /// The artifacts of all policies of this project, of the examples of its language's page, of [`nested`], and of [`EVERYTHING`].
 pub(crate) fn all() -> Vec<Artifact> {
     let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("policies");
-    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    let files = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm"));
-    let files = files.map(|path| artifact(&path.display().to_string(), &std::fs::read_to_string(&path).unwrap()));
+    let files = files.map(|path| artifact(&path.display().to_string(), &fs::read_to_string(&path).unwrap()));
     let examples = include_str!("../../docs/language.md").split("```fsm\n").skip(1).map(|behind| {
         let example = behind.split("```").next().unwrap();
         if example.starts_with("machine") {
