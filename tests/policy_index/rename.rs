@@ -1,9 +1,9 @@
 //! Other names for things.
 
-use vibrissa::diagnostic::Span;
+use vibrissa::diagnostic::{Diagnostic, Source, Span};
 use vibrissa::machine::Program;
 use vibrissa::policy::index::{Index, RenameError};
-use vibrissa::policy::{Checked, check};
+use vibrissa::policy::{check, compile};
 
 use super::policies::{SWIPE, THESIS, gathered, index, policies};
 
@@ -25,27 +25,28 @@ fn nameless(mut program: Program) -> String {
     format!("{program:?}")
 }
 
+/// What a policy is without its names; `None` for a library without faults. Warnings, which take most of a check's time, are left out.
+fn machine(source: &Source) -> Result<Option<String>, Vec<Diagnostic>> {
+    match compile(source) {
+        Ok(program) => Ok(Some(nameless(program))),
+        Err(faults) if faults.iter().any(|fault| fault.code == "P0603") => check(source).map(|_| None),
+        Err(faults) => Err(faults),
+    }
+}
+
 #[test]
 fn whatever_is_renamed_the_machine_stays_the_same() {
     let mut renamed = 0;
     for (name, text) in policies() {
-        let before = check(&gathered(&text)).unwrap();
+        let before = machine(&gathered(&text)).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
         let index = Index::new(&gathered(&text), None);
         for symbol in index.symbols() {
             let places = index.rename(symbol.span.start, "fresh_name").unwrap();
             assert!(places.contains(&symbol.span));
             let after = replaced(&text, &places, "fresh_name");
-            let after = check(&gathered(&after))
+            let after = machine(&gathered(&after))
                 .unwrap_or_else(|faults| panic!("{name}, {}: {faults:?}\n{after}", symbol.name));
-            match (after, &before) {
-                (Checked::Machine(after), Checked::Machine(before)) => {
-                    let [after, before] = [after.artifact.program, before.artifact.program.clone()].map(nameless);
-                    assert_eq!(after, before, "{name}, {}", symbol.name);
-                }
-                (after, before) => {
-                    assert!(matches!((after, before), (Checked::Library { .. }, Checked::Library { .. })));
-                }
-            }
+            assert_eq!(after, before, "{name}, {}", symbol.name);
             renamed += 1;
         }
     }
