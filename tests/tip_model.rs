@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa::percept::{Equilibrium, ShaftChain, TipModel, TipModelError};
+use vibrissa::mechanics::{Equilibrium, ShaftChain};
+use vibrissa::percept::{TipModel, TipModelError};
 use vibrissa::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.

@@ -1,6 +1,5 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
-mod chain;
 mod deflection;
 mod local_contour;
 mod low_pass;
@@ -8,7 +7,6 @@ mod perception;
 mod tip_model;
 mod whisker;
 
-pub use chain::{Equilibrium, ShaftChain};
 pub use local_contour::LocalContour;
 pub use low_pass::{CutoffError, LowPass};
 pub use perception::{Perception, PerceptionError};

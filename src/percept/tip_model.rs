@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 
 use crate::geometry::rotate;
+use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
 
-use super::chain::ShaftChain;
 
 /// A one-channel tip model: from the base angle to the place where the tip touches.
 ///
