@@ -8,7 +8,6 @@ use crate::geometry::rotate;
 use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
 
-
 /// A one-channel tip model: from the base angle to the place where the tip touches.
 ///
 /// The base angle alone does not fix the tip; the direction of the contact force matters too. The model takes the direction
