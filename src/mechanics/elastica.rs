@@ -27,6 +27,8 @@ pub struct Elastica {
     pub(super) force_unit: f64,
     /// The base angle (rad) that a base moment of `EI / L` makes.
     pub(super) hinge_compliance: f64,
+    /// Radius at the tip over that at the base.
+    pub(super) taper: f64,
 }
 
 /// What a solution is to have, in the units of [`Load`].
@@ -53,6 +55,7 @@ impl Elastica {
             length,
             force_unit: stiffness / length.powi(2),
             hinge_compliance: stiffness / length / whisker.hinge.stiffness,
+            taper: whisker.shaft.taper(),
         }
     }
 
@@ -98,7 +101,7 @@ impl Elastica {
     /// 0, to the tip at most) in the direction `force_direction` (rad, frame of the base).
     ///
     /// It is sought from `guess` on, in as many steps as that takes; the [`straight`](Self::straight) shaft is a guess for
-    /// all. `None` if none is found.
+    /// all directions up to π, and beyond for some. `None` if none is found.
     #[must_use]
     pub fn solve_at(&self, contact_length: f64, base_angle: f64, force_direction: f64, guess: &Bend) -> Option<Bend> {
         if base_angle < 0.0 {
@@ -135,7 +138,7 @@ impl Elastica {
         let load = |unknowns: Vector2<f64>| Load { contact: aim.contact, angle: unknowns.x, force: unknowns.y };
         let solution = newton::solve(guess, REACH, |unknowns| {
             let load = load(unknowns);
-            let Shot { root, moment, .. } = Shot::of(&load)?;
+            let Shot { root, moment, .. } = Shot::of(&load, self.taper)?;
             let direction = self.hinge_compliance * aim.moment - root.value + load.angle;
             Some(Residual {
                 value: Vector2::new(direction - aim.direction, moment.value - aim.moment),
@@ -147,7 +150,7 @@ impl Elastica {
 
     /// The shape under a load, in the whisker's units.
     pub(super) fn bend(&self, load: &Load) -> Option<Bend> {
-        let shot = Shot::of(load)?;
+        let shot = Shot::of(load, self.taper)?;
         if !shot.bends_left || load.force <= 0.0 {
             return None;
         }

@@ -40,28 +40,33 @@ pub(super) struct Shot {
 
 impl Shot {
     /// Solves the equations of the elastica, `θ' = M / EI` and `M' = −F sin(φ − θ)`, from the load to the base, with the
-    /// variational equations for the derivatives; `None` if the load is not on the shaft, or absurdly great.
-    pub(super) fn of(load: &Load) -> Option<Self> {
+    /// variational equations for the derivatives, for a shaft whose radius at the tip is `taper` times that at the base.
+    /// `None` if the load is not on the shaft, or absurdly great.
+    pub(super) fn of(load: &Load, taper: f64) -> Option<Self> {
         let Load { contact, angle: psi, force } = *load;
         if !(contact > 0.0 && contact <= 1.0) {
             return None;
         }
-        let slope = |_: f64, state: &[f64; 10]| {
+        let slope = |t: f64, state: &[f64; 10]| {
+            // 1 / EI at the length c (1 − t), and its derivative by c.
+            let thickness = 1.0 + (taper - 1.0) * contact * (1.0 - t);
+            let softness = thickness.powi(-4);
+            let softness_c = 4.0 * (1.0 - taper) * (1.0 - t) * softness / thickness;
             // The direction and the moment, the place, and the derivatives of the first two by contact, angle and force.
             let [angle, moment, .., angle_c, moment_c, angle_a, moment_a, angle_f, moment_f] = *state;
             let (sin, cos) = angle.sin_cos();
             let (across, along) = (psi - angle).sin_cos();
             let turned = contact * force * along;
             [
-                -contact * moment,
+                -contact * softness * moment,
                 contact * force * across,
                 -contact * cos,
                 -contact * sin,
-                -contact * moment_c - moment,
+                -contact * softness * moment_c - (softness + contact * softness_c) * moment,
                 force * across - turned * angle_c,
-                -contact * moment_a,
+                -contact * softness * moment_a,
                 turned * (1.0 - angle_a),
-                -contact * moment_f,
+                -contact * softness * moment_f,
                 contact * across - turned * angle_f,
             ]
         };

@@ -1,6 +1,6 @@
 //! What holds of every equilibrium.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector4;
 use proptest::prelude::*;
@@ -8,17 +8,18 @@ use vibrissa::geometry::unit;
 use vibrissa::mechanics::{Bend, Elastica};
 use vibrissa::rig::Whisker;
 
-use crate::whisker::{any, force_unit, moment_unit};
+use crate::whisker::{any_tapered, cut, moment_unit, tip_moment};
 
 /// Whiskers with a force that bends them: at a share of the length, at an angle from the shaft there, a force in units of
-/// `EI / c²` for the length `c` to where it is.
+/// `EI / c²` for the length `c` to where it is, of as much less as the shaft tapers.
 fn any_bend() -> impl Strategy<Value = (Whisker, Bend)> {
-    (any(), prop_oneof![Just(1.0), 0.05..1.0_f64], FRAC_PI_2..2.9_f64, 0.01..5.0_f64).prop_filter_map(
-        "not to one side",
+    (any_tapered(), prop_oneof![Just(1.0), 0.05..1.0_f64], FRAC_PI_2..2.9_f64, 0.01..5.0_f64).prop_filter_map(
+        "not to one side, or twisted at the base",
         |(whisker, share, angle, force)| {
-            let force = force * force_unit(&whisker) / (share * share);
+            let shaft = cut(&whisker, share).shaft;
+            let force = force * shaft.tip_stiffness() / shaft.length.powi(2);
             let bend = Elastica::new(&whisker).under(share * whisker.shaft.length, angle, force)?;
-            Some((whisker, bend))
+            (bend.base_angle < 1.0).then_some((whisker, bend))
         },
     )
 }
@@ -26,21 +27,23 @@ fn any_bend() -> impl Strategy<Value = (Whisker, Bend)> {
 /// The base and the shaft up to the force, integrated from the base by the classical Runge-Kutta method: direction, place
 /// and energy (rad, m, m, J) where the force is.
 fn integrated(whisker: &Whisker, bend: &Bend) -> Vector4<f64> {
-    let stiffness = whisker.shaft.bending_stiffness();
     let force = bend.force * unit(bend.force_direction);
-    let slope = |state: Vector4<f64>| {
+    let slope = |s: f64, state: Vector4<f64>| {
+        let thickness = whisker.shaft.radius_at(s / whisker.shaft.length) / whisker.shaft.radius;
+        let stiffness = whisker.shaft.bending_stiffness() * thickness.powi(4);
         let place = nalgebra::Vector2::new(state.y, state.z);
         let moment = (bend.contact_base - place).perp(&force);
         Vector4::new(moment / stiffness, state.x.cos(), state.x.sin(), 0.5 * moment * moment / stiffness)
     };
-    let step = bend.contact_length / 500.0;
+    let step = bend.contact_length / 2000.0;
     let hinge_energy = 0.5 * whisker.hinge.stiffness * bend.base_angle.powi(2);
     let mut state = Vector4::new(bend.base_angle, 0.0, 0.0, hinge_energy);
-    for _ in 0..500 {
-        let a = slope(state);
-        let b = slope(state + 0.5 * step * a);
-        let c = slope(state + 0.5 * step * b);
-        let d = slope(state + step * c);
+    for index in 0..2000 {
+        let s = f64::from(index) * step;
+        let a = slope(s, state);
+        let b = slope(s + 0.5 * step, state + 0.5 * step * a);
+        let c = slope(s + 0.5 * step, state + 0.5 * step * b);
+        let d = slope(s + step, state + step * c);
         state += step / 6.0 * (a + 2.0 * (b + c) + d);
     }
     state
@@ -83,17 +86,21 @@ proptest! {
     #[test]
     fn what_a_force_makes_is_found_from_its_moment_and_direction((whisker, bend) in any_bend()) {
         let elastica = Elastica::new(&whisker);
-        let solve = |guess: &Bend| elastica.solve_at(bend.contact_length, bend.base_angle, bend.force_direction, guess);
-        let again = solve(&elastica.straight());
-        prop_assert!(again.is_some());
-        let again = again.unwrap();
-        prop_assert!((again.tip_base - bend.tip_base).norm() < 1e-9 * whisker.shaft.length, "{bend:?} {again:?}");
+        let near = elastica.under(bend.contact_length, bend.force_direction - bend.tip_angle, 0.9 * bend.force).unwrap();
+        // Where a force pushes a bent shaft back past its base, a straight one would bend to the other side.
+        let guesses = if bend.force_direction < PI { vec![near, elastica.straight()] } else { vec![near] };
+        for guess in guesses {
+            let again = elastica.solve_at(bend.contact_length, bend.base_angle, bend.force_direction, &guess);
+            prop_assert!(again.is_some());
+            let again = again.unwrap();
+            prop_assert!((again.tip_base - bend.tip_base).norm() < 1e-9 * whisker.shaft.length, "{bend:?} {again:?}");
+        }
     }
 
     #[test]
-    fn the_mirror_image_is_in_balance_too(whisker in any(), moment in 0.01..3.0_f64, direction in 0.8..2.9_f64) {
+    fn the_mirror_image_is_in_balance_too(whisker in any_tapered(), moment in 0.01..3.0_f64, direction in 0.8..2.9_f64) {
         let elastica = Elastica::new(&whisker);
-        let (length, base_angle) = (whisker.shaft.length, moment * moment_unit(&whisker) / whisker.hinge.stiffness);
+        let (length, base_angle) = (whisker.shaft.length, tip_moment(&whisker, moment) / whisker.hinge.stiffness);
         let [left, right] = [1.0, -1.0].map(|side| {
             elastica.solve_tip(side * base_angle, side * direction, &elastica.straight()).unwrap()
         });
@@ -123,8 +130,7 @@ proptest! {
     /// Beyond the force the shaft is straight, as if it were not there.
     #[test]
     fn a_force_on_the_shaft_bends_it_as_one_at_the_tip_of_a_shorter_one((whisker, bend) in any_bend()) {
-        let mut shorter = whisker.clone();
-        shorter.shaft.length = bend.contact_length;
+        let shorter = cut(&whisker, bend.contact_length / whisker.shaft.length);
         let angle = bend.force_direction - bend.tip_angle;
         let other = Elastica::new(&shorter).under(bend.contact_length, angle, bend.force).unwrap();
         prop_assert!((other.tip_base - bend.contact_base).norm() < 1e-9 * whisker.shaft.length);

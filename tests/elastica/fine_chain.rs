@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use vibrissa::mechanics::{Bend, ShaftChain};
 use vibrissa::rig::Whisker;
 
-use crate::whisker::{any, bent, with_ratio};
+use crate::whisker::{any_tapered, bent, with_ratio};
 
 /// The tip (m) of the whisker's chain with so many links, at the base angle and the direction of a bend.
 fn chain_tip(whisker: &Whisker, links: usize, bend: &Bend) -> Option<Vector2<f64>> {
@@ -28,13 +28,16 @@ fn chain_tip(whisker: &Whisker, links: usize, bend: &Bend) -> Option<Vector2<f64
 
 #[test]
 fn the_chain_comes_nearer_with_the_square_of_its_links() {
-    let whisker = with_ratio(0.1, 0.125e-3, 5e3);
-    for (moment, direction) in [(0.5, 1.6), (1.6, 2.88), (2.5, 2.6)] {
+    let mut whisker = with_ratio(0.1, 0.125e-3, 5e3);
+    for (taper, moment, direction) in
+        [(1.0, 0.5, 1.6), (1.0, 1.6, 2.88), (1.0, 2.5, 2.6), (0.5, 1.6, 2.88), (0.3, 2.5, 2.0)]
+    {
+        whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
         let bend = bent(&whisker, 0.1, moment, direction).unwrap();
         let errors =
             [16, 32, 64, 128, 256].map(|links| (chain_tip(&whisker, links, &bend).unwrap() - bend.tip_base).norm());
         for pair in errors.windows(2) {
-            assert!(((pair[0] / pair[1]).log2() - 2.0).abs() < 0.03, "{moment} {direction}: {errors:?}");
+            assert!(((pair[0] / pair[1]).log2() - 2.0).abs() < 0.03, "{taper} {moment} {direction}: {errors:?}");
         }
     }
 }
@@ -44,7 +47,7 @@ proptest! {
 
     #[test]
     fn a_fine_chain_extrapolated_is_the_elastica(
-        whisker in any(), moment in 0.05..2.5_f64, direction in 1.2..2.9_f64,
+        whisker in any_tapered(), moment in 0.05..2.5_f64, direction in 1.2..2.9_f64,
     ) {
         let bend = bent(&whisker, whisker.shaft.length, moment, direction).unwrap();
         let [coarse, fine] = [200, 400].map(|links| chain_tip(&whisker, links, &bend));
