@@ -62,16 +62,20 @@ impl Elastica {
     /// The straight shaft.
     #[must_use]
     pub fn straight(&self) -> Bend {
-        let tip_base = Vector2::new(self.length, 0.0);
+        self.unbent(self.length, FRAC_PI_2)
+    }
+
+    /// The straight shaft under no force at a length (m), in a direction (rad).
+    fn unbent(&self, contact_length: f64, force_direction: f64) -> Bend {
         Bend {
             base_angle: 0.0,
             shear: 0.0,
             axial: 0.0,
-            contact_length: self.length,
-            contact_base: tip_base,
+            contact_length,
+            contact_base: Vector2::new(contact_length, 0.0),
             force: 0.0,
-            force_direction: FRAC_PI_2,
-            tip_base,
+            force_direction,
+            tip_base: Vector2::new(self.length, 0.0),
             tip_angle: 0.0,
         }
     }
@@ -85,9 +89,9 @@ impl Elastica {
     pub fn under(&self, contact_length: f64, force_angle: f64, force: f64) -> Option<Bend> {
         let load = Load { contact: contact_length / self.length, angle: force_angle, force: force / self.force_unit };
         if load.angle < 0.0 {
-            return self.bend(&Load { angle: -load.angle, ..load }).map(|bend| bend.mirrored());
+            return self.under(contact_length, -force_angle, force).map(|bend| bend.mirrored());
         }
-        self.bend(&load)
+        self.bend(&load, &Shot::of(&load, self.taper)?)
     }
 
     /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the tip in the direction
@@ -110,7 +114,7 @@ impl Elastica {
                 .map(|bend| bend.mirrored());
         }
         if base_angle == 0.0 {
-            return Some(Bend { contact_length, force_direction, ..self.straight() });
+            return Some(self.unbent(contact_length, force_direction));
         }
         let aim = Aim {
             contact: contact_length / self.length,
@@ -122,7 +126,7 @@ impl Elastica {
             Bend { force_direction: force_direction + wrap(guess.force_direction - force_direction), ..*guess }
         } else {
             // Towards the head of the shaft a small force does not bend it, and turns there once it does.
-            Bend { contact_length, force_direction: force_direction.min(SIDEWAYS), ..self.straight() }
+            self.unbent(contact_length, force_direction.min(SIDEWAYS))
         };
         let from = Aim {
             contact: start.contact_length / self.length,
@@ -145,12 +149,12 @@ impl Elastica {
                 slope: Matrix2::new(1.0 - root.by_angle, -root.by_force, moment.by_angle, moment.by_force),
             })
         })?;
-        self.bend(&load(solution))
+        let load = load(solution);
+        self.bend(&load, &Shot::of(&load, self.taper)?)
     }
 
-    /// The shape under a load, in the whisker's units.
-    pub(super) fn bend(&self, load: &Load) -> Option<Bend> {
-        let shot = Shot::of(load, self.taper)?;
+    /// The shape under a load, in the whisker's units; `None` if it does not bend to the left all along.
+    pub(super) fn bend(&self, load: &Load, shot: &Shot) -> Option<Bend> {
         if !shot.bends_left || load.force <= 0.0 {
             return None;
         }

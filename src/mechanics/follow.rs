@@ -1,7 +1,7 @@
 //! Following a solution from a known case to the one asked for.
 
 /// The least part of the way that is tried.
-const LEAST_STRIDE: f64 = 1e-3;
+const LEAST_STRIDE: f64 = 1e-5;
 
 /// Follows a solution from `start`, at the share 0 of a way, to its end at 1: `solve` finds the one at a share from a
 /// neighbouring one. In one go if it can be, else in smaller strides.

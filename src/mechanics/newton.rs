@@ -4,8 +4,8 @@ use nalgebra::{Matrix2, Vector2};
 
 /// Steps after which a solution is given up.
 const STEPS: usize = 25;
-/// The change, relative to 1 or to the unknown, below which a solution has settled.
-const SETTLED: f64 = 1e-11;
+/// The change, relative to 1 or to the unknown, after which a solution has settled: the next would be about its square.
+const SETTLED: f64 = 1e-9;
 
 /// What two unknowns leave of two equations, and its derivatives by them, a row for each equation.
 pub(super) struct Residual {

@@ -4,4 +4,5 @@
 mod closed_form;
 mod equilibria;
 mod fine_chain;
+mod locate;
 mod whisker;
