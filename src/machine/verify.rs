@@ -132,7 +132,7 @@ impl Program {
             ("operations", code.len(), CODE_LIMIT),
             ("registers", image.len(), REGISTER_LIMIT),
             ("parameters", parameters.len(), image.len()),
-            ("tip models", tip_models.len(), whiskers.len()),
+            ("tip models", tip_models.len(), MAX_WHISKERS),
         ] {
             if count > limit {
                 return Err(Unsound::TooMany { what, count, limit });

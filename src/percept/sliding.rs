@@ -278,6 +278,9 @@ impl Sliding {
 
 /// What is left of a tip's place (m) even when readings are exact.
 const SMOOTHNESS: f64 = 5e-6;
+/// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
+/// slides drags. A whole scene may be off to the same side by this.
+const CONTACT_SPREAD: f64 = 3.3e-5;
 /// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;
@@ -293,6 +296,6 @@ fn miss_slope(tip: &TipPlace, normal: f64, left: Point2) -> f64 {
 impl Contact {
     /// Standard deviation of the place along the normal (m).
     pub(super) fn place_spread(&self) -> f64 {
-        self.covariance.m22.max(0.0).sqrt()
+        self.covariance.m22.max(0.0).sqrt().hypot(CONTACT_SPREAD)
     }
 }

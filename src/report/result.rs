@@ -98,6 +98,8 @@ pub struct ErrorMm {
     pub p95: Option<f64>,
     /// Maximum.
     pub max: Option<f64>,
+    /// Share of the estimates that lie within the band of 95 % that they tell themselves, 0 to 1.
+    pub within_band: Option<f64>,
     /// Number of estimates.
     pub n: usize,
 }
@@ -213,6 +215,7 @@ impl RunResult {
                 std: error.and_then(|error| error.std).map(millimetres),
                 p95: error.map(|error| millimetres(error.p95)),
                 max: error.map(|error| millimetres(error.max)),
+                within_band: error.map(|error| error.within_band),
                 n: error.map_or(0, |error| error.count),
             },
             coverage: score.coverage,

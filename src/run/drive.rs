@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::machine::{Failsafe, Status};
+use crate::machine::{Failsafe, Senses, Status, WhiskerScalar};
 use crate::scene::{Outcome, Reached, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
@@ -130,6 +130,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
         state: machine.failure().is_none().then(|| machine.state()),
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
+        tip_spreads: [0.0; MAX_WHISKERS],
         command,
         failsafe,
         body_touches,
@@ -137,6 +138,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
     for whisker in 0..machine.program().whiskers.len() {
         tick.deflections[whisker] = perception.deflection(whisker);
         tick.tips[whisker] = perception.recorded_tip(whisker);
+        tick.tip_spreads[whisker] = perception.whisker(whisker, WhiskerScalar::TipSpread);
     }
     tick
 }

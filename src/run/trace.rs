@@ -47,6 +47,8 @@ pub struct TickRecord {
     pub deflections: [f64; MAX_WHISKERS],
     /// Tip estimates that the policy recorded (m, world frame).
     pub tips: [Option<Point2>; MAX_WHISKERS],
+    /// How far off each of them may be (m), as standard deviations, by what the tip model tells.
+    pub tip_spreads: [f64; MAX_WHISKERS],
     /// The command that the tick gave.
     pub command: Command,
     /// The state that the machine left by its failsafe, if it left one.

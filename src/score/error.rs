@@ -15,9 +15,14 @@ pub struct ErrorFigures {
     pub p95: f64,
     /// Maximum.
     pub max: f64,
+    /// Share of the estimates, 0 to 1, that lie within the band of 95 % that they tell themselves: 1.96 standard deviations.
+    pub within_band: f64,
     /// Number of estimates.
     pub count: usize,
 }
+
+/// Half of the breadth of the band that holds 95 % of a normal distribution, in standard deviations.
+const BAND: f64 = 1.96;
 
 impl ErrorFigures {
     /// The figures of `tips`; `None` if there are none.
@@ -29,6 +34,7 @@ impl ErrorFigures {
             std: statistics.std(),
             p95: statistics.percentile(95.0),
             max: statistics.max(),
+            within_band: tips.iter().filter(|tip| tip.error <= BAND * tip.spread).count() as f64 / tips.len() as f64,
             count: statistics.count(),
         })
     }

@@ -15,6 +15,8 @@ pub struct Tip {
     pub tip_world: Point2,
     /// Its distance from the nearest surface (m), never negative: the thesis's absolute error (section 5.1).
     pub error: f64,
+    /// How far off it may be by what the estimate tells (m), as a standard deviation.
+    pub spread: f64,
 }
 
 /// Every valid tip estimate of a run, whisker by whisker and in the order of time, against the exact `surfaces`.
@@ -22,7 +24,10 @@ pub struct Tip {
 pub fn tips(trace: &Trace, surfaces: &ContourSet) -> Vec<Tip> {
     whiskers(trace)
         .flat_map(|whisker| valid_tips(trace, whisker).map(move |(tick, tip_world)| (tick, whisker, tip_world)))
-        .map(|(tick, whisker, tip_world)| Tip { tick, whisker, tip_world, error: surfaces.nearest(tip_world).distance })
+        .map(|(tick, whisker, tip_world)| {
+            let (error, spread) = (surfaces.nearest(tip_world).distance, trace.ticks[tick].tip_spreads[whisker]);
+            Tip { tick, whisker, tip_world, error, spread }
+        })
         .collect()
 }
 

@@ -94,8 +94,7 @@ const WHISKER: [Member; 12] = [
         "tip_spread",
         Type::LENGTH,
         WhiskerScalar::TipSpread,
-        "how far off `tip` may be, as a standard deviation: what the sensor's noise and a surface 10 deg off the heading do to it; \
-         infinite beyond the tip model's range",
+        "how far off `tip` may be by its tip model, as a standard deviation; infinite beyond the model's range",
     ),
     place("base", WhiskerVector::Base, "its base"),
     Member {

@@ -95,6 +95,7 @@ impl Index {
             }
             Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
             Expected::Mark => words_of(Place::Mark).map(of_word).collect(),
+            Expected::TipModel => words_of(Place::TipModel).map(of_word).collect(),
             Expected::File => modules(&format!("{ROOT}.")).collect(),
             Expected::Module => modules("").collect(),
             Expected::Chosen => self.offered(context),

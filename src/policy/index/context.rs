@@ -26,6 +26,7 @@ pub(super) enum Expected {
     Parameter,
     /// What a whisker is marked as.
     Mark,
+    TipModel,
     /// A file to use.
     File,
     /// What stands behind `std.`.
@@ -175,13 +176,14 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
 
 fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
-        "machine" | "library" | "whisker" | "by" | "param" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" => Expected::Nothing,
+        "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
+        | "test" => Expected::Nothing,
         "initial" => Expected::Initial,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
         "set" => Expected::Memory,
         "mark" => Expected::Mark,
+        "by" => Expected::TipModel,
         "use" => Expected::File,
         "resume" => Expected::Resumed,
         "failsafe" => Expected::Only("->"),

@@ -23,6 +23,8 @@ pub(super) enum Place {
     Target,
     /// Behind `mark`.
     Mark,
+    /// Behind `by`.
+    TipModel,
 }
 
 /// A word of the language.
@@ -72,9 +74,10 @@ const VALUE: &[Place] = &[Place::Value];
 const TRUTH: &[Place] = &[Place::Value, Place::Run];
 const TARGET: &[Place] = &[Place::Target];
 const MARK: &[Place] = &[Place::Mark];
+const TIP_MODEL: &[Place] = &[Place::TipModel];
 
 /// Every word of the language that is no function.
-pub(super) const WORDS: [Word; 48] = [
+pub(super) const WORDS: [Word; 50] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
     entry(
@@ -205,6 +208,8 @@ pub(super) const WORDS: [Word; 48] = [
     entry("time", VALUE, "time", "The time since the start of the run."),
     entry("run", &[Place::Run], "run", "The whole run, of which a test expects something."),
     entry("resume", TARGET, "resume ${1:State}", "Enters a state, and in it the one that was active last."),
+    entry("sliding", TIP_MODEL, "sliding", "Tip and surface together, by what sliding along it allows."),
+    entry("one_channel", TIP_MODEL, "one_channel", "From the deflection alone, on a surface parallel to the heading."),
     entry("lost", MARK, "lost", "The whisker has lost the object's edge."),
     entry("found", MARK, "found", "The whisker has found contact again."),
     entry("Failure", TARGET, "Failure(\"${1:reason}\")", "Ends the run as failed; the platform stands still."),
