@@ -9,6 +9,7 @@ pub mod diagnostic;
 pub mod editor;
 pub mod geometry;
 pub mod machine;
+pub mod mechanics;
 pub mod motion;
 pub mod outline;
 pub mod percept;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::{BodyScalar, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa::machine::{BodyScalar, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
 use vibrissa::percept::{LowPass, Perception};
 use vibrissa::rig::Rig;
 use vibrissa::run::Control;
@@ -37,7 +37,7 @@ fn samples(base_angles: &[f64]) -> Vec<Sample> {
 }
 
 fn perception() -> Perception {
-    Perception::new(&Rig::default(), &[0, 1]).unwrap()
+    Perception::new(&Rig::default(), &[0, 1], &[TipModelKind::OneChannel; 2]).unwrap()
 }
 
 fn filter() -> LowPass {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::machine::{ContourVector, Senses, WhiskerVector};
+use vibrissa::machine::{ContourVector, Senses, TipModelKind, WhiskerVector};
 use vibrissa::percept::{LocalContour, LowPass, Perception};
 use vibrissa::rig::Rig;
 use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
@@ -179,7 +179,7 @@ proptest! {
 /// heading, forwards or backwards, and have then been lifted off it and moved by `gone`.
 fn after_swiping(whisker: usize, body: Pose, forwards: f64, gone: Vector2) -> Perception {
     let rig = Rig::default();
-    let mut perception = Perception::new(&rig, &[0, 1]).unwrap();
+    let mut perception = Perception::new(&rig, &[0, 1], &[TipModelKind::OneChannel; 2]).unwrap();
     let bent = 3e-4 * rig.whiskers[whisker].side() * forwards;
     let feel = |perception: &mut Perception, position, angle: f64| {
         let mut whiskers = [Reading::default(); MAX_WHISKERS];

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use vibrissa::geometry::{Contour, Path, Point2, Pose, Side, Strip, Vector2, rotate, unit};
-use vibrissa::percept::ShaftChain;
+use vibrissa::mechanics::ShaftChain;
 use vibrissa::rig::Rig;
 use vibrissa::scene::Solid;
 use vibrissa::signal::{Command, Sample};

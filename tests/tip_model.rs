@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa::percept::{Equilibrium, ShaftChain, TipModel, TipModelError};
+use vibrissa::mechanics::{Equilibrium, ShaftChain};
+use vibrissa::percept::{TipModel, TipModelError};
 use vibrissa::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
@@ -303,6 +304,23 @@ proptest! {
         prop_assert!(model.is_ok(), "{:?}", model.err());
         let straight = model.unwrap().contact_base(0.0);
         prop_assert!((straight.x - length).abs() <= 1.001 * radius);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn any_tapered_whisker_has_a_tip_model(
+        taper in 0.05..1.0_f64, links in 4_usize..64, sweep in prop_oneof![5.0..90.0_f64, -90.0..-5.0_f64],
+    ) {
+        let mut whisker = with_links(links);
+        whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
+        whisker.direction_body = (90.0 + sweep).to_radians();
+        let model = TipModel::new(&whisker);
+        prop_assert!(model.is_ok(), "{:?}", model.err());
+        let straight = model.unwrap().contact_base(0.0);
+        prop_assert!((straight.x - whisker.shaft.length).abs() <= 1.001 * taper * whisker.shaft.radius);
     }
 }
 

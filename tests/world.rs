@@ -105,7 +105,7 @@ fn base_forces_turn_the_hinge_by_the_lever_of_the_tip() {
     let sample = *samples(&mut world, &Command::STOP, 60).unwrap().last().unwrap();
     let right = sample.whiskers[0];
     let force = Vector2::new(right.axial.unwrap(), right.shear.unwrap());
-    let model = vibrissa::percept::ShaftChain::new(&rig.whiskers[0]);
+    let model = vibrissa::mechanics::ShaftChain::new(&rig.whiskers[0]);
     // The chain bends clockwise; mirror the force to solve it counter-clockwise. What the shaft passes on to the platform is
     // what the object does to its tip.
     let direction = (-force.y).atan2(force.x);

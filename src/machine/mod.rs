@@ -16,6 +16,7 @@ mod senses;
 mod source_map;
 mod stateful;
 mod tick;
+mod tip_model_kind;
 mod verify;
 mod way;
 
@@ -33,4 +34,5 @@ pub use program::{
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{SourceMap, StatePlace};
 pub use tick::{CHAIN_LIMIT, Failure, Machine, Status, Tick};
+pub use tip_model_kind::TipModelKind;
 pub use verify::Unsound;

@@ -8,6 +8,7 @@ use crate::units::{Dimension, format_si};
 
 use super::op::{Block, Op, Register};
 use super::tick::CHAIN_LIMIT;
+use super::tip_model_kind::TipModelKind;
 
 /// The most operations that a program may have.
 pub const CODE_LIMIT: usize = 50_000;
@@ -30,6 +31,8 @@ pub struct Program {
     pub name: String,
     /// The whiskers that the policy binds, by their names in the rig.
     pub whiskers: Vec<String>,
+    /// The tip model of each of them.
+    pub tip_models: Vec<TipModelKind>,
     /// The parameters; the one with index `i` lives in register `i`.
     pub parameters: Vec<Parameter>,
     /// The states; an outer state comes before the states in it.

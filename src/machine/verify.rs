@@ -111,7 +111,19 @@ impl Program {
     /// [`Unsound`] with the first thing that is wrong. No policy that compiles gives such a program.
     pub fn verify(&self) -> Result<(), Unsound> {
         // Taken apart, so that a field that is new is not forgotten.
-        let Self { name, whiskers, parameters, states, initial, always, failsafe: _, code, image, timers: _ } = self;
+        let Self {
+            name,
+            whiskers,
+            tip_models,
+            parameters,
+            states,
+            initial,
+            always,
+            failsafe: _,
+            code,
+            image,
+            timers: _,
+        } = self;
         let transitions = always.len() + states.iter().map(|state| state.transitions.len()).sum::<usize>();
         for (what, count, limit) in [
             ("whiskers", whiskers.len(), MAX_WHISKERS),
@@ -120,6 +132,7 @@ impl Program {
             ("operations", code.len(), CODE_LIMIT),
             ("registers", image.len(), REGISTER_LIMIT),
             ("parameters", parameters.len(), image.len()),
+            ("tip models", tip_models.len(), whiskers.len()),
         ] {
             if count > limit {
                 return Err(Unsound::TooMany { what, count, limit });

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::low_pass::LowPass;
 
 /// The greatest base angle (rad) that is taken for one: no hinge turns farther.
-const GREATEST_ANGLE: f64 = PI;
+pub(super) const GREATEST_ANGLE: f64 = PI;
 
 /// A whisker's deflection: its base angle, filtered, with the readings left out that are none.
 #[derive(Debug, Clone)]

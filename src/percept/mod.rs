@@ -1,15 +1,17 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
-mod chain;
 mod deflection;
 mod local_contour;
 mod low_pass;
 mod perception;
+mod recent_line;
+mod sliding;
 mod tip_model;
+mod tip_table;
 mod whisker;
 
-pub use chain::{Equilibrium, ShaftChain};
 pub use local_contour::LocalContour;
 pub use low_pass::{CutoffError, LowPass};
 pub use perception::{Perception, PerceptionError};
 pub use tip_model::{TipModel, TipModelError};
+pub use tip_table::{TipPlace, TipTable};

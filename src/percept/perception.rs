@@ -1,12 +1,16 @@
 //! Perception as a whole: samples in, senses out.
 
+use std::sync::Arc;
+
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
-use crate::rig::Rig;
+use crate::machine::{BodyScalar, ContourVector, Mark, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use crate::rig::{Rig, Whisker};
 use crate::signal::Sample;
 
 use super::low_pass::{CutoffError, LowPass};
+use super::sliding::Sliding;
 use super::tip_model::{TipModel, TipModelError};
+use super::tip_table::TipTable;
 use super::whisker::PerceivedWhisker;
 
 /// Perception of a rig by the whiskers that a policy binds.
@@ -32,19 +36,34 @@ pub enum PerceptionError {
 }
 
 impl Perception {
-    /// Perception of `rig` by the whiskers with these indices.
+    /// Perception of `rig` by the whiskers with these indices, each by its tip model, or else by the usual one.
     ///
     /// # Errors
     /// [`PerceptionError`] when its mechanics or rates leave no model or filter.
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
-    pub fn new(rig: &Rig, whiskers: &[usize]) -> Result<Self, PerceptionError> {
+    pub fn new(rig: &Rig, whiskers: &[usize], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
         let sensing = &rig.sensing;
-        let perceived = whiskers.iter().map(|&index| {
+        // Whiskers that differ by their place alone have the same table.
+        let mut tables: Vec<(&Whisker, Arc<TipTable>)> = Vec::new();
+        let mut table = |whisker| {
+            let same = |(other, _): &&(&Whisker, _)| bends_alike(other, whisker);
+            if let Some((_, table)) = tables.iter().find(same) {
+                return Arc::clone(table);
+            }
+            let table = Arc::new(TipTable::new(whisker));
+            tables.push((whisker, Arc::clone(&table)));
+            table
+        };
+        let perceived =
+            whiskers.iter().zip(tip_models.iter().copied().chain(std::iter::repeat(TipModelKind::default())));
+        let perceived = perceived.map(|(&index, kind)| {
+            let whisker = &rig.whiskers[index];
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
-            let model = TipModel::with_friction(&rig.whiskers[index], sensing.friction)?;
-            Ok(PerceivedWhisker::new(&rig.whiskers[index], filter, model, sensing))
+            let model = TipModel::with_friction(whisker, sensing.friction)?;
+            let sliding = (kind == TipModelKind::Sliding).then(|| Sliding::new(whisker, table(whisker), sensing));
+            Ok(PerceivedWhisker::new(whisker, filter, model, sliding, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
         Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
@@ -62,7 +81,7 @@ impl Perception {
         self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
-                whisker.deflection.take(sample.whiskers[index].base_angle);
+                whisker.take(sample.whiskers[index].base_angle, sample.body);
             }
             if sample.time.is_finite() {
                 self.time = sample.time;
@@ -98,7 +117,7 @@ impl Perception {
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
-        (whisker.recorded && whisker.touches()).then(|| whisker.tip_world())
+        (whisker.recorded && whisker.is_felt()).then(|| whisker.tip_world())
     }
 
     /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
@@ -154,7 +173,7 @@ impl Senses for Perception {
     }
 
     fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
-        self.whiskers[whisker].model.contact_base(deflection)
+        self.whiskers[whisker].tip_at(deflection)
     }
 
     fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {
@@ -168,4 +187,9 @@ impl Senses for Perception {
     fn mark(&mut self, whisker: usize, mark: Mark) {
         self.whiskers[whisker].mark(mark);
     }
+}
+
+/// Whether two whiskers have the same mechanics.
+fn bends_alike(a: &Whisker, b: &Whisker) -> bool {
+    a.shaft == b.shaft && a.hinge == b.hinge
 }

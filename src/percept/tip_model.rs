@@ -5,9 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 
 use crate::geometry::rotate;
+use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
-
-use super::chain::ShaftChain;
 
 /// A one-channel tip model: from the base angle to the place where the tip touches.
 ///
@@ -61,7 +60,8 @@ pub enum TipModelError {
     },
 }
 
-/// Greatest base moment of the model, in units of `EI / L`; the reference target is 1.6 of them.
+/// Greatest base moment of the model, in units of `EI / L`, of as much less as the shaft tapers; the reference target is 1.6
+/// of them.
 const MOMENT_RANGE: f64 = 6.0;
 /// Steps of the base angle.
 const STEPS: usize = 120;
@@ -93,8 +93,9 @@ impl TipModel {
         let chain = ShaftChain::new(whisker);
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
-        let step = MOMENT_RANGE * shaft.bending_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
+        let step = MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
         let normal = Vector2::new(normal_direction.cos(), normal_direction.sin());
+        let tip_radius = shaft.radius_at(1.0);
 
         let (mut contacts, mut turnings) = (Vec::with_capacity(STEPS + 1), Vec::with_capacity(STEPS + 1));
         let mut solution = chain.straight();
@@ -106,7 +107,7 @@ impl TipModel {
             if index == 1 {
                 guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
                 guess.tip_angle =
-                    guess.force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.bending_stiffness());
+                    guess.force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
             } else if index > 1 {
                 guess.force += solution.force - before.force;
                 guess.tip_angle += solution.tip_angle - before.tip_angle;
@@ -118,11 +119,11 @@ impl TipModel {
                     .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             }
             // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
-            let contact = solution.tip_base - shaft.radius * normal;
+            let contact = solution.tip_base - tip_radius * normal;
             let turned = chain
                 .solve(base_angle, force_direction - TURN, &solution)
                 .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
-            let turned_contact = turned.tip_base - shaft.radius * rotate(normal, -TURN);
+            let turned_contact = turned.tip_base - tip_radius * rotate(normal, -TURN);
             contacts.push(contact);
             turnings.push((turned_contact - contact).norm() / TURN);
         }

@@ -4,9 +4,10 @@ use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::machine::{ContourVector, Mark};
 use crate::rig::{Sensing, Whisker};
 
-use super::deflection::Deflection;
+use super::deflection::{Deflection, GREATEST_ANGLE};
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
+use super::sliding::{Contact, Sliding};
 use super::tip_model::TipModel;
 
 /// One whisker as perceived: where it is, how it bends, what it has touched.
@@ -18,6 +19,7 @@ pub(super) struct PerceivedWhisker {
     pub(super) length: f64,
     pub(super) deflection: Deflection,
     pub(super) model: TipModel,
+    pub(super) sliding: Option<Sliding>,
     contact_threshold: f64,
     /// Standard deviation of the deflection (rad).
     deflection_spread: f64,
@@ -34,7 +36,13 @@ pub(super) struct PerceivedWhisker {
 }
 
 impl PerceivedWhisker {
-    pub(super) fn new(whisker: &Whisker, filter: LowPass, model: TipModel, sensing: &Sensing) -> Self {
+    pub(super) fn new(
+        whisker: &Whisker,
+        filter: LowPass,
+        model: TipModel,
+        sliding: Option<Sliding>,
+        sensing: &Sensing,
+    ) -> Self {
         // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
         let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
         let rounding = sensing.angle_resolution / 12.0_f64.sqrt();
@@ -45,6 +53,7 @@ impl PerceivedWhisker {
             length: whisker.shaft.length,
             deflection: Deflection::new(filter),
             model,
+            sliding,
             contact_threshold: sensing.contact_threshold,
             deflection_spread: noise.hypot(rounding),
             base_world: Point2::origin(),
@@ -60,6 +69,19 @@ impl PerceivedWhisker {
     /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
     pub(super) fn deflection(&self) -> f64 {
         self.deflection.value()
+    }
+
+    /// Takes a base angle (rad), sampled with the platform at `body`.
+    pub(super) fn take(&mut self, base_angle: f64, body: Pose) {
+        self.deflection.take(base_angle);
+        if let Some(sliding) = &mut self.sliding {
+            if base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
+                let position = body.point_to_world(self.base_body.into());
+                sliding.take(base_angle, Pose { position, heading: body.heading + self.direction_body });
+            } else {
+                sliding.interrupt();
+            }
+        }
     }
 
     /// Goes where it is with the platform at `body`.
@@ -86,17 +108,44 @@ impl PerceivedWhisker {
 
     /// Where the tip touches, in the frame of the base (m).
     pub(super) fn tip_base(&self) -> Vector2 {
-        self.model.contact_base(self.deflection())
+        match self.contact() {
+            Some((sliding, contact)) => rotate(sliding.touched(contact) - self.base_world, -self.yaw),
+            None => self.model.contact_base(self.deflection()),
+        }
+    }
+
+    /// Where the tip would touch at another deflection, in the frame of the base (m): the surface turned as it is now, or, where
+    /// nothing is known of it, parallel to the heading.
+    pub(super) fn tip_at(&self, deflection: f64) -> Vector2 {
+        let sliding = self.contact().and_then(|(sliding, contact)| sliding.tip_at(contact, deflection, self.yaw));
+        sliding.unwrap_or_else(|| self.model.contact_base(deflection))
+    }
+
+    /// The contact of the tip, if it slides and the tick has brought a valid reading.
+    fn contact(&self) -> Option<(&Sliding, &Contact)> {
+        let sliding = self.sliding.as_ref()?;
+        if self.deflection().is_nan() { None } else { Some((sliding, sliding.contact()?)) }
+    }
+
+    /// Whether the whisker touches what can be told: with a tip that slides, if that is how it is perceived.
+    pub(super) fn is_felt(&self) -> bool {
+        self.touches() && (self.sliding.is_none() || self.contact().is_some())
     }
 
     /// Where the tip touches, in the world frame (m).
     pub(super) fn tip_world(&self) -> Point2 {
-        self.base_world + rotate(self.tip_base(), self.yaw)
+        match self.contact() {
+            Some((sliding, contact)) => sliding.touched(contact),
+            None => self.base_world + rotate(self.tip_base(), self.yaw),
+        }
     }
 
     /// How far off the tip may be (m): a standard deviation.
     pub(super) fn tip_spread(&self) -> f64 {
-        self.model.spread(self.deflection(), self.deflection_spread)
+        match self.contact() {
+            Some((_, contact)) => contact.place_spread(),
+            None => self.model.spread(self.deflection(), self.deflection_spread),
+        }
     }
 
     /// A vector of the contour (world frame) at the distance `back` (m) behind its end, once it is ready.
@@ -123,7 +172,7 @@ impl PerceivedWhisker {
         }
         self.recorded = true;
         let tip_world = self.tip_world();
-        if self.touches() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
+        if self.is_felt() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
             self.contour.add(tip_world);
             self.recorded_from = self.base_world;
         }

@@ -17,6 +17,8 @@ pub(super) struct File {
     pub(super) is_library: bool,
     pub(super) uses: Vec<Use>,
     pub(super) whiskers: Vec<Name>,
+    /// For each whisker, the tip model behind `by`.
+    pub(super) tip_models: Vec<Option<Name>>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,

@@ -31,6 +31,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         is_library: false,
         uses: Vec::new(),
         whiskers: Vec::new(),
+        tip_models: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -50,6 +51,9 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::whiskers => {
                 reader.take(Rule::kw_whisker)?;
                 file.whiskers.extend(reader.names()?);
+                let model =
+                    if reader.has(Rule::model) { Some(Reader::new(reader.take(Rule::model)?).name()?) } else { None };
+                file.tip_models.resize(file.whiskers.len(), model);
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),

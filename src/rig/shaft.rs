@@ -1,12 +1,14 @@
 //! An elastic shaft.
 
-/// An elastic shaft of round wire, straight at rest.
+/// An elastic shaft of round wire, straight at rest, as thick all along or evenly thinner towards the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
     /// Length from the base to the tip (m).
     pub length: f64,
-    /// Radius of the wire (m).
+    /// Radius of the wire (m), at the base if it tapers.
     pub radius: f64,
+    /// Radius at the tip (m), above 0 and at most `radius`, if the wire tapers.
+    pub tip_radius: Option<f64>,
     /// Density (kg/m³).
     pub density: f64,
     /// Young's modulus (Pa).
@@ -18,10 +20,35 @@ pub struct Shaft {
 }
 
 impl Shaft {
-    /// Bending stiffness `E I` (N m²) of the round wire, `I = π r⁴ / 4`.
+    /// Radius at the tip over that at the base.
+    #[must_use]
+    pub fn taper(&self) -> f64 {
+        self.tip_radius.map_or(1.0, |tip_radius| tip_radius / self.radius)
+    }
+
+    /// Radius (m) at a share of the length, 0 at the base and 1 at the tip.
+    #[must_use]
+    pub fn radius_at(&self, share: f64) -> f64 {
+        self.radius * self.thickness(share)
+    }
+
+    /// The radius at a share of the length, over that at the base.
+    fn thickness(&self, share: f64) -> f64 {
+        1.0 + (self.taper() - 1.0) * share
+    }
+
+    /// Bending stiffness `E I` (N m²) of the round wire at the base, `I = π r⁴ / 4`.
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
         self.young_modulus * std::f64::consts::FRAC_PI_4 * self.radius.powi(4)
+    }
+
+    /// Bending stiffness (N m²) of the uniform shaft whose tip turns as far under a small force there. For the taper `q` the
+    /// tip turns by `M L / (E I) (1 + 2 q) / (6 q²)` under a base moment `M`.
+    #[must_use]
+    pub fn tip_stiffness(&self) -> f64 {
+        let taper = self.taper();
+        self.bending_stiffness() * (3.0 * taper * taper / (1.0 + 2.0 * taper))
     }
 
     /// Length of one link (m).
@@ -30,25 +57,48 @@ impl Shaft {
         self.length / self.links as f64
     }
 
-    /// Mass of one link (kg).
+    /// Mass of a link (kg), counted from 0 at the root: that of the wire, which is a frustum of a cone there.
     #[must_use]
-    pub fn link_mass(&self) -> f64 {
-        self.density * std::f64::consts::PI * self.radius.powi(2) * self.link_length()
+    pub fn link_mass(&self, link: usize) -> f64 {
+        let [a, b] = [link, link + 1].map(|end| self.thickness(end as f64 / self.links as f64));
+        let uniform = self.density * std::f64::consts::PI * self.radius.powi(2) * self.link_length();
+        uniform * ((a * a + a * b + b * b) / 3.0)
+    }
+
+    /// Mean radius of a link (m), counted from 0 at the root.
+    #[must_use]
+    pub fn link_radius(&self, link: usize) -> f64 {
+        self.radius_at((link as f64 + 0.5) / self.links as f64)
     }
 
     /// Stiffness of every joint between links (N m/rad), from the root to the tip.
     ///
-    /// The trapezoid rule for the bending energy: `EI / l` at a joint between two links of length `l`, and `2 EI / l` at the
-    /// root, where only half a link's length bends.
+    /// The trapezoid rule for the bending energy: a joint bends as much as the two half links about it, `EI / l` for links
+    /// of length `l`, and `2 EI / l` at the root, where only half a link bends. Where the wire tapers, it is `1 / EI` over the
+    /// two half links that counts.
     pub fn joint_stiffnesses(&self) -> impl Iterator<Item = f64> {
         let between = self.bending_stiffness() / self.link_length();
-        (0..self.links).map(move |joint| if joint == 0 { 2.0 * between } else { between })
+        (0..self.links).map(move |joint| {
+            let [a, b] =
+                [(joint as f64 - 0.5).max(0.0), joint as f64 + 0.5].map(|end| self.thickness(end / self.links as f64));
+            // The mean of 1 / r⁴ along a frustum, for radii over that at the base.
+            let softness = (a * a + a * b + b * b) / (3.0 * (a * b).powi(3));
+            if joint == 0 { 2.0 * between / softness } else { between / softness }
+        })
     }
 }
 
 impl Default for Shaft {
     fn default() -> Self {
-        Self { length: 0.1, radius: 0.125e-3, density: 6450.0, young_modulus: 100e9, damping: 1e-3, links: 16 }
+        Self {
+            length: 0.1,
+            radius: 0.125e-3,
+            tip_radius: None,
+            density: 6450.0,
+            young_modulus: 100e9,
+            damping: 1e-3,
+            links: 16,
+        }
     }
 }
 
@@ -56,20 +106,45 @@ impl Default for Shaft {
 mod tests {
     use super::*;
 
+    /// Shafts that are as thick all along, taper, and end in almost nothing.
+    fn shafts() -> impl Iterator<Item = Shaft> {
+        let tips = [None, Some(0.125e-3), Some(0.06e-3), Some(0.01e-3)];
+        let shaft = |tip_radius, links| Shaft { tip_radius, links, ..Shaft::default() };
+        tips.into_iter().flat_map(move |tip_radius| [1, 2, 7, 16].map(|links| shaft(tip_radius, links)))
+    }
+
+    /// The integral of a function of the radius along the shaft, from the base to a share of the length: the midpoint rule.
+    fn integral(shaft: &Shaft, to: f64, of: impl Fn(f64) -> f64) -> f64 {
+        let width = to / 1e5;
+        (0..100_000).map(|index| of(shaft.radius_at((f64::from(index) + 0.5) * width)) * width * shaft.length).sum()
+    }
+
     #[test]
     fn the_joints_bend_as_much_as_the_shaft_but_for_the_last_half_link() {
-        for links in [1, 2, 7, 16] {
-            let shaft = Shaft { links, ..Shaft::default() };
+        for shaft in shafts() {
             let compliance: f64 = shaft.joint_stiffnesses().map(f64::recip).sum();
-            let bending = (shaft.length - 0.5 * shaft.link_length()) / shaft.bending_stiffness();
-            assert!((compliance / bending - 1.0).abs() < 1e-12);
+            let stiffness = |radius: f64| shaft.bending_stiffness() * (radius / shaft.radius).powi(4);
+            let bending = integral(&shaft, 1.0 - 0.5 / shaft.links as f64, |radius| stiffness(radius).recip());
+            assert!((compliance / bending - 1.0).abs() < 1e-6, "{shaft:?}");
         }
     }
 
     #[test]
     fn the_links_weigh_as_much_as_the_wire() {
-        let shaft = Shaft::default();
-        let mass = shaft.links as f64 * shaft.link_mass();
-        assert!((mass - 6450.0 * std::f64::consts::PI * 0.125e-3_f64.powi(2) * 0.1).abs() < 1e-15);
+        for shaft in shafts() {
+            let mass: f64 = (0..shaft.links).map(|link| shaft.link_mass(link)).sum();
+            let wire = integral(&shaft, 1.0, |radius| shaft.density * std::f64::consts::PI * radius * radius);
+            assert!((mass / wire - 1.0).abs() < 1e-6, "{shaft:?}");
+        }
+    }
+
+    #[test]
+    fn a_taper_to_the_same_radius_is_none() {
+        let shaft = Shaft { tip_radius: Some(0.125e-3), ..Shaft::default() };
+        assert!(shaft.joint_stiffnesses().eq(Shaft::default().joint_stiffnesses()));
+        for link in 0..shaft.links {
+            assert_eq!(shaft.link_mass(link).to_bits(), Shaft::default().link_mass(link).to_bits());
+            assert_eq!(shaft.link_radius(link).to_bits(), shaft.radius.to_bits());
+        }
     }
 }

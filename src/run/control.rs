@@ -35,7 +35,7 @@ impl Control {
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.indices(&program.whiskers)?;
         Ok(Self {
-            perception: Perception::new(rig, &whiskers)?,
+            perception: Perception::new(rig, &whiskers, &program.tip_models)?,
             steering: Steering::new(rig, &whiskers),
             machine: Machine::new(program),
         })

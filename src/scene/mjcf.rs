@@ -3,7 +3,7 @@
 //! The platform is one body on two slides and a hinge, driven by velocity servos. Every whisker is a chain of rigid links on
 //! planar hinges whose springs stand for the shaft's bending stiffness. The springs follow the trapezoid rule: `EI / l`
 //! between two links of length `l`, and twice that at the root, where only half a link bends; sixteen links then come within
-//! 0.1 % of the elastica's base moment.
+//! 0.1 % of the elastica's base moment. Where the wire tapers, each link is as thick as it is in its middle.
 
 use std::fmt::{self, Write};
 
@@ -130,8 +130,6 @@ fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts) -> fmt::Resul
 fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result {
     let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
     let length = shaft.link_length();
-    let mass = shaft.link_mass();
-    let inertia = link_inertia(shaft);
     // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
     writeln!(
         xml,
@@ -148,6 +146,7 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result
     writeln!(xml, r#"        <site name="{name}"/>"#)?;
     for (link, stiffness) in shaft.joint_stiffnesses().enumerate() {
         let at = if link == 0 { 0.0 } else { length };
+        let (mass, inertia) = (shaft.link_mass(link), link_inertia(shaft, link));
         writeln!(
             xml,
             r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
@@ -161,18 +160,18 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result
         writeln!(
             xml,
             r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" {mask}/>"#,
-            shaft.radius
+            shaft.link_radius(link)
         )?;
     }
     writeln!(xml, "      {}</body>", "</body>".repeat(shaft.links))
 }
 
-/// The moment of inertia (kg m²) of one link about an axis across it, through its middle: that of a slender rod, `m l² / 12`.
+/// The moment of inertia (kg m²) of a link about an axis across it, through its middle: that of a slender rod, `m l² / 12`.
 ///
 /// The model has the same about every axis: a link turns about the vertical alone, and a thin wire's inertia about its own
 /// axis would be below [`LEAST_INERTIA`].
-pub(super) fn link_inertia(shaft: &Shaft) -> f64 {
-    shaft.link_mass() * shaft.link_length().powi(2) / 12.0
+pub(super) fn link_inertia(shaft: &Shaft, link: usize) -> f64 {
+    shaft.link_mass(link) * shaft.link_length().powi(2) / 12.0
 }
 
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
@@ -227,6 +226,22 @@ mod tests {
             names.sort_unstable();
             names.dedup();
             assert_eq!(names.len(), count, "{element}: {names:?}");
+        }
+    }
+
+    #[test]
+    fn a_tapered_whisker_gets_thinner_lighter_and_softer_from_link_to_link() {
+        let mut rig = Rig::default();
+        rig.whiskers.truncate(1);
+        rig.whiskers[0].shaft.tip_radius = Some(0.025e-3);
+        let xml = mjcf(&rig, &[], Pose::default());
+        for (element, attribute) in
+            [("<geom name=\"r0.", "size"), ("<inertial pos=\"0.003", "mass"), ("<joint name=\"r0.", "stiffness")]
+        {
+            let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
+            let values: Vec<f64> = values(&tags, attribute).iter().map(|value| value.parse().unwrap()).collect();
+            assert_eq!(values.len(), 16, "{element}");
+            assert!(values.windows(2).all(|pair| pair[1] < pair[0]), "{element}: {values:?}");
         }
     }
 

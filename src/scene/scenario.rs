@@ -163,8 +163,8 @@ mod tests {
      speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
-      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, density: 6 g/cm^3, young_modulus: 7 GPa,
-       damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
+      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, tip_radius: 20 um, density: 6 g/cm^3,
+       young_modulus: 7 GPa, damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
      angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
@@ -185,7 +185,15 @@ mod tests {
                 name: "a".to_owned(),
                 base_body: Point2::new(0.001, 0.002),
                 direction_body: 3.0,
-                shaft: Shaft { length: 0.04, radius: 5e-5, density: 6e3, young_modulus: 7e9, damping: 8e-3, links: 9 },
+                shaft: Shaft {
+                    length: 0.04,
+                    radius: 5e-5,
+                    tip_radius: Some(2e-5),
+                    density: 6e3,
+                    young_modulus: 7e9,
+                    damping: 8e-3,
+                    links: 9,
+                },
                 hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
             }],
             physics: Physics {

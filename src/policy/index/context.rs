@@ -175,8 +175,8 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
 
 fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
-        "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
-        | "test" => Expected::Nothing,
+        "machine" | "library" | "whisker" | "by" | "param" | "law" | "state" | "let" | "var" | "in" | "entry"
+        | "exit" | "test" => Expected::Nothing,
         "initial" => Expected::Initial,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,

@@ -74,7 +74,7 @@ const TARGET: &[Place] = &[Place::Target];
 const MARK: &[Place] = &[Place::Mark];
 
 /// Every word of the language that is no function.
-pub(super) const WORDS: [Word; 47] = [
+pub(super) const WORDS: [Word; 48] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
     entry(
@@ -84,6 +84,12 @@ pub(super) const WORDS: [Word; 47] = [
         "Makes laws and derived values of another file known: all, or those in parentheses behind it.",
     ),
     entry("whisker", ITEM, "whisker ${1:name}", "Binds whiskers of the rig by name."),
+    entry(
+        "by",
+        INSIDE,
+        "by ${1:sliding}",
+        "The tip model by which whiskers are perceived: `sliding` or `one_channel`.",
+    ),
     entry(
         "param",
         ITEM,

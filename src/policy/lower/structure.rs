@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::{self, Block, NESTING_LIMIT, Op, Program};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
+use crate::policy::hint::did_you_mean;
 use crate::policy::load::Files;
 use crate::policy::types::{Type, Value};
 use crate::signal::MAX_WHISKERS;
@@ -53,6 +54,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let failsafe = compiler.failsafe(&Scope::default(), None, &file.failsafes);
     let states = compiler.states(file, declared, &mut timers);
     let initial = compiler.initial(file);
+    let tip_models = compiler.tip_models(file);
     compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
 
@@ -60,6 +62,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     Some(Program {
         name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
+        tip_models,
         parameters,
         states,
         initial: initial?,
@@ -111,6 +114,29 @@ impl<'f> Compiler<'f> {
             let register = self.code.constant(index as f64);
             self.names_mut().globals.insert(&whisker.text, Some(Value { r#type: Type::Whisker, register }));
         }
+    }
+
+    /// The tip model of every whisker.
+    fn tip_models(&mut self, file: &'f File) -> Vec<machine::TipModelKind> {
+        let mut kinds = Vec::with_capacity(file.whiskers.len());
+        let mut faulty = None;
+        for model in &file.tip_models {
+            let kind = model
+                .as_ref()
+                .map_or(Some(machine::TipModelKind::default()), |name| machine::TipModelKind::named(&name.text));
+            if let (None, Some(name)) = (kind, model)
+                && faulty != Some(name.span)
+            {
+                faulty = Some(name.span);
+                let message = format!("there is no tip model `{}`", name.text);
+                let known = machine::TipModelKind::ALL.map(machine::TipModelKind::name);
+                let list = known.map(|name| format!("`{name}`")).join(" and ");
+                let diagnostic = Diagnostic::error("P0414", message, name.span, "is none");
+                self.report(did_you_mean(diagnostic, &name.text, known).hint(format!("tip models are {list}")));
+            }
+            kinds.push(kind.unwrap_or_default());
+        }
+        kinds
     }
 
     /// Checks derived values by themselves.

@@ -95,6 +95,7 @@ fn is_marker(rule: Rule) -> bool {
         Rule::kw_machine
             | Rule::kw_library
             | Rule::kw_use
+            | Rule::kw_by
             | Rule::kw_param
             | Rule::kw_initial
             | Rule::kw_let

@@ -18,6 +18,7 @@ const DIRECTION: Key = Key::new("direction", Dimension::ANGLE, (-PI, PI), "105 d
 
 const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 1.0), "100 mm");
 const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-6, 1e-2), "0.125 mm");
+const TIP_RADIUS: Key = Key::new("tip_radius", Dimension::LENGTH, (1e-6, 1e-2), "0.05 mm");
 const DENSITY: Key = Key::new("density", Dimension::DENSITY, (1.0, 1e5), "6450 kg/m^3");
 const YOUNG_MODULUS: Key = Key::new("young_modulus", Dimension::PRESSURE, (1e3, 1e13), "100 GPa");
 const DAMPING: Key = Key::new("damping", Dimension::TIME, (0.0, 1.0), "1 ms");
@@ -106,6 +107,9 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, place: Span) -> Shaft
     let mut shaft = Shaft::default();
     fields.set(reader, &LENGTH, &mut shaft.length);
     fields.set(reader, &RADIUS, &mut shaft.radius);
+    let mut tip_radius = 0.0;
+    let tip = fields.set(reader, &TIP_RADIUS, &mut tip_radius);
+    shaft.tip_radius = tip.map(|_| tip_radius);
     fields.set(reader, &DENSITY, &mut shaft.density);
     fields.set(reader, &YOUNG_MODULUS, &mut shaft.young_modulus);
     fields.set(reader, &DAMPING, &mut shaft.damping);
@@ -115,15 +119,27 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, place: Span) -> Shaft
         shaft.links = links;
     }
     if reader.fault_count() == fault_count {
-        check_inertia(reader, &shaft, place);
+        match tip {
+            Some(tip) if tip_radius > shaft.radius => reader.report(thick_tip(&shaft, tip_radius, tip)),
+            _ => check_inertia(reader, &shaft, place),
+        }
     }
     shaft
 }
 
-/// Checks that a link's moment of inertia is one that the simulator takes. Its mass is then too: no link is longer than
+/// The fault of a tip that is thicker than the base.
+fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
+    let millimetres = |radius| format_si(radius, Dimension::LENGTH);
+    let label = format!("at the base the radius is {}", millimetres(shaft.radius));
+    let message = format!("the shaft is thicker at the tip: {}", millimetres(tip_radius));
+    Diagnostic::error(fault::RIG, message, place, label)
+        .hint("give a `tip_radius` up to `radius`, or none for a wire that is as thick all along")
+}
+
+/// Checks that the last, lightest link's moment of inertia is one that the simulator takes. Its mass is then too: no link is longer than
 /// 250 mm, so that one that is too light is too easy to turn as well.
 fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
-    let inertia = link_inertia(shaft);
+    let inertia = link_inertia(shaft, shaft.links - 1);
     if inertia >= LEAST_INERTIA {
         return;
     }

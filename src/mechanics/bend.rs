@@ -1,0 +1,46 @@
+//! The shape of a shaft that a force bends.
+
+use nalgebra::Vector2;
+
+/// The equilibrium of a whisker's shaft under a force at one point.
+///
+/// The frame is that of the whisker's base: origin at the base, first axis along the undeflected shaft, second axis to its
+/// left. Places are those of the wire's axis; what touches is its radius away, against the force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Angle of the base hinge (rad).
+    pub base_angle: f64,
+    /// Force across the shaft at the base (N), positive to the left of the shaft as it stands there.
+    pub shear: f64,
+    /// Force along the shaft at the base (N), positive towards the tip.
+    pub axial: f64,
+    /// Length of the shaft from the base to where the force is (m).
+    pub contact_length: f64,
+    /// Where the force is (m).
+    pub contact_base: Vector2<f64>,
+    /// Magnitude of the force (N).
+    pub force: f64,
+    /// Direction of the force (rad).
+    pub force_direction: f64,
+    /// Place of the tip's centre (m).
+    pub tip_base: Vector2<f64>,
+    /// Direction of the shaft at the tip (rad), and all the way from the force on.
+    pub tip_angle: f64,
+}
+
+impl Bend {
+    /// The mirror image, which bends to the other side.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mirror = |place: Vector2<f64>| Vector2::new(place.x, -place.y);
+        Self {
+            base_angle: -self.base_angle,
+            shear: -self.shear,
+            contact_base: mirror(self.contact_base),
+            force_direction: -self.force_direction,
+            tip_base: mirror(self.tip_base),
+            tip_angle: -self.tip_angle,
+            ..*self
+        }
+    }
+}

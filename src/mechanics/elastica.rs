@@ -1,0 +1,192 @@
+//! The planar elastica: a whisker's shaft as the exact theory of bending has it.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Matrix2, Vector2};
+
+use crate::geometry::{rotate, unit, wrap};
+use crate::rig::Whisker;
+
+use super::bend::Bend;
+use super::follow::follow;
+use super::newton::{self, Residual};
+use super::shot::{Load, Shot};
+
+/// A whisker's shaft as a planar elastica on its base hinge: inextensible, bent by `M = EI θ'` however far, without mass.
+///
+/// One force bends it, at the tip or anywhere on the shaft; from there on the shaft is straight. What is solved is exact to
+/// 1e-9 of the length. Of several shapes in balance under one force it takes those that bend to one side all along.
+///
+/// The equations and their closed solutions for a uniform shaft: Love, A Treatise on the Mathematical Theory of Elasticity
+/// (1927), chapter XIX; Bisshopp and Drucker, Quarterly of Applied Mathematics 3 (1945), 272.
+#[derive(Debug, Clone)]
+pub struct Elastica {
+    /// Length (m).
+    pub(super) length: f64,
+    /// The unit of force (N): `EI / L²`.
+    pub(super) force_unit: f64,
+    /// The base angle (rad) that a base moment of `EI / L` makes.
+    pub(super) hinge_compliance: f64,
+    /// Radius at the tip over that at the base.
+    pub(super) taper: f64,
+}
+
+/// What a solution is to have, in the units of [`Load`].
+#[derive(Debug, Clone, Copy)]
+struct Aim {
+    contact: f64,
+    /// Bending moment at the base.
+    moment: f64,
+    /// Direction of the force in the frame of the base (rad).
+    direction: f64,
+}
+
+/// How far a step of Newton's method may change an angle (rad) or the force.
+const REACH: f64 = 0.5;
+/// A direction of the force (rad) in which it surely bends a straight shaft to the left.
+const SIDEWAYS: f64 = 2.0;
+
+impl Elastica {
+    /// The elastica of `whisker`.
+    #[must_use]
+    pub fn new(whisker: &Whisker) -> Self {
+        let (length, stiffness) = (whisker.shaft.length, whisker.shaft.bending_stiffness());
+        Self {
+            length,
+            force_unit: stiffness / length.powi(2),
+            hinge_compliance: stiffness / length / whisker.hinge.stiffness,
+            taper: whisker.shaft.taper(),
+        }
+    }
+
+    /// The straight shaft.
+    #[must_use]
+    pub fn straight(&self) -> Bend {
+        self.unbent(self.length, FRAC_PI_2)
+    }
+
+    /// The straight shaft under no force at a length (m), in a direction (rad).
+    fn unbent(&self, contact_length: f64, force_direction: f64) -> Bend {
+        Bend {
+            base_angle: 0.0,
+            shear: 0.0,
+            axial: 0.0,
+            contact_length,
+            contact_base: Vector2::new(contact_length, 0.0),
+            force: 0.0,
+            force_direction,
+            tip_base: Vector2::new(self.length, 0.0),
+            tip_angle: 0.0,
+        }
+    }
+
+    /// The shape under a force of magnitude `force` (N) at the length `contact_length` (m), in a direction counted from that
+    /// of the shaft where the force is (`force_angle`, rad): π/2 for a force square to the shaft that bends it to the left.
+    /// `None` if it does not bend the shaft to one side all along.
+    ///
+    /// There is nothing to be solved for: the shape follows from the force.
+    #[must_use]
+    pub fn under(&self, contact_length: f64, force_angle: f64, force: f64) -> Option<Bend> {
+        let load = Load { contact: contact_length / self.length, angle: force_angle, force: force / self.force_unit };
+        if load.angle < 0.0 {
+            return self.under(contact_length, -force_angle, force).map(|bend| bend.mirrored());
+        }
+        self.bend(&load, &Shot::of(&load, self.taper)?)
+    }
+
+    /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the tip in the direction
+    /// `force_direction` (rad, frame of the base); see [`solve_at`](Self::solve_at).
+    #[must_use]
+    pub fn solve_tip(&self, base_angle: f64, force_direction: f64, guess: &Bend) -> Option<Bend> {
+        self.solve_at(self.length, base_angle, force_direction, guess)
+    }
+
+    /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the length `contact_length` (m, above
+    /// 0, to the tip at most) in the direction `force_direction` (rad, frame of the base).
+    ///
+    /// It is sought from `guess` on, in as many steps as that takes; the [`straight`](Self::straight) shaft is a guess for
+    /// all directions up to π, and beyond for some. `None` if none is found.
+    #[must_use]
+    pub fn solve_at(&self, contact_length: f64, base_angle: f64, force_direction: f64, guess: &Bend) -> Option<Bend> {
+        if base_angle < 0.0 {
+            return self
+                .solve_at(contact_length, -base_angle, -force_direction, &guess.mirrored())
+                .map(|bend| bend.mirrored());
+        }
+        if base_angle == 0.0 {
+            return Some(self.unbent(contact_length, force_direction));
+        }
+        let aim = Aim {
+            contact: contact_length / self.length,
+            moment: base_angle / self.hinge_compliance,
+            direction: force_direction,
+        };
+        // A guess that does not bend, or to the other side, says nothing.
+        let start = if guess.base_angle > 0.0 {
+            Bend { force_direction: force_direction + wrap(guess.force_direction - force_direction), ..*guess }
+        } else {
+            // Towards the head of the shaft a small force does not bend it, and turns there once it does.
+            self.unbent(contact_length, force_direction.min(SIDEWAYS))
+        };
+        let from = Aim {
+            contact: start.contact_length / self.length,
+            moment: start.base_angle / self.hinge_compliance,
+            direction: start.force_direction,
+        };
+        follow(start, |share, near| self.balance(&from.towards(&aim, share), near)).ok()
+    }
+
+    /// The equilibrium that meets an aim, from a neighbouring one on.
+    fn balance(&self, aim: &Aim, near: &Bend) -> Option<Bend> {
+        let guess = Vector2::new(near.force_direction - near.tip_angle, near.force / self.force_unit);
+        let load = |unknowns: Vector2<f64>| Load { contact: aim.contact, angle: unknowns.x, force: unknowns.y };
+        let solution = newton::solve(guess, REACH, |unknowns| {
+            let load = load(unknowns);
+            let Shot { root, moment, .. } = Shot::of(&load, self.taper)?;
+            let direction = self.hinge_compliance * aim.moment - root.value + load.angle;
+            Some(Residual {
+                value: Vector2::new(direction - aim.direction, moment.value - aim.moment),
+                slope: Matrix2::new(1.0 - root.by_angle, -root.by_force, moment.by_angle, moment.by_force),
+            })
+        })?;
+        let load = load(solution);
+        self.bend(&load, &Shot::of(&load, self.taper)?)
+    }
+
+    /// The shape under a load, in the whisker's units; `None` if it does not bend to the left all along.
+    pub(super) fn bend(&self, load: &Load, shot: &Shot) -> Option<Bend> {
+        if !shot.bends_left || load.force <= 0.0 {
+            return None;
+        }
+        let base_angle = self.hinge_compliance * shot.moment.value;
+        let tip_angle = base_angle - shot.root.value;
+        let force = load.force * self.force_unit;
+        let (across, along) = (load.angle - shot.root.value).sin_cos();
+        let contact_base = -self.length * rotate(shot.base, tip_angle);
+        let beyond = self.length * (1.0 - load.contact);
+        Some(Bend {
+            base_angle,
+            shear: force * across,
+            axial: force * along,
+            contact_length: load.contact * self.length,
+            contact_base,
+            force,
+            force_direction: load.angle + tip_angle,
+            tip_base: contact_base + beyond * unit(tip_angle),
+            tip_angle,
+        })
+    }
+}
+
+impl Aim {
+    /// The aim at a share of the way to another.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        // Exact at the end, where the force may be just at the tip.
+        let between = |from: f64, to: f64| (1.0 - share) * from + share * to;
+        Self {
+            contact: between(self.contact, other.contact),
+            moment: between(self.moment, other.moment),
+            direction: between(self.direction, other.direction),
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! The contact of a tip that slides along a surface.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use nalgebra::{Matrix2, RowVector2, Vector2 as Column};
+
+use crate::geometry::{Point2, Pose, Vector2, perpendicular, rotate, unit};
+use crate::rig::{Sensing, Whisker};
+
+use super::recent_line::RecentLine;
+use super::tip_table::{TipPlace, TipTable};
+
+/// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
+///
+/// A base angle alone leaves the tip's place open by the direction of the contact force. But a tip slides where the surface goes, and
+/// the surface is square to the force: so what is estimated, from reading to reading, is the place and the surface's direction
+/// together, by an extended Kalman filter. Its errors fade while the tip slides, by a factor e for every 10 mm or so: that is by how
+/// much the place moves along the normal when the direction turns by one radian. At a light touch the place hardly
+/// depends on the direction, so that little is wrong to begin with.
+///
+/// Readings that do not go together with sliding, as when a tip springs off an edge, are left out; when the whisker has come to rest, it is
+/// taken to touch what goes on from where the tip left, if it can be.
+#[derive(Debug, Clone)]
+pub(super) struct Sliding {
+    table: Arc<TipTable>,
+    tip_radius: f64,
+    length: f64,
+    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a counter-clockwise bend.
+    usual_normal: f64,
+    /// By how much friction turns the force from the normal (rad).
+    friction_angle: f64,
+    /// Time by which the base angle is behind the base moment (s): the hinge's damping over its stiffness.
+    delay: f64,
+    line: RecentLine,
+    /// Standard deviation of the base angle in equilibrium (rad).
+    angle_spread: f64,
+    contact_threshold: f64,
+    /// Samples for which the base angle must have been calm before a contact is estimated anew.
+    calm_samples: usize,
+    /// For how many samples it has been.
+    calm_for: usize,
+    state: State,
+    /// Where the base was (m, world frame), and the undeflected shaft's direction (rad), one sample before.
+    base_before: Option<(Point2, f64)>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum State {
+    Free,
+    /// Touching, but not sliding; with where the tip slid last, if it did.
+    Unsettled {
+        left: Option<Point2>,
+        bend: f64,
+    },
+    Settled(Contact),
+}
+
+/// The contact of a sliding tip.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contact {
+    /// Which way the whisker is bent: +1 counter-clockwise, −1 clockwise.
+    bend: f64,
+    /// The tip's centre (m, world frame), and where it was one, two and three samples before.
+    centre: Point2,
+    before: [Point2; 3],
+    /// Direction of the surface's normal (rad, world frame), which points to the whisker's side.
+    normal: f64,
+    /// Of the normal's direction (rad) and the centre's place along the normal (m).
+    covariance: Matrix2<f64>,
+}
+
+/// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
+const MODEL_SPREAD: f64 = 3e-7;
+/// The spread of the base angle (rad) that is worth a longer line through the readings.
+const WANTED_SPREAD: f64 = 4.5e-7;
+/// Variance of a surface's direction for every way along it (rad²/m): a bend of 0.1 rad within 10 mm.
+const BENDING: f64 = 1.0;
+/// The same for every sample (rad²): what keeps the filter from being sure for ever.
+const UNREST: f64 = 1e-9;
+/// Standard deviation (rad) of a surface's direction at the first touch.
+const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
+/// The same behind an edge, where a surface may go anywhere.
+const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
+/// Standard deviation of a centre's place at a light touch (m).
+const FIRST_PLACE: f64 = 2e-5;
+/// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
+const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
+/// An innovation farther off than this many standard deviations is not sliding.
+const GATE: f64 = 4.0;
+/// A base angle that changes faster (rad/s) is that of a whisker in free motion.
+const CALM_RATE: f64 = 6e-4;
+/// Time (s) for which it must have been slower.
+const CALM_TIME: f64 = 0.02;
+
+impl Sliding {
+    pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
+        let period = sensing.sample_rate.recip();
+        let delay = whisker.hinge.damping / whisker.hinge.stiffness;
+        let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
+        let line = RecentLine::new(period, delay, noise, WANTED_SPREAD);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
+        Self {
+            table,
+            tip_radius: whisker.shaft.radius_at(1.0),
+            length: whisker.shaft.length,
+            usual_normal: PI - (whisker.direction_body.abs() - FRAC_PI_2).abs(),
+            friction_angle: sensing.friction.atan(),
+            delay,
+            angle_spread: MODEL_SPREAD.hypot(noise * line.noise_gain(delay)),
+            line,
+            contact_threshold: sensing.contact_threshold,
+            calm_samples,
+            calm_for: 0,
+            state: State::Free,
+            base_before: None,
+        }
+    }
+
+    /// The contact, while the tip slides.
+    pub(super) fn contact(&self) -> Option<&Contact> {
+        if let State::Settled(contact) = &self.state { Some(contact) } else { None }
+    }
+
+    /// Where the surface is touched (m, world frame).
+    pub(super) fn touched(&self, contact: &Contact) -> Point2 {
+        contact.centre - self.tip_radius * unit(contact.normal)
+    }
+
+    /// Where a surface that is turned as the one touched would be touched (m, frame of the base) at another base angle (rad), by a
+    /// whisker with its undeflected shaft in the direction `yaw` (rad); `None` where the model does not reach.
+    pub(super) fn tip_at(&self, contact: &Contact, base_angle: f64, yaw: f64) -> Option<Vector2> {
+        let bend = base_angle.signum();
+        // On the other side of the shaft it would be the mirror image.
+        let normal = contact.bend * (contact.normal - yaw);
+        let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
+        let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
+        Some(Vector2::new(tip.x, bend * tip.y))
+    }
+
+    /// Takes a base angle (rad), as sampled with the whisker's base at `base`: its place, and the direction of the undeflected shaft.
+    pub(super) fn take(&mut self, base_angle: f64, base: Pose) {
+        self.line.take(base_angle);
+        let slope = self.line.slope();
+        self.calm_for = if slope.abs() < CALM_RATE { self.calm_for + 1 } else { 0 };
+        let angle = self.line.value(self.delay);
+        let bend = angle.signum();
+        let way = self.base_before.map_or(0.0, |(place, heading)| {
+            (base.position - place).norm() + self.length * (base.heading - heading).abs()
+        });
+        self.base_before = Some((base.position, base.heading));
+        if angle.abs() < self.contact_threshold {
+            self.state = State::Free;
+            return;
+        }
+        self.state = match self.state {
+            State::Free if self.calm_for > 0 => self.first(angle, base),
+            State::Settled(contact) if contact.bend == bend => self.slide(&contact, angle, base, way),
+            State::Unsettled { left, bend: before } if before == bend => {
+                if self.calm_for < self.calm_samples {
+                    State::Unsettled { left, bend }
+                } else {
+                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
+                }
+            }
+            _ => State::Unsettled { left: None, bend },
+        };
+    }
+
+    /// Forgets what is before a gap in the readings.
+    pub(super) fn interrupt(&mut self) {
+        self.line.clear();
+        self.calm_for = 0;
+        self.base_before = None;
+        self.state = State::Free;
+    }
+
+    /// Where the tip's centre is (m, world frame), with its changes, on a surface whose normal has a direction (rad, world frame).
+    fn tip(&self, angle: f64, base: Pose, normal: f64) -> Option<TipPlace> {
+        let bend = angle.signum();
+        let force = (bend * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
+        let place = self.table.at(angle.abs(), force)?;
+        let turned = |v: Column<f64>| rotate(Vector2::new(v.x, bend * v.y), base.heading);
+        Some(TipPlace {
+            tip_base: turned(place.tip_base) + base.position.coords,
+            by_angle: bend * turned(place.by_angle),
+            by_direction: bend * turned(place.by_direction),
+        })
+    }
+
+    /// The first touch of a surface of which nothing is known.
+    fn first(&self, angle: f64, base: Pose) -> State {
+        let bend = angle.signum();
+        let normal = base.heading + bend * self.usual_normal;
+        let unsettled = State::Unsettled { left: None, bend };
+        let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
+        let centre = Point2::from(tip.tip_base);
+        let along_normal = tip.by_direction.dot(&unit(normal));
+        let variance = FIRST_DIRECTION.powi(2);
+        let covariance = Matrix2::new(
+            variance,
+            along_normal * variance,
+            along_normal * variance,
+            along_normal.powi(2) * variance + FIRST_PLACE.powi(2),
+        );
+        State::Settled(Contact { bend, centre, before: [centre; 3], normal, covariance })
+    }
+
+    /// One step of sliding.
+    fn slide(&self, last: &Contact, angle: f64, base: Pose, way: f64) -> State {
+        let unsettled = State::Unsettled { left: Some(last.before[0]), bend: last.bend };
+        let Some(tip) = self.tip(angle, base, last.normal) else { return unsettled };
+        let normal = unit(last.normal);
+        let tangent = perpendicular(normal);
+        let slid = (Point2::from(tip.tip_base) - last.centre).dot(&tangent);
+        let along = last.centre + slid * tangent;
+        // A direction that is off takes the place along with it.
+        let transition = Matrix2::new(1.0, 0.0, -slid, 1.0);
+        let mut covariance = transition * last.covariance * transition.transpose();
+        covariance.m11 += BENDING * way + UNREST;
+
+        let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
+        let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
+        let noise = (tip.by_angle.dot(&normal) * self.angle_spread).powi(2) + SMOOTHNESS.powi(2);
+        let variance = (measured * covariance * measured.transpose()).x + noise;
+        if !(innovation.powi(2) < GATE.powi(2) * variance) {
+            return unsettled;
+        }
+        let gain = covariance * measured.transpose() / variance;
+        let centre = along - gain.y * innovation * normal;
+        State::Settled(Contact {
+            bend: last.bend,
+            centre,
+            before: [last.before[1], last.before[2], last.centre],
+            normal: last.normal - gain.x * innovation,
+            covariance: covariance - variance * gain * gain.transpose(),
+        })
+    }
+
+    /// Coming to rest, after the tip left a surface at `left`, on what goes on from there.
+    fn land(&self, left: Point2, angle: f64, base: Pose) -> State {
+        let bend = angle.signum();
+        let unsettled = State::Unsettled { left: Some(left), bend };
+        let usual = base.heading + bend * self.usual_normal;
+        let Some(near) = self.tip(angle, base, usual) else { return unsettled };
+        let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
+        // The tip, and how far the surface through it is from where the tip left, in standard deviations and with the direction's.
+        let judged = |normal: f64| {
+            let tip = self.tip(angle, base, normal)?;
+            let miss = unit(normal).dot(&(tip.tip_base - left.coords));
+            Some((tip, miss, (miss / off).powi(2) + ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2)))
+        };
+        let candidates = (-LANDING_STEPS..=LANDING_STEPS).map(|step| usual + f64::from(step) * LANDING_STEP);
+        let judgements = candidates.filter_map(|normal| Some((normal, judged(normal)?.2)));
+        let Some((mut normal, _)) = judgements.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { return unsettled };
+        let prior = DIRECTION_BEHIND_EDGE.powi(-2);
+        for _ in 0..LANDING_ITERATIONS {
+            let Some((tip, miss, _)) = judged(normal) else { return unsettled };
+            let slope = miss_slope(&tip, normal, left) / off;
+            let step = (slope * miss / off + (normal - usual) * prior) / (slope * slope + prior);
+            normal -= step.clamp(-LANDING_STEP, LANDING_STEP);
+        }
+        let Some((tip, _, _)) = judged(normal) else { return unsettled };
+        let slope = miss_slope(&tip, normal, left) / off;
+        let variance = (slope * slope + prior).recip();
+        let along_normal = tip.by_direction.dot(&unit(normal));
+        let centre = Point2::from(tip.tip_base);
+        let covariance = Matrix2::new(
+            variance,
+            along_normal * variance,
+            along_normal * variance,
+            along_normal.powi(2) * variance + FIRST_PLACE.powi(2),
+        );
+        State::Settled(Contact { bend, centre, before: [centre; 3], normal, covariance })
+    }
+}
+
+/// What is left of a tip's place (m) even when readings are exact.
+const SMOOTHNESS: f64 = 5e-6;
+/// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
+const LANDING_STEP: f64 = 3.0 * PI / 180.0;
+const LANDING_STEPS: i32 = 35;
+/// Steps of the Gauss-Newton method from the best of them.
+const LANDING_ITERATIONS: usize = 6;
+
+/// How fast a surface through the tip moves away from `left` when its normal turns (m/rad).
+fn miss_slope(tip: &TipPlace, normal: f64, left: Point2) -> f64 {
+    let normal = unit(normal);
+    tip.by_direction.dot(&normal) + perpendicular(normal).dot(&(tip.tip_base - left.coords))
+}
+
+impl Contact {
+    /// Standard deviation of the place along the normal (m).
+    pub(super) fn place_spread(&self) -> f64 {
+        self.covariance.m22.max(0.0).sqrt()
+    }
+}

@@ -1,0 +1,172 @@
+//! Where a whisker's tip is, by its base angle and the direction of the contact force.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+
+use crate::mechanics::{Equilibrium, ShaftChain};
+use crate::rig::Whisker;
+
+/// Where a whisker's tip is, by its base angle and the direction of the force at the tip: a table of equilibria of the whisker's own
+/// chain, with cubics through four of them each way in between.
+///
+/// Angles are in the frame of the base, for a bend that is counter-clockwise; one the other way is the mirror image. A force beyond
+/// head-on (180°) still bends a whisker the same way once it is bent; for small base angles there is none such.
+#[derive(Debug, Clone)]
+pub struct TipTable {
+    /// Step of the base angle from row to row (rad); the first row is the straight whisker.
+    angle_step: f64,
+    /// Places of the tip's centre (m, frame of the base), direction after direction; not a number where there is no equilibrium.
+    tips_base: Vec<Vector2<f64>>,
+}
+
+/// A tip's place, and how it changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipPlace {
+    /// Place of the tip's centre (m, frame of the base).
+    pub tip_base: Vector2<f64>,
+    /// Its change with the base angle (m/rad).
+    pub by_angle: Vector2<f64>,
+    /// Its change with the direction of the force (m/rad).
+    pub by_direction: Vector2<f64>,
+}
+
+/// Greatest base moment, in units of `EI / L`.
+const MOMENT_RANGE: f64 = 6.0;
+/// Steps of the base angle.
+const ANGLE_STEPS: usize = 72;
+/// The first direction (rad), from where a force still drags at the tip, and the step to the next.
+const FIRST_DIRECTION: f64 = 50.0 * PI / 180.0;
+const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
+/// Directions in the table, up to 230°.
+const DIRECTIONS: usize = 91;
+/// Directions that a straight whisker bends under from the beginning, up to 170°.
+const FROM_STRAIGHT: usize = 61;
+
+impl TipTable {
+    /// The table of `whisker`.
+    #[must_use]
+    pub fn new(whisker: &Whisker) -> Self {
+        let (chain, shaft) = (ShaftChain::new(whisker), &whisker.shaft);
+        let angle_step =
+            MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / ANGLE_STEPS as f64;
+        let mut columns: Vec<Vec<Option<Equilibrium>>> = Vec::with_capacity(DIRECTIONS);
+        for index in 0..DIRECTIONS {
+            let direction = direction(index);
+            let column = if index < FROM_STRAIGHT {
+                from_straight(&chain, whisker, angle_step, direction)
+            } else {
+                let before = [&columns[index - 1], &columns[index - 2]];
+                (0..=ANGLE_STEPS).map(|row| goes_on(&chain, direction, before.map(|column| column[row]))).collect()
+            };
+            columns.push(column);
+        }
+        let none = Vector2::repeat(f64::NAN);
+        let tips_base =
+            columns.iter().flatten().map(|solution| solution.map_or(none, |found| found.tip_base)).collect();
+        Self { angle_step, tips_base }
+    }
+
+    /// The tip at a base angle (rad, 0 or more) under a force in a direction (rad). `None` beyond the table, and where there is no
+    /// such equilibrium.
+    #[must_use]
+    pub fn at(&self, base_angle: f64, force_direction: f64) -> Option<TipPlace> {
+        let row = Place::new(base_angle / self.angle_step, ANGLE_STEPS)?;
+        let column = Place::new((force_direction - FIRST_DIRECTION) / DIRECTION_STEP, DIRECTIONS - 1)?;
+        let mut place =
+            TipPlace { tip_base: Vector2::zeros(), by_angle: Vector2::zeros(), by_direction: Vector2::zeros() };
+        for (across, (weight, slope)) in column.weights.iter().zip(column.slopes).enumerate() {
+            let first = (column.first + across) * (ANGLE_STEPS + 1) + row.first;
+            for (tip, (row_weight, row_slope)) in
+                self.tips_base[first..first + 4].iter().zip(row.weights.iter().zip(row.slopes))
+            {
+                place.tip_base += weight * row_weight * tip;
+                place.by_angle += weight * row_slope * tip;
+                place.by_direction += slope * row_weight * tip;
+            }
+        }
+        place.by_angle /= self.angle_step;
+        place.by_direction /= DIRECTION_STEP;
+        // One place that is not a number makes all of them so.
+        place.tip_base.x.is_finite().then_some(place)
+    }
+
+    /// The greatest base angle of the table (rad).
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        self.angle_step * ANGLE_STEPS as f64
+    }
+}
+
+fn direction(index: usize) -> f64 {
+    FIRST_DIRECTION + DIRECTION_STEP * index as f64
+}
+
+/// Equilibria under a force of one direction, from the straight whisker on.
+fn from_straight(chain: &ShaftChain, whisker: &Whisker, angle_step: f64, direction: f64) -> Vec<Option<Equilibrium>> {
+    let shaft = &whisker.shaft;
+    let mut solutions = Vec::with_capacity(ANGLE_STEPS + 1);
+    let (mut solution, mut before) = (Some(chain.straight()), None);
+    solutions.push(solution);
+    for index in 1..=ANGLE_STEPS {
+        let base_angle = angle_step * index as f64;
+        let guess = match (solution, before) {
+            (Some(last), Some(before)) => Some(beyond(&last, &before)),
+            // The first step is that of a cantilever under a small force.
+            (Some(straight), None) => {
+                let force = base_angle * whisker.hinge.stiffness / (shaft.length * direction.sin());
+                let tip_angle = force * direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
+                Some(Equilibrium { tip_angle, force, ..straight })
+            }
+            (None, _) => None,
+        };
+        before = solution;
+        solution = guess.and_then(|guess| chain.solve(base_angle, direction, &guess));
+        solutions.push(solution);
+    }
+    solutions
+}
+
+/// The equilibrium under a force that is turned by one step more, from those before it at the same base angle; none if what is
+/// found belongs to another shape.
+fn goes_on(chain: &ShaftChain, direction: f64, [last, before]: [Option<Equilibrium>; 2]) -> Option<Equilibrium> {
+    let last = last?;
+    let guess = before.map_or(last, |before| beyond(&last, &before));
+    let found = chain.solve(last.base_angle, direction, &guess)?;
+    let is_near = (found.tip_angle - last.tip_angle).abs() < 0.2 && found.force > 0.0 && found.force < 1.5 * last.force;
+    (is_near && last.base_angle > 0.0).then_some(found)
+}
+
+/// Straight on from two solutions.
+fn beyond(last: &Equilibrium, before: &Equilibrium) -> Equilibrium {
+    Equilibrium { tip_angle: 2.0 * last.tip_angle - before.tip_angle, force: 2.0 * last.force - before.force, ..*last }
+}
+
+/// A place between the knots of an axis: the first of four, their weights, and the weights of the slope for one step.
+struct Place {
+    first: usize,
+    weights: [f64; 4],
+    slopes: [f64; 4],
+}
+
+impl Place {
+    fn new(along: f64, last: usize) -> Option<Self> {
+        if !(along >= 0.0 && along <= last as f64) {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]
+        let first = (along as usize).saturating_sub(1).min(last - 3);
+        let u = along - first as f64;
+        let [a, b, c] = [u - 1.0, u - 2.0, u - 3.0];
+        Some(Self {
+            first,
+            weights: [-a * b * c / 6.0, u * b * c / 2.0, -u * a * c / 2.0, u * a * b / 6.0],
+            slopes: [
+                -(a * b + a * c + b * c) / 6.0,
+                (u * b + u * c + b * c) / 2.0,
+                -(u * a + u * c + a * c) / 2.0,
+                (u * a + u * b + a * b) / 6.0,
+            ],
+        })
+    }
+}
