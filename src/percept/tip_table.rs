@@ -40,8 +40,8 @@ const FIRST_DIRECTION: f64 = 50.0 * PI / 180.0;
 const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
 /// Directions in the table, up to 230°.
 const DIRECTIONS: usize = 91;
-/// Directions that a straight whisker bends under from the beginning, up to 170°.
-const FROM_STRAIGHT: usize = 61;
+/// Directions that a straight whisker bends under from the beginning, up to 174°.
+const FROM_STRAIGHT: usize = 63;
 
 impl TipTable {
     /// The table of `whisker`.
