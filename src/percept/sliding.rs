@@ -156,8 +156,8 @@ impl Sliding {
         }
         self.state = match self.state {
             State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend == bend => self.slide(&contact, angle, base, way),
-            State::Unsettled { left, bend: before } if before == bend => {
+            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
+            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
                 if self.calm_for < self.calm_samples {
                     State::Unsettled { left, bend }
                 } else {
@@ -224,7 +224,8 @@ impl Sliding {
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
         let noise = (tip.by_angle.dot(&normal) * self.angle_spread).powi(2) + SMOOTHNESS.powi(2);
         let variance = (measured * covariance * measured.transpose()).x + noise;
-        if !(innovation.powi(2) < GATE.powi(2) * variance) {
+        let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
+        if !is_sliding {
             return unsettled;
         }
         let gain = covariance * measured.transpose() / variance;

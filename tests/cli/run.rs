@@ -69,6 +69,7 @@ mod with_simulation {
             "error_mm.p95",
             "error_mm.max",
             "error_mm.n",
+            "error_mm.within_band",
             "coverage",
             "hausdorff_mm",
             "retrieval",
