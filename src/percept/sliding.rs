@@ -195,16 +195,7 @@ impl Sliding {
         let normal = base.heading + bend * self.usual_normal;
         let unsettled = State::Unsettled { left: None, bend };
         let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
-        let centre = Point2::from(tip.tip_base);
-        let along_normal = tip.by_direction.dot(&unit(normal));
-        let variance = FIRST_DIRECTION.powi(2);
-        let covariance = Matrix2::new(
-            variance,
-            along_normal * variance,
-            along_normal * variance,
-            along_normal.powi(2) * variance + FIRST_PLACE.powi(2),
-        );
-        State::Settled(Contact { bend, centre, before: [centre; 3], normal, covariance })
+        State::Settled(Contact::begun(bend, &tip, normal, FIRST_DIRECTION.powi(2)))
     }
 
     /// One step of sliding.
@@ -265,15 +256,7 @@ impl Sliding {
         let Some((tip, _, _)) = judged(normal) else { return unsettled };
         let slope = miss_slope(&tip, normal, left) / off;
         let variance = (slope * slope + prior).recip();
-        let along_normal = tip.by_direction.dot(&unit(normal));
-        let centre = Point2::from(tip.tip_base);
-        let covariance = Matrix2::new(
-            variance,
-            along_normal * variance,
-            along_normal * variance,
-            along_normal.powi(2) * variance + FIRST_PLACE.powi(2),
-        );
-        State::Settled(Contact { bend, centre, before: [centre; 3], normal, covariance })
+        State::Settled(Contact::begun(bend, &tip, normal, variance))
     }
 }
 
@@ -295,6 +278,16 @@ fn miss_slope(tip: &TipPlace, normal: f64, left: Point2) -> f64 {
 }
 
 impl Contact {
+    /// The contact of a tip that has just come to touch, with the direction of the normal (rad, world frame) and its variance (rad²).
+    fn begun(bend: f64, tip: &TipPlace, normal: f64, variance: f64) -> Self {
+        let centre = Point2::from(tip.tip_base);
+        // The place goes along with the direction.
+        let slope = tip.by_direction.dot(&unit(normal));
+        let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
+            + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
+        Self { bend, centre, before: [centre; 3], normal, covariance }
+    }
+
     /// Standard deviation of the place along the normal (m).
     pub(super) fn place_spread(&self) -> f64 {
         self.covariance.m22.max(0.0).sqrt().hypot(CONTACT_SPREAD)
