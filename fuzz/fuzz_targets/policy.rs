@@ -3,7 +3,7 @@
 
 #[path = "../../tests/policy_robustness/answered.rs"]
 mod answered;
-#[path = "../../tests/artifact/erratic.rs"]
+#[path = "../../tests/language/artifact/erratic.rs"]
 mod erratic;
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

@@ -6,7 +6,7 @@ mod allocator;
 mod answered;
 mod campaign;
 mod determinism;
-#[path = "../artifact/erratic.rs"]
+#[path = "../language/artifact/erratic.rs"]
 mod erratic;
 mod generate;
 mod mutate;

@@ -1,0 +1,8 @@
+//! Artifacts: what comes back, and what does not get in.
+
+mod damage;
+mod erratic;
+mod format;
+mod policies;
+mod round_trip;
+mod unsound;

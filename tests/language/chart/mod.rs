@@ -1,0 +1,6 @@
+//! The statechart of a policy, and its three renderings.
+
+mod charts;
+mod machine;
+mod picture;
+mod text;

@@ -1,0 +1,71 @@
+//! A chart's picture: all of it can be seen.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use vibrissa::policy::chart::{Target, Transition};
+use vibrissa::report::{chart_dot, chart_svg};
+
+use super::charts::{HARD, NESTED, THESIS, chart_of, charts};
+use crate::seen::{apart, see, within};
+
+/// Texts lie in the picture, apart from each other, and each in a frame or apart from it.
+fn stands_clear(picture: &str) {
+    let seen = see(picture);
+    let all = [0.0, 0.0, seen.size.0, seen.size.1];
+    for (index, (a, place)) in seen.texts.iter().enumerate() {
+        assert!(within(place, &all), "{a} is cut off");
+        for (b, other) in &seen.texts[..index] {
+            assert!(apart(place, other), "`{a}` and `{b}` overlap");
+        }
+        for frame in &seen.frames {
+            assert!(apart(place, frame) || within(place, frame), "`{a}` overlaps a frame");
+        }
+    }
+    for (index, a) in seen.frames.iter().enumerate() {
+        assert!(within(a, &all));
+        for b in &seen.frames[..index] {
+            assert!(apart(a, b) || within(a, b) || within(b, a), "frames overlap");
+        }
+    }
+}
+
+#[test]
+fn in_a_picture_nothing_hides_anything() {
+    for text in [THESIS, HARD, NESTED] {
+        stands_clear(&chart_svg(&chart_of(text)).unwrap());
+    }
+}
+
+#[test]
+fn a_picture_stands_by_itself_and_is_always_the_same() {
+    let picture = chart_svg(&chart_of(HARD)).unwrap();
+    assert_eq!(picture.matches("http").count(), 1, "the namespace alone");
+    assert!(picture == chart_svg(&chart_of(HARD)).unwrap());
+}
+
+#[test]
+fn a_chart_that_nobody_could_make_out_has_no_picture() {
+    let states: Vec<_> = (0..101).map(|k| format!("state S{k} {{ after 1 s -> S{} }}", (k + 1) % 101)).collect();
+    let chart = chart_of(&format!("machine m initial S0 {}", states.join("\n")));
+    assert!(chart_svg(&chart).unwrap_err().to_string().contains("101 states"));
+    assert_eq!(chart_dot(&chart).matches("after").count(), 101);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn in_the_picture_of_any_chart_nothing_hides_anything(chart in charts()) {
+        let picture = chart_svg(&chart).unwrap();
+        stands_clear(&picture);
+        // One arrow for all transitions between two states, and one to each initial state.
+        let ends = |transition: &Transition| match transition.target {
+            Target::State { state, .. } => (format!("{:?}", transition.origin), Some(state)),
+            Target::Failure(_) => (format!("{:?}", transition.origin), None),
+        };
+        let arrows: BTreeSet<_> = chart.transitions.iter().map(ends).collect();
+        let initial = chart.states.iter().filter(|state| state.initial).count();
+        prop_assert_eq!(picture.matches("stroke-width=\"1.3\"").count(), arrows.len() + initial);
+    }
+}

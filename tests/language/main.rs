@@ -1,0 +1,26 @@
+//! The policy language: what it means, what it answers, what is made of it.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod artifact;
+mod chart;
+mod codes;
+#[path = "../common/mod.rs"]
+mod common;
+mod editors;
+mod errors;
+mod expressions;
+mod format;
+mod index;
+mod machine;
+mod nesting;
+mod page;
+mod programs;
+mod recovery;
+#[path = "../common/seen.rs"]
+mod seen;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
+mod standard_library;
+mod test_blocks;
+mod use_files;
+mod warnings;

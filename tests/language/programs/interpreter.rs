@@ -1,0 +1,276 @@
+//! Machines, interpreted as docs/language.md explains them.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+use vibrissa::machine::{Action, Cause, Failure, Senses};
+
+use super::evaluate::{Place, Value};
+use super::filter::Filter;
+use super::tree::{Guard, Program, Rule, Target};
+use crate::common::Script;
+
+/// What a tick gave.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Done {
+    pub(crate) action: Option<Action>,
+    pub(crate) state: String,
+    pub(crate) failure: Option<Failure>,
+    pub(crate) failsafe: Option<(String, Cause)>,
+}
+
+pub(crate) struct Interpreter<'p> {
+    pub(crate) program: &'p Program,
+    pub(crate) senses: Script,
+    /// What every state was entered with last, and its memory.
+    pub(crate) kept: Vec<HashMap<String, Value>>,
+    /// By the state in which it stands and the uses that lead to it.
+    pub(crate) filters: HashMap<(Option<usize>, Vec<usize>), Filter>,
+    /// From the outermost to the innermost.
+    active: Vec<usize>,
+    entered_at: Vec<f64>,
+    /// Of a rule, since when its condition has held.
+    since: HashMap<(Option<usize>, usize), f64>,
+    /// For every state, the one in it that was active last.
+    last: HashMap<usize, usize>,
+    failure: Option<Failure>,
+    /// What was executed, and as part of what.
+    pub(crate) executed: BTreeSet<(&'static str, &'static str)>,
+}
+
+/// Times are compared so that ten ticks of a thirtieth of a second make a third.
+const SLACK: f64 = 1e-9;
+
+impl<'p> Interpreter<'p> {
+    pub(crate) fn new(program: &'p Program, senses: Script) -> Self {
+        Self {
+            program,
+            senses,
+            kept: vec![HashMap::new(); program.states.len()],
+            filters: HashMap::new(),
+            active: Vec::new(),
+            entered_at: vec![0.0; program.states.len()],
+            since: HashMap::new(),
+            last: HashMap::new(),
+            failure: None,
+            executed: BTreeSet::new(),
+        }
+    }
+
+    /// Notes that something was executed, if it was as part of something.
+    pub(crate) fn seen(&mut self, what: &'static str, part: Option<&'static str>) {
+        self.executed.extend(part.map(|part| (what, part)));
+    }
+
+    pub(crate) fn tick(&mut self) -> Done {
+        let mut failsafe = None;
+        let action = match &self.failure {
+            Some(_) => Action::Stop,
+            None => self.try_tick(&mut failsafe).unwrap_or_else(|failure| {
+                self.failure = Some(failure);
+                Action::Stop
+            }),
+        };
+        let state = self.failure.as_ref().map_or_else(|| name(self.innermost()), |_| "Failure".to_owned());
+        Done { action: Some(action), state, failure: self.failure.clone(), failsafe }
+    }
+
+    fn innermost(&self) -> usize {
+        *self.active.last().unwrap()
+    }
+
+    fn try_tick(&mut self, failsafe: &mut Option<(String, Cause)>) -> Result<Action, Failure> {
+        if self.active.is_empty() {
+            self.enter(0, false);
+        }
+        let mut due = self.due(None);
+        for taken in 0.. {
+            let active = self.active.clone();
+            due = due.or_else(|| active.iter().find_map(|&state| self.due(Some(state))));
+            let Some((from, target)) = due.take() else { break };
+            if taken == 8 && matches!(target, Target::State { .. }) {
+                return self.leave(self.innermost(), Cause::Chain, failsafe);
+            }
+            self.seen("a chain", (taken == 1).then_some("a tick"));
+            self.seen("a transition", Some(if from.is_some() { "a state" } else { "the machine" }));
+            self.take(from, target)?;
+        }
+        match self.act(0) {
+            Err(stuck) => self.leave(stuck, Cause::NotFinite, failsafe),
+            Ok(action) => Ok(action.unwrap_or(Action::Hold)),
+        }
+    }
+
+    /// The target of the first rule that holds, of a state or of the machine. One that leads where the machine is already has what
+    /// it wants, and those behind it wait, but for one that leads to a failure.
+    fn due(&mut self, from: Option<usize>) -> Option<(Option<usize>, &'p Target)> {
+        let program = self.program;
+        let rules = from.map_or(&program.always, |state| &program.states[state].rules);
+        // All conditions are computed, so that what they remember knows of every tick.
+        let holding: Vec<&Rule> = rules
+            .iter()
+            .enumerate()
+            .filter(|(index, rule)| self.holds(from, *index, &rule.guard))
+            .map(|(_, rule)| rule)
+            .collect();
+        let first = &holding.first()?.target;
+        let is_there = match first {
+            Target::Failure(_) => false,
+            Target::State { way, .. } => {
+                let target = way.last().unwrap().0;
+                let is_within = from.is_none_or(|from| from != target && program.way(target).contains(&from));
+                is_within && self.active.contains(&target)
+            }
+        };
+        self.seen("what is there already", is_there.then_some("a guard"));
+        let failure = holding.iter().map(|rule| &rule.target).find(|target| matches!(target, Target::Failure(_)));
+        if is_there { failure } else { Some(first) }.map(|target| (from, target))
+    }
+
+    fn holds(&mut self, from: Option<usize>, index: usize, guard: &Guard) -> bool {
+        let mut place = Place::new(from, "a guard");
+        let now = self.senses.time();
+        match guard {
+            Guard::When(condition) => {
+                self.seen("when", Some("a guard"));
+                self.value(condition, &mut place).truth()
+            }
+            Guard::WhenFor(condition, time) => {
+                self.seen("for", Some("a guard"));
+                let holds = self.value(condition, &mut place).truth();
+                let time = self.value(time, &mut place).number();
+                if !holds {
+                    self.since.remove(&(from, index));
+                    return false;
+                }
+                let since = *self.since.entry((from, index)).or_insert(now);
+                now - since >= time - SLACK
+            }
+            Guard::After(time) => {
+                self.seen("after", Some("a guard"));
+                let time = self.value(time, &mut place).number();
+                now - self.entered_at[from.unwrap()] >= time - SLACK
+            }
+        }
+    }
+
+    fn take(&mut self, from: Option<usize>, target: &Target) -> Result<(), Failure> {
+        let (way, resume) = match target {
+            Target::Failure(reason) => {
+                self.seen("a failure", Some("a target"));
+                return Err(Failure::Policy(Arc::from(reason.as_str())));
+            }
+            Target::State { way, resume } => (way, *resume),
+        };
+        let stays = self.program.states[way[0].0].parent;
+        while self.active.last().copied() != stays {
+            let left = self.active.pop().unwrap();
+            self.run(&self.program.states[left].exit, &mut Place::new(Some(left), "an exit"));
+        }
+        let mut place = Place::new(from, "a target");
+        let values: Vec<Vec<Value>> = way.iter().map(|(_, values)| self.values(values, &mut place)).collect();
+        for ((state, _), values) in way.iter().zip(values) {
+            self.hand_over(*state, values);
+        }
+        let (last, outer) = way.split_last().unwrap();
+        for (state, _) in outer {
+            self.enter_alone(*state);
+        }
+        self.enter(last.0, resume);
+        Ok(())
+    }
+
+    fn hand_over(&mut self, state: usize, values: Vec<Value>) {
+        self.seen("arguments", (!values.is_empty()).then_some("a target"));
+        let names = self.program.states[state].arguments.iter().map(|(name, _)| name.clone());
+        self.kept[state].extend(names.zip(values));
+    }
+
+    /// Enters a state, and in it the one that it begins in, or was in last.
+    fn enter(&mut self, state: usize, resume: bool) {
+        self.enter_alone(state);
+        let last = if resume { self.last.get(&state).copied() } else { None };
+        match (&self.program.states[state].initial, last) {
+            (None, _) => {}
+            (Some(_), Some(last)) => {
+                self.seen("resume", Some("a target"));
+                self.enter(last, true);
+            }
+            (Some((initial, values)), None) => {
+                let values = self.values(values, &mut Place::new(Some(state), "an initial"));
+                self.hand_over(*initial, values);
+                self.enter(*initial, resume);
+            }
+        }
+    }
+
+    fn enter_alone(&mut self, state: usize) {
+        if let Some(&outer) = self.active.last() {
+            self.last.insert(outer, state);
+        }
+        self.active.push(state);
+        self.entered_at[state] = self.senses.time();
+        self.since.retain(|(of, _), _| *of != Some(state));
+        self.filters.retain(|(of, _), _| *of != Some(state));
+        for (name, _, value) in &self.program.states[state].memory {
+            let value = self.value(value, &mut Place::new(Some(state), "a memory"));
+            self.kept[state].insert(name.clone(), value);
+        }
+        self.run(&self.program.states[state].entry, &mut Place::new(Some(state), "an entry"));
+    }
+
+    /// Runs the active states' statements, but for the `done` outermost ones; the last command that they give. If it is not
+    /// finite, the state that gave it.
+    fn act(&mut self, done: usize) -> Result<Option<Action>, usize> {
+        let mut given = None;
+        for state in self.active.clone().split_off(done) {
+            let command = self.run(&self.program.states[state].body, &mut Place::new(Some(state), "a body"));
+            given = command.map(|command| (state, command)).or(given);
+        }
+        match given {
+            Some((state, command)) if !is_finite(command) => Err(state),
+            given => Ok(given.map(|(_, command)| command)),
+        }
+    }
+
+    /// Leaves a state that cannot go on by its failsafe, or that of a state around it, or that of the machine.
+    fn leave(&mut self, stuck: usize, cause: Cause, failsafe: &mut Option<(String, Cause)>) -> Result<Action, Failure> {
+        let around = self.program.way(stuck).into_iter().rev();
+        let own = around.map(|state| (Some(state), &self.program.states[state].failsafe));
+        let found =
+            own.chain([(None, &self.program.failsafe)]).find_map(|(from, target)| Some((from, target.as_ref()?)));
+        let name = |state: usize| Arc::from(name(state));
+        let Some((from, target)) = found else {
+            self.seen("a failure", Some("a command"));
+            return Err(match cause {
+                Cause::NotFinite => Failure::NotFinite { state: name(stuck) },
+                Cause::Chain => Failure::Chain { state: name(stuck) },
+            });
+        };
+        let whose = ["the machine", "a state around", "the state"];
+        self.seen("failsafe", Some(whose[usize::from(from.is_some()) + usize::from(from == Some(stuck))]));
+        *failsafe = Some((self::name(stuck), cause));
+        self.take(from, target)?;
+        // Those that stay active have run in this tick.
+        let done = match (target, cause) {
+            (Target::State { way, .. }, Cause::NotFinite) => self.program.way(way[0].0).len() - 1,
+            _ => 0,
+        };
+        let action = self.act(done).map_err(|state| Failure::NotFinite { state: name(state) })?;
+        Ok(action.unwrap_or(Action::Hold))
+    }
+}
+
+fn name(state: usize) -> String {
+    format!("S{state}")
+}
+
+fn is_finite(action: Action) -> bool {
+    match action {
+        Action::Hold | Action::Stop => true,
+        Action::Steer { along_world, speed, turn, .. } => {
+            let (vibrissa::machine::Turn::Facing(turn) | vibrissa::machine::Turn::Rate(turn)) = turn;
+            [along_world.x, along_world.y, speed, turn].into_iter().all(f64::is_finite)
+        }
+    }
+}

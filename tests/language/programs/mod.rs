@@ -1,0 +1,10 @@
+//! Whole random programs mean in a machine what they mean to a plain interpreter.
+
+mod evaluate;
+mod filter;
+mod generate;
+mod grow;
+mod interpreter;
+mod side_by_side;
+mod text;
+mod tree;

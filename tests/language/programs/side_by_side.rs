@@ -1,0 +1,160 @@
+//! The machine does what the interpreter does, on random programs, whatever is felt and however late the ticks come.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use vibrissa::diagnostic::Source;
+use vibrissa::geometry::Vector2;
+use vibrissa::machine::{self, Action, Machine};
+use vibrissa::policy::compile;
+
+use super::generate::programs;
+use super::interpreter::{Done, Interpreter};
+use super::tree::Program;
+use crate::common::{Feel, Script};
+
+/// A number that is felt: seldom none.
+fn number(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
+    prop_oneof![30 => range, 2 => Just(0.0), 1 => Just(f64::NAN), 1 => Just(f64::INFINITY)]
+}
+
+prop_compose! {
+    fn feel()(
+        (touching, ready) in any::<(bool, bool)>(),
+        deflection in number(-0.01..0.01),
+        (is_left, sense) in (any::<bool>(), prop::sample::select(vec![-1.0, 0.0, 1.0])),
+        (x, y) in (number(-1.0..1.0), -1.0..1.0),
+    ) -> Feel {
+        Feel { touching, ready, deflection, side: if is_left { 1.0 } else { -1.0 }, sense, tangent: Vector2::new(x, y) }
+    }
+}
+
+/// Some ticks of three whiskers, most of which come late by some milliseconds.
+fn scripts() -> impl Strategy<Value = Script> {
+    let tick = (prop::collection::vec(feel(), 3), prop_oneof![Just(0), 0..30_u8]);
+    prop::collection::vec(tick, 1..25).prop_map(|ticks| {
+        let (feels, late): (Vec<_>, Vec<_>) = ticks.into_iter().unzip();
+        Script { late: late.into_iter().map(|late| f64::from(late) * 1e-3).collect(), ..Script::new(feels) }
+    })
+}
+
+/// The machine of a program; `None` if the compiler has found that a tick of it can go round.
+fn machine(text: &str) -> Option<machine::Program> {
+    match compile(&Source::new("program.fsm", text)) {
+        Ok(program) => Some(program),
+        Err(faults) => {
+            assert!(faults.iter().all(|fault| fault.code == "P0405"), "{faults:?}\n{text}");
+            None
+        }
+    }
+}
+
+/// Runs a machine and the program that it was compiled from side by side. What was executed, and as part of what.
+fn run_both(
+    program: &Program,
+    compiled: machine::Program,
+    mut script: Script,
+) -> Result<BTreeSet<(&'static str, &'static str)>, TestCaseError> {
+    let mut machine = Machine::new(Arc::new(compiled));
+    let mut interpreter = Interpreter::new(program, script.clone());
+    let (mut steers, mut lasted) = (0, 0);
+    for now in 0..script.ticks.len() {
+        (script.now, interpreter.senses.now) = (now, now);
+        let tick = machine.tick(&mut script);
+        let name = |state: usize| machine.program().states[state].name.to_string();
+        steers += usize::from(matches!(tick.action, Action::Steer { .. }));
+        lasted += usize::from(machine.failure().is_none());
+        let found = Done {
+            action: Some(tick.action),
+            state: machine.state_name().to_owned(),
+            failure: machine.failure().cloned(),
+            failsafe: tick.failsafe.map(|failsafe| (name(failsafe.left), failsafe.cause)),
+        };
+        prop_assert_eq!(&found, &interpreter.tick(), "tick {} of\n{}", now, program.text());
+        prop_assert_eq!(&script.recorded, &interpreter.senses.recorded, "tick {} of\n{}", now, program.text());
+        prop_assert_eq!(&script.marked, &interpreter.senses.marked, "tick {} of\n{}", now, program.text());
+    }
+    interpreter.seen("five ticks that steer", (steers >= 5).then_some("a run"));
+    interpreter.seen("ten ticks without a failure", (lasted >= 10).then_some("a run"));
+    Ok(interpreter.executed)
+}
+
+/// How many programs are compared, unless `PROPTEST_CASES` asks for more.
+fn cases() -> u32 {
+    ProptestConfig::default().cases.max(2000)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(), max_global_rejects: 100_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_machine_does_what_the_interpreter_of_its_program_does(program in programs(), script in scripts()) {
+        let Some(compiled) = machine(&program.text()) else { return Err(TestCaseError::reject("goes round")) };
+        run_both(&program, compiled, script)?;
+    }
+}
+
+/// What programs do, and as part of what.
+const DONE: [(&str, &[&str]); 32] = [
+    ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
+    (
+        "a unit with a factor",
+        &["a parameter", "a body", "a law", "a derived value", "a guard", "a target", "an initial"],
+    ),
+    ("a derived value", &["a body", "an if", "an entry", "a guard", "a memory"]),
+    ("one with arguments", &["a body", "a law", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
+    ("let", &["a body", "a law", "an if", "an entry", "an exit"]),
+    ("set", &["a body", "an if", "an entry", "an exit"]),
+    ("set of what was named before", &["a body", "an if", "an entry", "an exit"]),
+    ("set of an outer state's memory", &["a body", "an if", "an entry", "an exit"]),
+    ("if", &["a body", "a law", "an if", "an entry", "an exit"]),
+    ("do", &["a body", "a law", "an if", "an entry", "an exit"]),
+    ("record", &["a body", "a law", "an if", "an entry", "an exit"]),
+    ("mark", &["a body", "a law", "an if", "an entry", "an exit"]),
+    (
+        "lowpass",
+        &["a body", "a law", "a derived value", "an if", "an entry", "an exit", "a guard", "a target", "a memory"],
+    ),
+    ("pid", &["a body", "a law", "a derived value", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
+    ("steer body turning", &["a body", "a law", "an if"]),
+    ("steer body facing", &["a body", "a law", "an if"]),
+    ("steer w turning", &["a body", "a law", "an if"]),
+    ("steer w facing", &["a body", "a law", "an if"]),
+    ("hold", &["a body", "a law", "an if"]),
+    ("stop", &["a body", "a law", "an if"]),
+    ("when", &["a guard"]),
+    ("for", &["a guard"]),
+    ("after", &["a guard"]),
+    ("what is there already", &["a guard"]),
+    ("a transition", &["a state", "the machine"]),
+    ("a chain", &["a tick"]),
+    ("arguments", &["a target"]),
+    ("resume", &["a target"]),
+    ("a failure", &["a target", "a command"]),
+    ("failsafe", &["the state", "a state around", "the machine"]),
+    ("five ticks that steer", &["a run"]),
+    ("ten ticks without a failure", &["a run"]),
+];
+
+#[test]
+fn what_is_compared_does_all_that_programs_can_do() {
+    let mut runner = TestRunner::deterministic();
+    let (mut counts, mut compiled, mut refused) = (BTreeMap::new(), 0, 0);
+    while compiled < 500 {
+        let (program, script) = (programs(), scripts()).new_tree(&mut runner).unwrap().current();
+        let Some(machine) = machine(&program.text()) else {
+            refused += 1;
+            continue;
+        };
+        compiled += 1;
+        for what in run_both(&program, machine, script).unwrap() {
+            *counts.entry(what).or_insert(0) += 1;
+        }
+    }
+    let pairs = DONE.iter().flat_map(|(what, parts)| parts.iter().map(move |part| (*what, *part)));
+    let seldom: Vec<_> = pairs.filter(|pair| counts.get(pair).is_none_or(|&count| count < 8)).collect();
+    assert!(seldom.is_empty() && refused < 200, "{seldom:#?} in {refused} refused {counts:#?}");
+}

@@ -1,0 +1,39 @@
+//! What is said of a test that a policy carries, as a user sees it: one fixture a kind, one snapshot a fixture.
+
+use std::process::Command;
+
+use crate::snapshots::snapshots;
+use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
+use vibrissa::policy::{RunFigure, compile_with_warnings};
+
+#[test]
+fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
+    let name = "expectation_that_does_not_hold.fsm";
+    let text = include_str!("../fixtures/policies/test/expectation_that_does_not_hold.fsm");
+    let source = Source::new(name, text);
+    let compiled = compile_with_warnings(&source).unwrap();
+    let (mut program, test) = (compiled.artifact.program, &compiled.tests[0]);
+    test.set(&mut program);
+    // A run that ended as the policy has it, and has no tips.
+    let figure = |figure| match figure {
+        RunFigure::Failed | RunFigure::Visits(_) => 1.0,
+        RunFigure::TimeIn(_) | RunFigure::Time => 5.1,
+        RunFigure::Completed | RunFigure::TimedOut | RunFigure::Diverged | RunFigure::Coverage => 0.0,
+        RunFigure::ErrorMean | RunFigure::ErrorP95 | RunFigure::ErrorMax | RunFigure::Hausdorff => f64::NAN,
+    };
+    let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));
+    let faults: Vec<Diagnostic> = faults.collect();
+    snapshots("policies")
+        .bind(|| insta::assert_snapshot!(format!("test@{name}"), terminal(&source, &faults, Colour::Plain)));
+}
+
+#[test]
+fn a_scenario_that_cannot_be_read_is_shown_where_the_test_names_it() {
+    let name = "scenario_that_is_not_there.fsm";
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.args(["test", &format!("tests/fixtures/policies/test/{name}")]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let output = command.output().unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    snapshots("policies")
+        .bind(|| insta::assert_snapshot!(format!("test@{name}"), String::from_utf8(output.stderr).unwrap()));
+}

@@ -1,0 +1,10 @@
+//! The command line as its users meet it: what goes where, and with which exit status.
+
+mod argument;
+mod check;
+mod compile;
+mod fmt;
+mod graph;
+mod program;
+mod run;
+mod test;

@@ -1,0 +1,202 @@
+//! `vibrissa run`
+
+use super::program::{directory, stderr, vibrissa};
+
+#[test]
+fn run_tells_the_warnings_of_a_policy_once() {
+    let directory = directory("warned");
+    let other = directory.join("other.yaml").display().to_string();
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    std::fs::write(&other, disk.replace("name: disk", "name: other")).unwrap();
+    let warned = "tests/fixtures/policies/warn/parameter_never_used.fsm";
+    // No run is needed to see them: a setting that does not exist ends the command before.
+    let output = vibrissa(&["run", "scenarios/disk.yaml", &other, "--policy", warned, "--set", "nothing=1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
+}
+
+#[cfg(feature = "outlines")]
+#[test]
+fn a_scenario_finds_its_outlines_beside_itself_and_tells_of_one_that_is_not_there() {
+    let model = vibrissa(&["mjcf", "scenarios/outlines/gripper.yaml"]);
+    assert_eq!(model.status.code(), Some(0), "{}", stderr(&model));
+    let directory = directory("outlines");
+    let scenario = std::fs::read_to_string("scenarios/outlines/gripper.yaml").unwrap();
+    std::fs::copy("scenarios/outlines/gripper.svg", directory.join("griper.svg")).unwrap();
+    std::fs::write(directory.join("gripper.yaml"), scenario).unwrap();
+    let output = vibrissa(&["mjcf", &directory.join("gripper.yaml").display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("did you mean `griper.svg`?"), "{}", stderr(&output));
+}
+
+#[cfg(feature = "sim")]
+mod with_simulation {
+    use serde_json::Value;
+
+    use crate::cli::program::{directory, stderr, stdout, vibrissa};
+
+    /// The keys of a JSON value, with those of objects within, sorted.
+    fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {
+        for (key, inner) in value.as_object().into_iter().flatten() {
+            into.push(format!("{prefix}{key}"));
+            keys(inner, &format!("{prefix}{key}."), into);
+        }
+        into.sort();
+    }
+
+    #[test]
+    fn run_prints_results_as_json_and_nothing_else() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let result = &results[0];
+        let mut found = Vec::new();
+        keys(result, "", &mut found);
+        let mut expected = [
+            "scenario",
+            "policy",
+            "world",
+            "seed",
+            "outcome",
+            "reason",
+            "final_state",
+            "sim_s",
+            "wall_s",
+            "realtime",
+            "error_mm",
+            "error_mm.mean",
+            "error_mm.std",
+            "error_mm.p95",
+            "error_mm.max",
+            "error_mm.n",
+            "error_mm.within_band",
+            "coverage",
+            "hausdorff_mm",
+            "retrieval",
+            "failsafes",
+            "failsafes.count",
+            "failsafes.first_s",
+            "failsafes.first_state",
+            "failsafes.first_cause",
+            "axis_mm",
+            "corners",
+            "states",
+            "states.Approaching",
+            "states.Attaching",
+            "states.Exploring",
+            "states.Meeting",
+            "states.Repositioning",
+            "states.Swiping",
+            "path_m",
+            "path_ratio",
+            "collisions",
+            "collisions.count",
+            "collisions.time_s",
+            "tick_us",
+            "tick_us.mean",
+            "tick_us.p99",
+            "tick_us.max",
+            "hash",
+            "hash.scenario",
+            "hash.policy",
+            "hash.engine",
+        ]
+        .map(str::to_owned);
+        expected.sort();
+        assert_eq!(found, expected);
+        assert_eq!(result["outcome"], "completed");
+        assert!(result["error_mm"]["mean"].as_f64().unwrap() <= 0.8);
+        assert!(result["coverage"].as_f64().unwrap() >= 0.95);
+    }
+
+    #[test]
+    fn a_compiled_machine_runs_as_its_policy_does() {
+        let machine = directory("run_compiled").join("thesis.machine").display().to_string();
+        assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));
+        let felt = |policy: &str| {
+            let output = vibrissa(&["run", "scenarios/disk.yaml", "--policy", policy, "--json"]);
+            let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+            ["error_mm", "coverage", "sim_s", "final_state"].map(|key| results[0][key].clone())
+        };
+        assert_eq!(felt(&machine), felt("policies/thesis.fsm"));
+    }
+
+    #[test]
+    fn an_expectation_that_fails_has_exit_status_1_and_says_which() {
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--set", "speed=1 mm/s"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("the outcome is timeout, expected completed"), "{}", stderr(&output));
+    }
+
+    #[test]
+    fn the_bench_runs_its_scenes_and_reports_them() {
+        let out = directory("bench");
+        let shown = out.display().to_string();
+        let output = vibrissa(&["bench", "--out", &shown, "--json", "--jobs", "2"]);
+        let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let rows = rows.as_array().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(rows.len() >= 20 && rows.iter().all(|row| row["outcome"] == "completed" && row["passed"] == true));
+        let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
+        assert_eq!(
+            (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),
+            (&0.8.into(), &"better".into())
+        );
+        let mut files: Vec<_> =
+            out.read_dir().unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+        files.sort();
+        assert_eq!(files.len(), rows.len() + 2, "{files:?}");
+        assert!(files.contains(&"disk-thesis.svg".to_owned()) && files.contains(&"index.html".to_owned()));
+        let written = std::fs::read_to_string(out.join("results.json")).unwrap();
+        assert_eq!(&serde_json::from_str::<Vec<Value>>(&written).unwrap(), rows);
+    }
+
+    #[test]
+    fn compare_does_the_same_runs_under_every_policy_on_however_many_threads() {
+        let compared = |jobs: &str| {
+            let disk = "scenarios/disk.yaml";
+            let jitter = ["--seeds", "3", "--jitter", "10 mm", "--jitter-heading", "2 deg"];
+            let arguments = ["compare", "policies/bang.fsm", "policies/thesis.fsm", disk, "--json", "--jobs", jobs];
+            let output = vibrissa(&[&arguments[..], &jitter].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            stdout(&output)
+        };
+        let text = compared("2");
+        assert_eq!(text, compared("1"));
+        let comparison: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(comparison["policies"][0]["runs"], 3);
+        let figures = comparison["figures"].as_array().unwrap();
+        let time = figures.iter().find(|figure| figure["figure"] == "sim_s").unwrap();
+        assert_eq!((&time["policy"], &time["outlook"]), (&"policies/thesis.fsm".into(), &"better".into()));
+    }
+
+    #[test]
+    fn compare_does_a_run_once_that_no_seed_can_change() {
+        let output =
+            vibrissa(&["compare", "policies/thesis.fsm", "policies/thesis.fsm", "scenarios/disk.yaml", "--seeds", "9"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stderr(&output).contains("all seeds are the same run"), "{}", stderr(&output));
+        assert!(stdout(&output).contains("the same"), "{}", stdout(&output));
+    }
+
+    #[test]
+    fn a_report_is_a_picture_and_the_result() {
+        let directory = directory("report");
+        let out = directory.join("new").display().to_string();
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--out", &out]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stdout(&output).contains("disk.svg"));
+        let picture = std::fs::read_to_string(directory.join("new/disk.svg")).unwrap();
+        assert!(picture.starts_with("<svg"));
+        let result = std::fs::read_to_string(directory.join("new/disk.json")).unwrap();
+        assert!(serde_json::from_str::<Value>(&result).unwrap().is_object());
+    }
+}
+
+#[cfg(not(feature = "sim"))]
+#[test]
+fn a_build_without_the_simulator_says_so() {
+    let output = vibrissa(&["run", "scenarios/disk.yaml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
+}

@@ -1,0 +1,13 @@
+//! The program as its users meet it: commands, the language server, policies at work.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod cli;
+#[cfg(feature = "sim")]
+mod disk;
+#[cfg(feature = "lsp")]
+mod lsp;
+#[cfg(feature = "sim")]
+mod policies;
+mod tutorial;
+#[cfg(feature = "sim")]
+mod watch;

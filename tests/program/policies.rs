@@ -1,0 +1,26 @@
+//! The project's policies do what the tests that they carry say.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{fs, thread};
+
+/// The policies, but for libraries.
+fn policies() -> Vec<PathBuf> {
+    let entries = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("policies")).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|extension| extension == "fsm")).collect()
+}
+
+#[test]
+fn every_policy_passes_the_tests_that_it_carries() {
+    let tested = |policy: &Path| {
+        let output = Command::new(env!("CARGO_BIN_EXE_vibrissa")).arg("test").arg(policy).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    };
+    assert!(policies().len() >= 8);
+    thread::scope(|scope| {
+        for policy in policies() {
+            scope.spawn(move || tested(&policy));
+        }
+    });
+}

@@ -1,0 +1,220 @@
+//! Scenes that are drawn by chance are scenes, and what their families say of them.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
+
+use vibrissa::diagnostic::Source;
+use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, unit};
+use vibrissa::scene::Scene;
+use vibrissa::scene::family::{Draw, FAMILIES, Family, SPEEDS};
+
+const TRIALS: u64 = 200;
+
+fn draws(family: &Family) -> impl Iterator<Item = Draw> {
+    (0..TRIALS).map(move |trial| family.draw(7, trial).unwrap())
+}
+
+fn named(name: &str) -> impl Iterator<Item = Draw> {
+    draws(FAMILIES.iter().find(|family| family.name == name).unwrap())
+}
+
+/// The turns of an outline's corners (rad), the greatest first.
+fn turns(outline: &Contour) -> Vec<f64> {
+    let mut turns: Vec<f64> = outline.corners().iter().map(|corner| corner.turn).collect();
+    turns.sort_by(|one, other| other.total_cmp(one));
+    turns
+}
+
+#[test]
+fn every_draw_is_a_scene_with_a_clear_start_an_aim_and_a_speed() {
+    for family in FAMILIES {
+        for (trial, draw) in draws(&family).enumerate() {
+            let Draw { text, scene, speed } = draw;
+            let context = format!("{}, trial {trial}:\n{text}", family.name);
+            assert_eq!(scene.name, format!("{}-{trial}", family.name));
+            assert!(!scene.solids.is_empty() && scene.is_clear_at(&scene.start), "{context}");
+            assert!(scene.stop.loop_closed.is_some() != scene.stop.reached.is_some(), "{context}");
+            assert!(scene.stop.stalled.is_some() && (60.0..2000.0).contains(&scene.stop.time), "{context}");
+            assert!(SPEEDS.contains(&speed), "{context}");
+            let length = scene.truth.reference.length();
+            assert!((0.3..8.0).contains(&length), "{length} m: {context}");
+            let read = Scene::from_yaml(&Source::new("drawn.yaml", text)).unwrap();
+            assert_eq!((read.start, read.stop), (scene.start, scene.stop), "{context}");
+        }
+    }
+}
+
+/// The start that those of a scene are near.
+fn middle(scene: &Scene) -> Pose {
+    let hand = scene.truth.reference.contours().next().unwrap().point_at(0.0).x.signum();
+    let turned = if scene.stop.reached.is_some() { 0.0 } else { 0.35 * hand };
+    Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 - turned }
+}
+
+/// How far that is from a start to either side, in shares of what is allowed: x, y, heading.
+fn shares(scene: &Scene) -> [f64; 3] {
+    let (start, middle) = (scene.start, middle(scene));
+    let moved = (start.position - middle.position) / 0.04;
+    [moved.x, moved.y, (start.heading - middle.heading) / FRAC_PI_6]
+}
+
+#[test]
+fn starts_are_evenly_distributed_over_all_that_there_may_be() {
+    for family in FAMILIES {
+        let starts: Vec<_> = draws(&family).map(|draw| shares(&draw.scene)).collect();
+        for of in 0..3 {
+            let mut shares: Vec<f64> = starts.iter().map(|start| start[of]).collect();
+            shares.sort_by(f64::total_cmp);
+            // The test of Kolmogorov and Smirnov, at 1 in 10 000.
+            let gap = |(index, share): (usize, &f64)| {
+                (0.5 * (share + 1.0) - (index as f64 + 0.5) / TRIALS as f64).abs() - 0.5 / TRIALS as f64
+            };
+            let gap = shares.iter().enumerate().map(gap).fold(0.0, f64::max);
+            assert!(gap < 2.23 / (TRIALS as f64).sqrt(), "{}, {of}: {gap}", family.name);
+            assert!(shares.iter().all(|share| share.abs() < 1.0 + 1e-4));
+        }
+    }
+}
+
+#[test]
+fn the_rig_stands_clear_wherever_starts_may_be() {
+    let shares = [-1.0, 0.0, 1.0];
+    for family in FAMILIES {
+        for Draw { scene, text, .. } in draws(&family) {
+            let middle = middle(&scene);
+            for (x, y, turn) in thrice(&shares) {
+                let position = middle.position + 0.04 * Vector2::new(x, y);
+                let start = Pose { position, heading: middle.heading + FRAC_PI_6 * turn };
+                assert!(scene.is_clear_at(&start), "{x}, {y}, {turn}: {text}");
+            }
+        }
+    }
+}
+
+fn thrice(shares: &[f64]) -> impl Iterator<Item = (f64, f64, f64)> {
+    shares.iter().flat_map(move |&x| shares.iter().flat_map(move |&y| shares.iter().map(move |&turn| (x, y, turn))))
+}
+
+#[test]
+fn from_the_middle_of_all_starts_a_whisker_comes_upon_the_object_and_the_body_into_the_tunnel() {
+    for family in FAMILIES {
+        for Draw { scene, text, .. } in draws(&family) {
+            let mut body = scene.clone();
+            body.rig.whiskers.clear();
+            let middle = middle(&scene);
+            let ahead = |distance| Pose { position: middle.position + distance * unit(middle.heading), ..middle };
+            let distances = (0..200).map(|step| 4e-3 * f64::from(step));
+            if let Some(reached) = scene.stop.reached {
+                let inside = distances.take(75).all(|distance| body.is_clear_at(&ahead(distance)));
+                assert!(inside && reached.place.y > 0.3, "{text}");
+            } else {
+                let met = distances.into_iter().find(|&distance| !scene.is_clear_at(&ahead(distance)));
+                let met = met.unwrap_or_else(|| panic!("nothing is met: {text}"));
+                assert!(body.is_clear_at(&ahead(met + 0.02)), "the body at {met} m: {text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_draw_depends_on_family_seed_and_trial_and_on_nothing_else() {
+    for family in FAMILIES {
+        let text = |seed, trial| family.draw(seed, trial).unwrap().text;
+        assert_eq!(text(1, 5), text(1, 5));
+        assert_ne!(text(1, 5).replace("-5", ""), text(1, 6).replace("-6", ""));
+        assert_ne!(text(1, 5), text(2, 5));
+    }
+    let seeds: Vec<_> = FAMILIES.iter().map(|family| family.draw(1, 5).unwrap().scene.seed).collect();
+    assert!(seeds.iter().enumerate().all(|(index, seed)| !seeds[..index].contains(seed)));
+}
+
+#[test]
+fn convex_corners_are_convex_and_turn_as_much_as_they_say() {
+    let mut drawn = Vec::new();
+    for draw in named("convex-corner") {
+        let outline = draw.scene.solids[0].outline().clone();
+        assert!(outline.is_convex());
+        let said: f64 = draw.scene.description.split(' ').next_back().unwrap().trim_end_matches('°').parse().unwrap();
+        let said = said / 180.0 * PI;
+        assert!((FRAC_PI_6..=PI).contains(&said), "{said}");
+        let turns = turns(&outline);
+        let is_there = turns.iter().any(|turn| (turn - said).abs() < 2e-3);
+        assert!(is_there || said > 3.0 && (turns[0] + turns[1] - PI).abs() < 1e-3, "{said}: {turns:?}");
+        drawn.push(said);
+    }
+    assert!(drawn.iter().any(|turn| *turn < 0.9) && drawn.iter().any(|turn| *turn > 2.6));
+}
+
+#[test]
+fn concave_corners_have_one_inner_corner() {
+    for draw in named("concave-corner") {
+        let turns = turns(draw.scene.solids[0].outline());
+        assert_eq!(turns.iter().filter(|turn| **turn < 0.0).count(), 1);
+        assert!((15.0..=75.0).contains(&-turns.last().unwrap().to_degrees().round()));
+    }
+}
+
+#[test]
+fn tunnels_are_as_wide_as_they_say_square_to_every_run() {
+    for draw in named("zigzag-tunnel").chain(named("tunnel-mouth")) {
+        let [left, right] = draw.scene.solids.as_slice() else { panic!("two walls") };
+        let said = draw.scene.description.split(" mm clear").next().unwrap().rsplit(' ').next().unwrap();
+        let said = 1e-3 * said.parse::<f64>().unwrap();
+        assert!((0.18..=0.26).contains(&said));
+        for run in draw.scene.truth.axis.as_ref().unwrap().contours().next().unwrap().pieces() {
+            // From the middle of a run square to it: no inner corner is nearer there.
+            let middle = run.point_at(0.5 * run.length());
+            let clear = left.outline().signed_distance(middle) + right.outline().signed_distance(middle);
+            assert!((clear - said).abs() < 0.5001e-3, "{clear} m for {said} m");
+        }
+    }
+}
+
+#[test]
+fn zigzags_go_to_and_fro_by_one_angle() {
+    let mut drawn = Vec::new();
+    for draw in named("zigzag-tunnel") {
+        let axis = draw.scene.truth.axis.clone().unwrap();
+        let turns: Vec<f64> = axis.contours().next().unwrap().corners().iter().map(|corner| corner.turn).collect();
+        assert!((3..=5).contains(&turns.len()));
+        assert!(turns.windows(2).all(|turns| (turns[0] + turns[1]).abs() < 1e-4));
+        drawn.push(turns[0].abs().to_degrees());
+    }
+    assert!(drawn.iter().all(|turn| (10.0..=60.0).contains(turn)));
+    assert!(drawn.iter().any(|turn| *turn < 15.0) && drawn.iter().any(|turn| *turn > 55.0));
+}
+
+#[test]
+fn smooth_curves_have_no_corners_and_bend_no_more_than_they_may() {
+    let mut hollow = 0;
+    for draw in named("smooth-curve") {
+        let outline = draw.scene.solids[0].outline();
+        assert!(outline.corners().is_empty());
+        hollow += usize::from(!outline.is_convex());
+        for piece in outline.pieces() {
+            assert!((-1.02 / 0.25..1.02 / 0.08).contains(&piece.curvature()), "{}: {}", piece.curvature(), draw.text);
+        }
+    }
+    assert!(hollow > 20, "{hollow}");
+}
+
+#[test]
+fn walls_are_thin_and_two_objects_are_two() {
+    for draw in named("thin-wall") {
+        let outline = draw.scene.solids[0].outline();
+        let thinnest = outline.pieces().iter().map(Piece::length).fold(f64::MAX, f64::min);
+        assert!((0.001_999..=0.020_001).contains(&thinnest), "{thinnest}");
+    }
+    assert!(named("two-objects").all(|draw| draw.scene.solids.len() == 2));
+}
+
+#[test]
+fn polygons_have_sharp_and_rounded_corners() {
+    let outlines: Vec<_> = named("polygon").map(|draw| draw.scene.solids[0].outline().clone()).collect();
+    let is_round = |piece: &Piece| piece.curvature() > 0.0;
+    assert!(outlines.iter().all(|outline| !turns(outline).is_empty()));
+    assert!(outlines.iter().any(|outline| outline.pieces().iter().any(is_round)));
+    for outline in outlines {
+        let radii = outline.pieces().iter().filter(|piece| is_round(piece)).map(|piece| piece.curvature().recip());
+        assert!(radii.into_iter().all(|radius| (0.0199..0.1001).contains(&radius)));
+    }
+}

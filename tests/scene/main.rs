@@ -1,0 +1,15 @@
+//! What there is to be touched: geometry, outlines from files, scenarios, families, solids.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod errors;
+mod families;
+mod geometry;
+#[cfg(feature = "outlines")]
+mod outlines;
+mod page;
+mod scenes;
+#[cfg(feature = "sim")]
+mod seams;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
+mod solids;

@@ -1,0 +1,21 @@
+//! What `docs/scenarios.md` says is true.
+
+use vibrissa::diagnostic::Source;
+use vibrissa::rig::Rig;
+use vibrissa::scene::Scene;
+
+const DOCUMENT: &str = include_str!("../../docs/scenarios.md");
+
+fn scenarios() -> Vec<Scene> {
+    let blocks = DOCUMENT.split("```yaml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    blocks.map(|block| Scene::from_yaml(&Source::new("docs/scenarios.md", block)).unwrap()).collect()
+}
+
+#[test]
+fn the_rig_that_is_written_out_is_the_reference_rig() {
+    let scenarios = scenarios();
+    assert_eq!(scenarios.len(), 3);
+    for scenario in scenarios {
+        assert_eq!(scenario.rig, Rig::default(), "{}", scenario.name);
+    }
+}

@@ -1,9 +1,0 @@
-//! What the laws of the standard library command, and that a left whisker is a right one in a mirror.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
-mod felt;
-mod guard;
-mod law;
-mod mirror;
-mod retrieval;
-mod swiping;

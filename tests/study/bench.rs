@@ -1,0 +1,123 @@
+//! The bench against the thesis, and its page.
+
+use std::f64::consts::TAU;
+
+use crate::runs::{arc_of_tips, run_with};
+use vibrissa::diagnostic::Source;
+use vibrissa::geometry::{Point2, circle};
+use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
+use vibrissa::scene::{Outcome, Scene};
+use vibrissa::score::Score;
+use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table};
+
+/// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
+fn result(scenario: &str, off: f64) -> RunResult {
+    let run = run_with(&[arc_of_tips(0.03 + off, 0.0, TAU, 0.05 / 30.0)]);
+    let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
+    let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
+    let identity = Identity { scenario, policy, world, seed: 0, hash };
+    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into()))
+}
+
+fn spread(mean: f64) -> MeanStd {
+    MeanStd { mean: Some(mean), std: Some(0.1) }
+}
+
+fn retrieval(radius: MeanStd) -> Retrieval {
+    Retrieval { count: 4, radius_mm: radius, distance_mm: spread(200.0), time_s: spread(3.0) }
+}
+
+#[test]
+fn a_figure_is_better_up_to_the_thesis_s_and_worse_beyond() {
+    for figures in THESIS {
+        for (factor, verdict) in [(0.99, Verdict::Better), (1.01, Verdict::Worse)] {
+            let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3), true);
+            assert_eq!(row.verdicts.error_mm, Some(verdict), "{}", figures.scenario);
+        }
+    }
+    let mut boxed = result("box", 0.0);
+    boxed.retrieval = Some(retrieval(spread(11.3)));
+    let row = BenchRow::new(boxed.clone(), true);
+    assert_eq!((row.verdicts.radius_mm, row.passed), (Some(Verdict::Worse), false));
+    boxed.retrieval = Some(retrieval(spread(11.1)));
+    assert!(BenchRow::new(boxed, true).passed);
+}
+
+#[test]
+fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
+    let good = result("disk", 1e-4);
+    assert!(BenchRow::new(good.clone(), true).passed);
+    assert!(!BenchRow::new(RunResult { outcome: Outcome::Timeout, ..good.clone() }, true).passed);
+    let mut nothing = good.clone();
+    nothing.error_mm.mean = None;
+    assert_eq!(BenchRow::new(nothing, true).verdicts.error_mm, Some(Verdict::Worse));
+    let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4), true);
+    assert_eq!(
+        (tunnel.verdicts.axis_mm, tunnel.passed),
+        (Some(Verdict::Worse), false),
+        "it was never between both walls"
+    );
+    let mut not_a_number = good;
+    not_a_number.error_mm.mean = Some(f64::NAN);
+    assert!(!BenchRow::new(not_a_number, true).passed);
+}
+
+#[test]
+fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_complete() {
+    let row = BenchRow::new(result("octagon", 1e-4), true);
+    assert_eq!((row.verdicts.radius_mm, row.passed), (None, true));
+    let foreign = BenchRow::new(result("star", 0.1), true);
+    assert_eq!((foreign.thesis, foreign.passed), (None, true));
+}
+
+#[test]
+fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
+    let conditions = Conditions { friction: 0.3, noise: true };
+    let worse = BenchRow::new(result("disk", 2e-3), false);
+    assert!(!worse.passed && !worse.clone().under(Conditions::default()).passed);
+    let hard = worse.clone().under(conditions);
+    assert!(hard.passed && bench_table(&[hard]).contains("disk, friction 0.3, noise"));
+    let failed = BenchRow { result: RunResult { outcome: Outcome::Failed, ..worse.result.clone() }, ..worse };
+    assert!(!failed.under(conditions).passed);
+}
+
+#[test]
+fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_change_nothing() {
+    let friction = Conditions { friction: 0.1, noise: false };
+    for file in SCENARIOS {
+        let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+        let mut harder = scene.clone();
+        Conditions::default().apply(&mut harder);
+        assert_eq!(harder.rig, scene.rig);
+        friction.apply(&mut harder);
+        let steps = 1.0 / (harder.rig.sensing.sample_rate * harder.rig.physics.step);
+        assert!((steps - steps.round()).abs() < 1e-9 && harder.rig.physics.step <= 1.0 / 1800.0 + 1e-9, "{steps}");
+        assert!(harder.rig.physics.penetration_limit >= scene.rig.physics.penetration_limit);
+        assert!(harder.rig.sensing.friction > 0.0 && harder.rig.sensing.angle_noise == 0.0);
+    }
+}
+
+#[test]
+fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
+    let table =
+        bench_table(&[BenchRow::new(result("disk", 2e-4), true), BenchRow::new(result("smooth-tunnel", 2e-3), true)]);
+    for wanted in ["0.20 ± 0.00 better", "0.8 ± 0.5", "2.00 ± 0.00  worse", "1.3 ± 1.6", "not known  worse", "4 ± 4"]
+    {
+        assert!(table.contains(wanted), "no {wanted} in\n{table}");
+    }
+}
+
+#[test]
+fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
+    let mut failed = result("disk", 1e-4);
+    failed.outcome = Outcome::Failed;
+    failed.reason = Some("<script>alert(\"1\")</script> & more".to_owned());
+    let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
+    let picture = "<svg xmlns=\"x\"><clipPath id=\"map\"/>ä#%</svg>".to_owned();
+    let page = bench_page(&rows, &[picture.clone(), picture]);
+    assert_eq!((page.matches("<img ").count(), page.matches("<tr>").count()), (2, 3));
+    assert!(!page.contains("<script") && !page.contains("<svg") && !page.contains("id=\"map\""));
+    assert!(page.contains("1 of 2 runs completed") && page.contains("class=\"worse\">failed"));
+    assert!(page.contains("src=\"data:image/svg+xml,%3Csvg xmlns=%22x%22%3E"));
+    assert!(page.contains("%C3%A4%23%25"));
+}

@@ -1,0 +1,17 @@
+//! What is made of runs: scores, reports, benches, comparisons.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod bench;
+#[path = "../common/mod.rs"]
+mod common;
+mod compare;
+mod corners;
+mod report;
+mod retrieval;
+mod runs;
+mod score;
+#[path = "../common/seen.rs"]
+mod seen;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
+mod way;

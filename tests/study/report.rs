@@ -1,0 +1,239 @@
+//! What people and programs get to see of a run.
+
+use std::f64::consts::TAU;
+
+use crate::runs::{arc_of_tips, run_with};
+use crate::seen::{apart, see};
+use crate::snapshots::snapshots;
+use proptest::prelude::*;
+use vibrissa::diagnostic::Source;
+use vibrissa::geometry::{Contour, Point2, circle};
+use vibrissa::machine::{Cause, Failsafe, Mark};
+use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
+use vibrissa::run::{MarkRecord, Run};
+use vibrissa::scene::{Outcome, Scene};
+use vibrissa::score::Score;
+
+fn disk() -> Contour {
+    circle(Point2::origin(), 0.3).unwrap()
+}
+
+/// A run half round the disk of 0.3 m, a quarter of a millimetre outside of it.
+fn half_round() -> Run {
+    run_with(&[arc_of_tips(0.30025, 0.0, 0.5 * TAU, 0.05 / 30.0), vec![]])
+}
+
+fn result(run: &Run) -> RunResult {
+    RunResult::new(identity(), run, &Score::new(run, &disk().into()))
+}
+
+fn identity() -> Identity {
+    let [scenario, policy, engine] = ["5ce0", "7a11", "3a71"].map(str::to_owned);
+    Identity {
+        scenario: "disk".to_owned(),
+        policy: "thesis".to_owned(),
+        world: "mujoco".to_owned(),
+        seed: 7,
+        hash: Hashes { scenario, policy, engine },
+    }
+}
+
+/// The result as JSON in the order of its keys, with figures to a thousandth, so that they hold across machines.
+fn json(result: &RunResult) -> String {
+    let text = serde_json::to_string_pretty(result).unwrap();
+    let rounded = text.lines().map(|line| {
+        let Some((key, value)) = line.split_once(": ") else { return line.to_owned() };
+        let number = value.trim_end_matches(',');
+        let Ok(figure) = number.parse::<f64>() else { return line.to_owned() };
+        if number.contains('.') { format!("{key}: {figure:.3}{}", &value[number.len()..]) } else { line.to_owned() }
+    });
+    rounded.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_result_has_the_keys_of_the_command_line() {
+    let mut lost = run_with(&[]);
+    lost.outcome = Outcome::Failed;
+    lost.reason = Some("the whisker lost the object".to_owned());
+    lost.wall = std::time::Duration::ZERO;
+    snapshots("report").bind(|| {
+        for (name, run) in [("result", half_round()), ("result_of_nothing", lost)] {
+            insta::assert_snapshot!(name, json(&result(&run)));
+        }
+    });
+}
+
+#[test]
+fn a_result_tells_of_failsafes() {
+    let mut run = half_round();
+    for tick in [7, 300] {
+        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite });
+    }
+    let failsafes = result(&run).failsafes;
+    assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));
+    assert_eq!(failsafes.first_s, Some(run.trace.ticks[7].time));
+    assert_eq!(failsafes.first_cause.as_deref(), Some("its command was not a finite number"));
+}
+
+/// The run of [`half_round`], lost and found again twice.
+fn retrieved() -> Run {
+    let mut run = half_round();
+    let mark = |(mark, tick): (Mark, usize)| MarkRecord {
+        mark,
+        whisker: 0,
+        tick,
+        tip_world: run.trace.ticks[tick].tips[0].unwrap(),
+    };
+    run.trace.marks = [(Mark::Lost, 90), (Mark::Found, 120), (Mark::Lost, 300), (Mark::Found, 345)].map(mark).into();
+    run
+}
+
+#[test]
+fn a_result_tells_of_retrievals_and_a_picture_shows_them() {
+    let run = retrieved();
+    let retrieval = result(&run).retrieval.unwrap();
+    assert_eq!(retrieval.count, 2);
+    // The platform of these runs goes at 50 mm/s.
+    assert!((retrieval.distance_mm.mean.unwrap() - 62.5).abs() < 1e-9);
+    assert!((retrieval.time_s.mean.unwrap() - 1.25).abs() < 1e-9 && retrieval.radius_mm.std.unwrap() > 0.0);
+    let picture = draw(&scene(), "thesis", &run);
+    texts_stand_clear(&picture);
+    assert!(picture.contains("edge lost") && picture.contains("contact found again") && picture.contains("retrievals"));
+    assert!(!draw(&scene(), "thesis", &half_round()).contains("edge lost"));
+}
+
+#[test]
+fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
+    let bare = table(&[result(&half_round())]);
+    assert!(!bare.contains("corners") && !bare.contains("collisions") && !bare.contains("retrieval"), "{bare}");
+    let mut run = retrieved();
+    run.trace.ticks[9].body_touches = true;
+    let mut square = result(&run);
+    let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
+    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into())).corners;
+    let full = table(&[result(&half_round()), square]);
+    assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval mm"), "{full}");
+}
+
+#[test]
+fn figures_that_are_no_numbers_are_null() {
+    let run = run_with(&[vec![Some(Point2::new(1e300, 0.0)); 3]]);
+    let json = serde_json::to_value(result(&run)).unwrap();
+    assert!(json["error_mm"]["mean"].is_null());
+    assert_eq!(json["error_mm"]["n"], 3);
+}
+
+#[test]
+fn a_table_has_a_line_a_run() {
+    let mut lost = result(&run_with(&[]));
+    lost.scenario = "rounded rectangle".to_owned();
+    lost.outcome = Outcome::Failed;
+    lost.realtime = None;
+    snapshots("report").bind(|| insta::assert_snapshot!("table", table(&[result(&half_round()), lost])));
+}
+
+/// A scene of the disk of [`half_round`].
+fn scene() -> Scene {
+    let text = "
+name: disk
+objects: [{circle: {centre: [0 m, 0 m], radius: 0.3 m}}]
+start: {position: [0 m, -0.6 m], heading: 90 deg}
+stop: {time: 120 s}
+";
+    Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap()
+}
+
+fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
+    picture(scene, policy, run, &Score::new(run, &scene.truth))
+}
+
+fn texts_stand_clear(picture: &str) {
+    let texts = see(picture).texts;
+    for (index, (a, place)) in texts.iter().enumerate() {
+        assert!(place[0] >= 0.0 && place[1] >= 0.0 && place[2] <= 1200.0, "{a} is cut off");
+        for (b, other) in &texts[..index] {
+            assert!(apart(place, other), "`{a}` and `{b}` overlap");
+        }
+    }
+}
+
+#[test]
+fn a_picture_names_scene_policy_and_outcome_and_no_text_hides_another() {
+    let picture = draw(&scene(), "thesis", &half_round());
+    let labels: Vec<_> = see(&picture).texts.into_iter().map(|(content, _)| content).collect();
+    for wanted in ["disk", "policy thesis ·completed", "Swiping", "Error (mm)", "w0", "w1", "not traced within 1 mm"] {
+        assert!(labels.iter().any(|label| label == wanted), "no {wanted:?} in {labels:?}");
+    }
+    texts_stand_clear(&picture);
+}
+
+#[test]
+fn the_reference_is_drawn_with_exact_arcs() {
+    let picture = draw(&scene(), "thesis", &half_round());
+    let outlines = picture.lines().filter(|line| line.matches('A').count() == 3 && line.contains("Z\""));
+    assert_eq!(outlines.count(), 2, "the area and the line of a circle in three arcs");
+}
+
+#[test]
+fn the_same_run_gives_the_same_picture_whatever_the_clock_says() {
+    let mut run = half_round();
+    let picture = draw(&scene(), "thesis", &run);
+    run.wall *= 2;
+    run.tick_times.clear();
+    assert!(picture == draw(&scene(), "thesis", &run));
+    assert_eq!(picture.matches("http").count(), 1, "the namespace alone");
+}
+
+#[test]
+fn many_states_and_whiskers_with_long_names_and_a_long_reason_have_room() {
+    let mut run = run_with(&vec![arc_of_tips(0.301, 0.0, 1.0, 0.05 / 30.0); 8]);
+    run.trace.states = (0..30).map(|k| format!("StateOfALongName{k}")).collect();
+    run.trace.whiskers = (0..8).map(|k| format!("whisker_of_a_long_name_{k}")).collect();
+    for (index, tick) in run.trace.ticks.iter_mut().enumerate() {
+        tick.state = Some(index / 5);
+        tick.body_touches = index % 10 == 0;
+    }
+    run.outcome = Outcome::Failed;
+    run.reason = Some("the whisker was lost and ".repeat(20) + &"o".repeat(400));
+    texts_stand_clear(&draw(&scene(), "thesis", &run));
+}
+
+#[test]
+fn names_cannot_break_a_picture() {
+    let mut run = half_round();
+    run.reason = Some("\u{0}\u{1b}[31m]]> & <script>\u{ffff}".to_owned());
+    run.trace.whiskers[0] = "\"<w0>\"".to_owned();
+    let scene = Scene { name: "</text>&amp;".to_owned(), ..scene() };
+    let picture = draw(&scene, "\"><script>alert(1)</script>", &run);
+    assert!(!picture.contains("<script"));
+    assert!(!picture.contains(|c: char| c.is_control() && c != '\n'));
+    see(&picture);
+}
+
+#[test]
+fn a_tip_far_off_is_left_out_of_the_map() {
+    let mut run = half_round();
+    run.trace.ticks[3].tips[0] = Some(Point2::new(1e308, 0.0));
+    see(&draw(&scene(), "thesis", &run));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_picture_of_any_run_is_well_formed(
+        tips in prop::collection::vec(prop::option::of((any::<f64>(), -1.0..1.0_f64)), 0..30),
+        bodies in prop::collection::vec((prop::num::f64::ANY, -1.0..1.0_f64, prop::num::f64::ANY), 30),
+        states in prop::collection::vec(0..4_usize, 30),
+    ) {
+        let tips = tips.into_iter().map(|tip| tip.map(|(x, y)| Point2::new(x, y))).collect();
+        let mut run = run_with(&[tips]);
+        for ((tick, (x, y, deflection)), state) in run.trace.ticks.iter_mut().zip(bodies).zip(states) {
+            tick.body.position = Point2::new(x, y);
+            tick.deflections[0] = deflection;
+            tick.body_touches = state == 0;
+            tick.state = (state < 3).then_some(state);
+        }
+        see(&draw(&scene(), "thesis", &run));
+    }
+}

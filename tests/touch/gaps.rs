@@ -1,0 +1,226 @@
+//! Samples that are not numbers: what is left out, what a tick without a reading feels like, and that nothing of it stays.
+#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test may panic, and what is exact is compared exactly")]
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use vibrissa::geometry::{Point2, Pose};
+use vibrissa::machine::{BodyScalar, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa::percept::{LowPass, Perception};
+use vibrissa::rig::Rig;
+use vibrissa::run::Control;
+use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+
+/// Samples in a tick.
+const PER_TICK: usize = 10;
+/// What is no reading.
+const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e308, -4.0];
+
+fn pose(time: f64) -> Pose {
+    Pose { position: Point2::new(0.0, 0.05 * time), heading: FRAC_PI_2 }
+}
+
+/// A sample of the platform on its way straight ahead, both whiskers bent by `base_angle` (rad).
+fn sample(index: usize, base_angle: f64) -> Sample {
+    let time = index as f64 / 300.0;
+    let mut whiskers = [Reading::default(); MAX_WHISKERS];
+    whiskers[0].base_angle = base_angle;
+    whiskers[1].base_angle = -base_angle;
+    Sample { time, body: pose(time), whiskers }
+}
+
+fn samples(base_angles: &[f64]) -> Vec<Sample> {
+    base_angles.iter().enumerate().map(|(index, &angle)| sample(index, angle)).collect()
+}
+
+fn perception() -> Perception {
+    Perception::new(&Rig::default(), &[0, 1], &[TipModelKind::OneChannel; 2]).unwrap()
+}
+
+fn filter() -> LowPass {
+    let sensing = Rig::default().sensing;
+    LowPass::new(sensing.filter_cutoff, sensing.sample_rate).unwrap()
+}
+
+fn feels(perception: &Perception, quantity: WhiskerScalar) -> f64 {
+    Senses::whisker(perception, 0, quantity)
+}
+
+fn tip(perception: &Perception) -> Vec<f64> {
+    perception.whisker_vector(0, WhiskerVector::Tip).iter().copied().collect()
+}
+
+/// Readings, and which of them are bad.
+fn readings() -> impl Strategy<Value = Vec<f64>> {
+    let good = prop::collection::vec(-1e-3..1e-3_f64, 3..60);
+    let bad = prop::collection::vec(prop::sample::select(&BAD), 1..45);
+    prop::collection::vec(prop_oneof![good, bad], 1..8).prop_map(|bursts| {
+        let mut readings = bursts.concat();
+        readings.resize(readings.len().next_multiple_of(PER_TICK), 5e-4);
+        readings
+    })
+}
+
+/// What the deflection should be at the end of every tick, written down as what it is defined to be: the filter of the
+/// readings, each bad one replaced by the last good one, begun anew after a tick without any.
+fn due(readings: &[f64]) -> Vec<Option<f64>> {
+    let is_good = |reading: &f64| reading.abs() <= PI;
+    let (mut heard, mut due): (Vec<f64>, Vec<Option<f64>>) = (Vec::new(), Vec::new());
+    let mut origin = 0.0;
+    for tick in readings.chunks(PER_TICK) {
+        let Some(first) = tick.iter().position(is_good) else {
+            due.push(None);
+            continue;
+        };
+        let (mut tick, mut last) = (tick, heard.last().copied().unwrap_or(origin));
+        if due.last() == Some(&None) {
+            heard.clear();
+            (origin, last, tick) = (tick[first], tick[first], &tick[first..]);
+        }
+        for reading in tick {
+            last = if is_good(reading) { *reading } else { last };
+            heard.push(last);
+        }
+        let mut filter = filter();
+        due.push(heard.iter().map(|reading| filter.next(reading - origin)).last().map(|value| value + origin));
+    }
+    due
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn a_bad_reading_is_replaced_by_the_last_good_one_and_a_tick_without_any_has_no_deflection(readings in readings()) {
+        let mut perception = perception();
+        for (tick, due) in samples(&readings).chunks(PER_TICK).zip(due(&readings)) {
+            perception.update(tick);
+            let deflection = perception.deflection(0);
+            if let Some(due) = due {
+                prop_assert!((deflection - due).abs() < 1e-12, "{deflection} {due}");
+            } else {
+                    prop_assert!(deflection.is_nan() && tip(&perception).iter().all(|part| part.is_nan()));
+                    let truths = [WhiskerScalar::Touching, WhiskerScalar::Sense].map(|truth| feels(&perception, truth));
+                    prop_assert_eq!(truths, [0.0; 2]);
+            }
+        }
+    }
+
+    #[test]
+    fn after_a_gap_a_whisker_feels_at_once_what_is_there(before in -1e-3..1e-3_f64, after in -1e-3..1e-3_f64, gap in 1..90_usize) {
+        let mut perception = perception();
+        let readings = [vec![before; 300], vec![f64::NAN; gap * PER_TICK], vec![after; PER_TICK]].concat();
+        samples(&readings).chunks(PER_TICK).for_each(|tick| perception.update(tick));
+        prop_assert!((perception.deflection(0) - after).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn what_does_not_depend_on_a_reading_is_known_without_it() {
+    let mut perception = perception();
+    perception.update(&samples(&[f64::NAN; PER_TICK]));
+    assert!(perception.pose().is_finite() && feels(&perception, WhiskerScalar::Yaw).is_finite());
+    assert!(perception.whisker_vector(0, WhiskerVector::Base).iter().all(|part| part.is_finite()));
+    assert!(perception.tip_at(0, 3e-4).iter().all(|part| part.is_finite()));
+    assert_eq!(feels(&perception, WhiskerScalar::ContourReady), 0.0);
+    assert!(perception.whisker_vector(0, WhiskerVector::ContourTangent).iter().all(|part| part.is_nan()));
+}
+
+#[test]
+fn of_poses_and_times_that_are_none_the_newest_other_counts() {
+    let mut perception = perception();
+    let mut tick = samples(&[3e-4; PER_TICK]);
+    for sample in &mut tick[4..] {
+        sample.body.heading = f64::NAN;
+        sample.time = f64::INFINITY;
+    }
+    perception.update(&tick);
+    assert_eq!((perception.pose(), perception.time()), (tick[3].body, tick[3].time));
+    for sample in &mut tick {
+        sample.body.position.x = f64::NEG_INFINITY;
+    }
+    perception.update(&tick[4..]);
+    assert!(perception.body(BodyScalar::Yaw).is_nan() && tip(&perception)[0].is_nan());
+    assert_eq!(perception.time(), tick[3].time, "the time stands still");
+    assert!(feels(&perception, WhiskerScalar::Touching) > 0.5, "the reading is as good as ever");
+}
+
+#[test]
+fn a_pose_that_is_none_leaves_no_point_in_a_contour() {
+    let mut perception = perception();
+    let all = samples(&[3e-4; 40 * PER_TICK]);
+    for (index, tick) in all.chunks(PER_TICK).enumerate() {
+        let mut tick = tick.to_vec();
+        if (20..25).contains(&index) {
+            for sample in &mut tick {
+                sample.body = Pose::UNKNOWN;
+            }
+        }
+        perception.update(&tick);
+        perception.record(0);
+        let end = perception.whisker_vector(0, WhiskerVector::ContourEnd);
+        assert!(end.iter().all(|part| part.is_finite()), "tick {index}");
+        let ready = feels(&perception, WhiskerScalar::ContourReady) > 0.5;
+        let tangent = perception.whisker_vector(0, WhiskerVector::ContourTangent);
+        // The platform goes up the y axis. The filter has settled by then.
+        assert_eq!(ready, tangent.norm().is_finite());
+        assert!(!ready || index < 15 || (tangent.y - 1.0).abs() < 1e-3, "tick {index}: {tangent}");
+    }
+}
+
+/// Policies that compute with all that can go wrong, and go on whatever does.
+fn policies() -> [String; 2] {
+    let resting = "initial Exploring failsafe -> Resting state Resting { stop after 0.2 s -> Exploring }";
+    let mut thesis = include_str!("../../policies/thesis.fsm").replace("initial Exploring", resting);
+    while let Some(start) = thesis.find("Failure(") {
+        let end = start + thesis[start..].find(')').unwrap();
+        thesis.replace_range(start..=end, "Resting");
+    }
+    let computing = "machine computing whisker r0, l0 initial Go failsafe -> Still
+        law go(w: whisker) {
+          let bend = lowpass(w.deflection, 5 Hz)
+          let pull = pid(turn(body.yaw, angle(w.tip - w.base)), 2 Hz, 0.5 Hz^2, 0.1, 1 rad/s)
+          steer w along w.tip_at(bend) / w.deflection at 50 mm/s * min(1, |w.tip| / 1 m) turning pull
+        }
+        state Go { record r0 do go(r0) after 1 s -> Other }
+        state Other { record l0 do go(l0) after 0.5 s -> Go failsafe -> Still }
+        state Still { stop when r0.deflection == r0.deflection for 50 ms -> Go }";
+    [thesis, computing.to_owned()]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn no_burst_gives_a_command_that_is_not_finite_or_stays(
+        which in 0..2_usize, readings in readings(), poses in prop::collection::vec((0..400_usize, 1..40_usize, 0..4_u8), 0..4),
+    ) {
+        let program = Arc::new(crate::common::program(&policies()[which]));
+        let mut control = Control::new(&Rig::default(), program).unwrap();
+        let mut all = samples(&[readings, vec![-3e-4; 120 * PER_TICK]].concat());
+        for (start, length, coordinate) in poses {
+            for sample in all.iter_mut().skip(start).take(length) {
+                match coordinate {
+                    0 => sample.body.position.x = f64::NAN,
+                    1 => sample.body.position.y = f64::INFINITY,
+                    2 => sample.body.heading = f64::NAN,
+                    _ => sample.time = f64::NAN,
+                }
+            }
+        }
+        let ticks = all.len() / PER_TICK;
+        let mut moving = 0;
+        for (index, tick) in all.chunks(PER_TICK).enumerate() {
+            let (command, given) = control.tick(tick);
+            prop_assert!(command.is_finite(), "{command:?}");
+            // Bursts end long before the last second: by then nothing of them is left.
+            if index + 30 >= ticks {
+                prop_assert!(given.failsafe.is_none() && control.machine().failure().is_none(), "tick {index}");
+                moving += usize::from(command.velocity_world.norm() > 1e-3);
+            }
+        }
+        prop_assert!(moving > 0);
+        prop_assert!((control.perception().deflection(0) + 3e-4).abs() < 1e-9);
+    }
+}
