@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::geometry::{Vector2, rotate, wrap};
+use crate::geometry::{Vector2, rotate, turn_between, unit, wrap};
 
 use super::action::{Action, Mover, Turn};
 use super::op::{Block, Op, Register, Wide};
@@ -28,6 +28,7 @@ pub(crate) fn evaluate<S: Senses>(
     while let Some(&op) = ahead.next() {
         match op {
             Op::Copy { to, a } => file.put(to, file.at(a)),
+            Op::CopyVector { to, a } => file.put_vector(to, file.vector(a)),
             Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
             Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
             Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
@@ -46,6 +47,7 @@ pub(crate) fn evaluate<S: Senses>(
             Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
             Op::Floor { to, a } => file.put(to, file.at(a).floor()),
             Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
+            Op::Turn { to, a, b } => file.put(to, turn_between(file.at(a), file.at(b))),
             Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
             Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
             #[expect(clippy::float_cmp, reason = "the language's == is exact; it compares truths and whiskers")]
@@ -63,12 +65,17 @@ pub(crate) fn evaluate<S: Senses>(
                 file.put_vector(to, file.vector(a) * (1.0 - share) + file.vector(b) * share);
             }
             Op::Distance { to, a, b } => file.put(to, (file.vector(a) - file.vector(b)).norm()),
+            Op::Dot { to, a, b } => {
+                let (a, b) = (file.vector(a), file.vector(b));
+                file.put(to, a.x * b.x + a.y * b.y);
+            }
             Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
             Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {
                 let vector = file.vector(a);
                 file.put(to, vector.y.atan2(vector.x));
             }
+            Op::Direction { to, a } => file.put_vector(to, unit(file.at(a))),
             Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),
             Op::Time { to } => file.put(to, senses.time()),
             Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
@@ -95,6 +102,13 @@ pub(crate) fn evaluate<S: Senses>(
             Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
             Op::JumpUnless { a, target } => {
                 if !file.truth(a) {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessLess { a, b, target } => {
+                // Of what is not a number nothing is less, and it is less than nothing.
+                let is_less = file.at(a) < file.at(b);
+                if !is_less {
                     ahead = code[target as usize..].iter();
                 }
             }

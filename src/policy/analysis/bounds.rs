@@ -104,7 +104,17 @@ impl<'m> Bounds<'m> {
             | Op::Equal { .. }
             | Op::And { .. }
             | Op::Or { .. } => self.two(op, region)?,
-            Op::Clamp { .. } | Op::Blend { .. } | Op::Distance { .. } => self.several(op, region)?,
+            Op::Clamp { .. } | Op::Blend { .. } | Op::Distance { .. } | Op::Dot { .. } | Op::Turn { .. } => {
+                self.several(op, region)?;
+            }
+            Op::CopyVector { to, a } => {
+                let value = self.vector_at(a, region);
+                self.put_vector(to, value);
+            }
+            Op::Direction { to, a } => {
+                let angle = self.at(a, region);
+                self.put_vector(to, [angle.cosine(), angle.sine()]);
+            }
             Op::AddVectors { to, a, b } => self.parts(to, (a, b), region, Interval::add),
             Op::SubtractVectors { to, a, b } => self.parts(to, (a, b), region, Interval::subtract),
             Op::NegateVector { to, a } => {
@@ -166,6 +176,7 @@ impl<'m> Bounds<'m> {
             }
             Op::Clear { .. }
             | Op::JumpUnless { .. }
+            | Op::JumpUnlessLess { .. }
             | Op::Jump { .. }
             | Op::Record { .. }
             | Op::Mark { .. }
@@ -209,6 +220,14 @@ impl<'m> Bounds<'m> {
             Op::Distance { to, a, b } => {
                 let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
                 self.put(to, Interval::norm([x.subtract(u), y.subtract(v)]));
+            }
+            Op::Dot { to, a, b } => {
+                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
+                self.put(to, x.multiply(u).add(y.multiply(v)));
+            }
+            Op::Turn { to, a, b } => {
+                let value = self.at(b, region).subtract(self.at(a, region)).wrapped();
+                self.put(to, value);
             }
             _ => return None,
         }
