@@ -32,6 +32,8 @@ pub(crate) fn evaluate<S: Senses>(
             Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
             Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
             Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
+            // Not `mul_add`, which rounds once.
+            Op::MultiplyAdd { to, a, b, c } => file.put(to, file.at(a) * file.at(b) + file.at(c)),
             Op::Divide { to, a, b } => file.put(to, file.at(a) / file.at(b)),
             Op::Negate { to, a } => file.put(to, -file.at(a)),
             Op::Absolute { to, a } => file.put(to, file.at(a).abs()),
@@ -75,12 +77,15 @@ pub(crate) fn evaluate<S: Senses>(
                 let vector = file.vector(a);
                 file.put(to, vector.y.atan2(vector.x));
             }
-            Op::Direction { to, a } => file.put_vector(to, unit(file.at(a))),
+            Op::Direction { to, a } => file.put_vector(to, direction(file.at(a))),
             Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),
             Op::Time { to } => file.put(to, senses.time()),
             Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
             Op::BodyPosition { to } => file.put_vector(to, senses.body_position()),
             Op::Whisker { to, whisker, quantity } => file.put(to, senses.whisker(file.index(whisker), quantity)),
+            Op::WhiskerSize { to, whisker, quantity } => {
+                file.put(to, senses.whisker(file.index(whisker), quantity).abs());
+            }
             Op::WhiskerVector { to, whisker, quantity } => {
                 file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
             }
@@ -109,6 +114,11 @@ pub(crate) fn evaluate<S: Senses>(
                 // Of what is not a number nothing is less, and it is less than nothing.
                 let is_less = file.at(a) < file.at(b);
                 if !is_less {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessBoth { a, b, target } => {
+                if !(file.truth(a) && file.truth(b)) {
                     ahead = code[target as usize..].iter();
                 }
             }
@@ -223,6 +233,13 @@ fn maximum(a: f64, b: f64) -> f64 {
         Some(_) => b,
         None => f64::NAN,
     }
+}
+
+/// The unit vector in the direction of an angle. By itself, so that sine and cosine stay one call: among the other operations
+/// the compiler would share the call of each with theirs.
+#[inline(never)]
+fn direction(angle: f64) -> Vector2 {
+    unit(angle)
 }
 
 fn sign(value: f64) -> f64 {

@@ -29,6 +29,8 @@ pub enum Op {
     Subtract { to: Register, a: Register, b: Register },
     /// `to = a * b`
     Multiply { to: Register, a: Register, b: Register },
+    /// `to = a * b + c`, rounded twice
+    MultiplyAdd { to: Register, a: Register, b: Register, c: Register },
     /// `to = a / b`
     Divide { to: Register, a: Register, b: Register },
     /// `to = -a`
@@ -103,6 +105,8 @@ pub enum Op {
     BodyPosition { to: Wide },
     /// `to = a quantity of a whisker`
     Whisker { to: Register, whisker: Register, quantity: WhiskerScalar },
+    /// `to = the size of a quantity of a whisker`
+    WhiskerSize { to: Register, whisker: Register, quantity: WhiskerScalar },
     /// `to = a vector of a whisker`
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
     /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
@@ -120,6 +124,8 @@ pub enum Op {
     JumpUnless { a: Register, target: u32 },
     /// Goes on at `target` unless `a < b`; `target` lies ahead.
     JumpUnlessLess { a: Register, b: Register, target: u32 },
+    /// Goes on at `target` unless both `a` and `b`; `target` lies ahead.
+    JumpUnlessBoth { a: Register, b: Register, target: u32 },
     /// Goes on at `target`, which lies ahead.
     Jump { target: u32 },
     /// Takes a whisker's tip as a point of the estimated contour.

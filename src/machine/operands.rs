@@ -67,6 +67,7 @@ impl Op {
             | Self::Body { .. }
             | Self::BodyPosition { .. }
             | Self::Whisker { .. }
+            | Self::WhiskerSize { .. }
             | Self::WhiskerVector { .. }
             | Self::TipAt { .. }
             | Self::ContourAt { .. } => Effect::Feels,
@@ -75,6 +76,7 @@ impl Op {
             | Self::Clear { .. }
             | Self::JumpUnless { .. }
             | Self::JumpUnlessLess { .. }
+            | Self::JumpUnlessBoth { .. }
             | Self::Jump { .. }
             | Self::Record { .. }
             | Self::Mark { .. }
@@ -110,9 +112,10 @@ impl Op {
     /// Where a jump leads.
     pub(crate) fn target_mut(&mut self) -> Option<&mut u32> {
         match self {
-            Self::JumpUnless { target, .. } | Self::JumpUnlessLess { target, .. } | Self::Jump { target } => {
-                Some(target)
-            }
+            Self::JumpUnless { target, .. }
+            | Self::JumpUnlessLess { target, .. }
+            | Self::JumpUnlessBoth { target, .. }
+            | Self::Jump { target } => Some(target),
             _ => None,
         }
     }
@@ -151,11 +154,11 @@ impl Op {
                 visit(Read(1), a);
                 visit(Read(1), b);
             }
-            Self::Clamp { to, a, low, high } => {
+            Self::Clamp { to, a, low: b, high: c } | Self::MultiplyAdd { to, a, b, c } => {
                 visit(Write(1), to);
                 visit(Read(1), a);
-                visit(Read(1), low);
-                visit(Read(1), high);
+                visit(Read(1), b);
+                visit(Read(1), c);
             }
             Self::Blend { to, a, b, share } => {
                 visit(Write(2), to);
@@ -192,7 +195,7 @@ impl Op {
             }
             Self::Time { to } | Self::Body { to, .. } => visit(Write(1), to),
             Self::BodyPosition { to } => visit(Write(2), to),
-            Self::Whisker { to, whisker, .. } => {
+            Self::Whisker { to, whisker, .. } | Self::WhiskerSize { to, whisker, .. } => {
                 visit(Write(1), to);
                 visit(Whisker, whisker);
             }
@@ -219,7 +222,7 @@ impl Op {
             }
             Self::Clear { memory, count } => visit(Write(*count), memory),
             Self::JumpUnless { a, .. } => visit(Read(1), a),
-            Self::JumpUnlessLess { a, b, .. } => {
+            Self::JumpUnlessLess { a, b, .. } | Self::JumpUnlessBoth { a, b, .. } => {
                 visit(Read(1), a);
                 visit(Read(1), b);
             }

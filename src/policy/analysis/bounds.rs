@@ -104,7 +104,12 @@ impl<'m> Bounds<'m> {
             | Op::Equal { .. }
             | Op::And { .. }
             | Op::Or { .. } => self.two(op, region)?,
-            Op::Clamp { .. } | Op::Blend { .. } | Op::Distance { .. } | Op::Dot { .. } | Op::Turn { .. } => {
+            Op::Clamp { .. }
+            | Op::Blend { .. }
+            | Op::Distance { .. }
+            | Op::Dot { .. }
+            | Op::Turn { .. }
+            | Op::MultiplyAdd { .. } => {
                 self.several(op, region)?;
             }
             Op::CopyVector { to, a } => {
@@ -158,6 +163,12 @@ impl<'m> Bounds<'m> {
                 let value = values.reduce(Interval::join).unwrap_or(Interval::ANYTHING);
                 self.put(to, value);
             }
+            Op::WhiskerSize { to, whisker, quantity } => {
+                let whiskers = self.whiskers(whisker, region);
+                let values = whiskers.map(|whisker| scalar(region, whisker, quantity));
+                let value = values.reduce(Interval::join).unwrap_or(Interval::ANYTHING).absolute();
+                self.put(to, value);
+            }
             Op::WhiskerVector { to, whisker, quantity } => {
                 let whiskers = self.whiskers(whisker, region);
                 let values = whiskers.map(|whisker| vector(region, whisker, quantity));
@@ -177,6 +188,7 @@ impl<'m> Bounds<'m> {
             Op::Clear { .. }
             | Op::JumpUnless { .. }
             | Op::JumpUnlessLess { .. }
+            | Op::JumpUnlessBoth { .. }
             | Op::Jump { .. }
             | Op::Record { .. }
             | Op::Mark { .. }
@@ -224,6 +236,10 @@ impl<'m> Bounds<'m> {
             Op::Dot { to, a, b } => {
                 let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
                 self.put(to, x.multiply(u).add(y.multiply(v)));
+            }
+            Op::MultiplyAdd { to, a, b, c } => {
+                let value = self.at(a, region).multiply(self.at(b, region)).add(self.at(c, region));
+                self.put(to, value);
             }
             Op::Turn { to, a, b } => {
                 let value = self.at(b, region).subtract(self.at(a, region)).wrapped();

@@ -1,6 +1,6 @@
 //! What nothing reads is not computed.
 
-use crate::machine::{Effect, Place};
+use crate::machine::{Effect, Op, Place};
 
 use super::draft::Draft;
 
@@ -10,7 +10,7 @@ pub(super) fn remove(draft: &mut Draft) -> Vec<u32> {
     for register in draft.read_by_guards() {
         reads[usize::from(register)] += 1;
     }
-    let operands = |op: &crate::machine::Op| {
+    let operands = |op: &Op| {
         let operands = op.operands();
         operands.reads.into_iter().flat_map(Place::registers).chain(operands.whisker.map(usize::from))
     };

@@ -37,6 +37,15 @@ fn fused(ops: &[Op], reads: &[u32]) -> Option<(usize, Op)> {
         {
             Some((3, Op::Dot { to, a, b }))
         }
+        [Op::Multiply { to: product, a, b }, Op::Add { to, a: c, b: summand }, ..] if is_passed(product, summand) => {
+            Some((2, Op::MultiplyAdd { to, a, b, c }))
+        }
+        [Op::Whisker { to: value, whisker, quantity }, Op::Absolute { to, a }, ..] if is_passed(value, a) => {
+            Some((2, Op::WhiskerSize { to, whisker, quantity }))
+        }
+        [Op::And { to, a, b }, Op::JumpUnless { a: truth, target }, ..] if is_passed(to, truth) => {
+            Some((2, Op::JumpUnlessBoth { a, b, target }))
+        }
         [Op::Cosine { to, a }, Op::Sine { to: y, a: same }, ..] if a == same && a != to && y == to + 1 => {
             Some((2, Op::Direction { to, a }))
         }
