@@ -121,6 +121,7 @@ impl Op {
     }
 
     /// Goes through the registers of the operation.
+    #[expect(clippy::too_many_lines, reason = "one arm for operations alike")]
     pub(crate) fn visit(&mut self, mut visit: impl FnMut(Role, &mut Register)) {
         use Role::{Read, Remember, Whisker, Write};
         match self {

@@ -76,6 +76,7 @@ impl<'m> Bounds<'m> {
     }
 
     /// One operation; `None` if it does more than to compute.
+    #[expect(clippy::too_many_lines, reason = "one arm an operation")]
     fn step(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let mut one = |bounds: &mut Self, to, a, operation: fn(Interval) -> Interval| {
             let value = operation(bounds.at(a, region));

@@ -4,8 +4,8 @@ use crate::machine::{Effect, Op, Place, Register, Role};
 
 use super::draft::Draft;
 
-/// How many values are remembered at a time: laws repeat themselves close by, and looking for one takes time.
-const MEMORY: usize = 64;
+/// How many values that come of the same register are looked through: laws repeat themselves close by, and looking takes time.
+const LOOKS: usize = 16;
 
 /// An operation done before. Numbers of operations count from 1, so that 0 comes before all.
 struct Known {
@@ -13,19 +13,19 @@ struct Known {
     /// The operation with its result in register 0.
     op: Op,
     to: Register,
-}
-
-/// A register that holds what another one does.
-struct Copied {
-    number: usize,
-    to: Register,
-    from: Register,
+    /// The one before it that comes of the same register, counted from 1.
+    before: usize,
 }
 
 /// What is known on the way through one run of the code.
 struct Walk {
     known: Vec<Known>,
-    copied: Vec<Copied>,
+    /// For every register, the last known operation that reads it first, counted from 1; behind them, that of those that read none.
+    last: Vec<usize>,
+    /// The registers that were copied into, each with the number of the copy.
+    copied: Vec<(usize, Register)>,
+    /// For every register that was copied into, where from.
+    sources: Vec<Option<Register>>,
     /// The number of the operation that wrote each register last.
     written: Vec<usize>,
     /// The number of the operation that recorded a tip last.
@@ -34,7 +34,15 @@ struct Walk {
 
 /// Copies what is known instead of computing it again, and reads copies where they come from.
 pub(super) fn reuse(draft: &mut Draft) {
-    let mut walk = Walk { known: Vec::new(), copied: Vec::new(), written: vec![0; draft.registers()], recorded: 0 };
+    let registers = draft.registers();
+    let mut walk = Walk {
+        known: Vec::new(),
+        last: vec![0; registers + 1],
+        copied: Vec::new(),
+        sources: vec![None; registers],
+        written: vec![0; registers],
+        recorded: 0,
+    };
     // For every operation, the first of the jumps that lead there.
     let mut jumps = vec![usize::MAX; draft.ops.len() + 1];
     for (index, op) in draft.ops.iter().enumerate().rev() {
@@ -43,8 +51,7 @@ pub(super) fn reuse(draft: &mut Draft) {
         }
     }
     for run in &draft.runs {
-        walk.known.clear();
-        walk.copied.clear();
+        walk.forget_after(0);
         for index in run.clone() {
             // What was done behind a jump that leads here may have been left out.
             if jumps[index] != usize::MAX {
@@ -60,8 +67,20 @@ pub(super) fn reuse(draft: &mut Draft) {
 impl Walk {
     /// Forgets what was done behind an operation.
     fn forget_after(&mut self, number: usize) {
-        self.known.truncate(self.known.partition_point(|known| known.number <= number));
-        self.copied.truncate(self.copied.partition_point(|copied| copied.number <= number));
+        while let Some(known) = self.known.pop_if(|known| known.number > number) {
+            let first = self.first(known.op);
+            self.last[first] = known.before;
+        }
+        while let Some((_, to)) = self.copied.pop_if(|(copied, _)| *copied > number) {
+            self.sources[usize::from(to)] = None;
+        }
+    }
+
+    /// The register that an operation reads first, or the number of registers for one that reads none.
+    fn first(&self, op: Op) -> usize {
+        let operands = op.operands();
+        let read = operands.whisker.map(usize::from).or_else(|| operands.reads[0].registers().next());
+        read.unwrap_or(self.sources.len())
     }
 
     /// An operation that reads copies where they come from.
@@ -81,15 +100,16 @@ impl Walk {
 
     /// Where a register is copied from, if both still hold the same.
     fn source(&self, register: Register) -> Option<Register> {
-        let Copied { number, to, from } = *self.copied.iter().rev().find(|copied| copied.to == register)?;
-        (self.written[usize::from(to)] == number && self.written[usize::from(from)] < number).then_some(from)
+        let from = self.sources[usize::from(register)]?;
+        (self.written[usize::from(from)] < self.written[usize::from(register)]).then_some(from)
     }
 
     /// A copy that gives the same as an operation, if that has been done before and nothing has changed.
     fn again(&self, op: Op) -> Option<Op> {
         let (op, to) = placeless(op)?;
-        let same = |known: &&Known| known.op == op && self.holds(known);
-        let a = self.known.iter().rev().find(same)?.to;
+        let known = |at: usize| self.known.get(at.checked_sub(1)?);
+        let alike = std::iter::successors(known(self.last[self.first(op)]), |&alike| known(alike.before));
+        let a = alike.take(LOOKS).find(|known| known.op == op && self.holds(known))?.to;
         Some(if width(op) == 2 { Op::CopyVector { to, a } } else { Op::Copy { to, a } })
     }
 
@@ -108,21 +128,25 @@ impl Walk {
     fn note(&mut self, number: usize, op: Op) {
         for register in op.operands().writes.into_iter().flat_map(Place::registers) {
             self.written[register] = number;
+            self.sources[register] = None;
         }
         match op {
-            Op::Copy { to, a: from } => self.copied.push(Copied { number, to, from }),
-            Op::CopyVector { to, a } => {
-                self.copied.extend([0, 1].map(|axis| Copied { number, to: to + axis, from: a + axis }));
-            }
+            Op::Copy { to, a } => self.copy(number, to, a),
+            Op::CopyVector { to, a } => [0, 1].into_iter().for_each(|axis| self.copy(number, to + axis, a + axis)),
             Op::Record { .. } => self.recorded = number,
-            _ => self.known.extend(placeless(op).map(|(op, to)| Known { number, op, to })),
+            _ => {
+                if let Some((op, to)) = placeless(op) {
+                    let first = self.first(op);
+                    self.known.push(Known { number, op, to, before: self.last[first] });
+                    self.last[first] = self.known.len();
+                }
+            }
         }
-        if self.known.len() > MEMORY {
-            self.known.drain(..MEMORY / 2);
-        }
-        if self.copied.len() > MEMORY {
-            self.copied.drain(..MEMORY / 2);
-        }
+    }
+
+    fn copy(&mut self, number: usize, to: Register, from: Register) {
+        self.copied.push((number, to));
+        self.sources[usize::from(to)] = Some(from);
     }
 }
 
