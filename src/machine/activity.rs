@@ -56,6 +56,7 @@ impl Activity {
         let now = senses.time();
         if !self.has_begun {
             self.has_begun = true;
+            self.compute(program, &program.start, senses);
             self.enter(program, None, (self.state(), false), now, senses);
         }
         let mut due = self.due(program, None, now, senses);

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::geometry::{Vector2, rotate, wrap};
+use crate::geometry::{Vector2, rotate, turn_between, unit, wrap};
 
 use super::action::{Action, Mover, Turn};
 use super::op::{Block, Op, Register, Wide};
@@ -28,9 +28,12 @@ pub(crate) fn evaluate<S: Senses>(
     while let Some(&op) = ahead.next() {
         match op {
             Op::Copy { to, a } => file.put(to, file.at(a)),
+            Op::CopyVector { to, a } => file.put_vector(to, file.vector(a)),
             Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
             Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
             Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
+            // Not `mul_add`, which rounds once.
+            Op::MultiplyAdd { to, a, b, c } => file.put(to, file.at(a) * file.at(b) + file.at(c)),
             Op::Divide { to, a, b } => file.put(to, file.at(a) / file.at(b)),
             Op::Negate { to, a } => file.put(to, -file.at(a)),
             Op::Absolute { to, a } => file.put(to, file.at(a).abs()),
@@ -46,6 +49,7 @@ pub(crate) fn evaluate<S: Senses>(
             Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
             Op::Floor { to, a } => file.put(to, file.at(a).floor()),
             Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
+            Op::Turn { to, a, b } => file.put(to, turn_between(file.at(a), file.at(b))),
             Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
             Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
             #[expect(clippy::float_cmp, reason = "the language's == is exact; it compares truths and whiskers")]
@@ -63,17 +67,25 @@ pub(crate) fn evaluate<S: Senses>(
                 file.put_vector(to, file.vector(a) * (1.0 - share) + file.vector(b) * share);
             }
             Op::Distance { to, a, b } => file.put(to, (file.vector(a) - file.vector(b)).norm()),
+            Op::Dot { to, a, b } => {
+                let (a, b) = (file.vector(a), file.vector(b));
+                file.put(to, a.x * b.x + a.y * b.y);
+            }
             Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
             Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {
                 let vector = file.vector(a);
                 file.put(to, vector.y.atan2(vector.x));
             }
+            Op::Direction { to, a } => file.put_vector(to, direction(file.at(a))),
             Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),
             Op::Time { to } => file.put(to, senses.time()),
             Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
             Op::BodyPosition { to } => file.put_vector(to, senses.body_position()),
             Op::Whisker { to, whisker, quantity } => file.put(to, senses.whisker(file.index(whisker), quantity)),
+            Op::WhiskerSize { to, whisker, quantity } => {
+                file.put(to, senses.whisker(file.index(whisker), quantity).abs());
+            }
             Op::WhiskerVector { to, whisker, quantity } => {
                 file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
             }
@@ -95,6 +107,18 @@ pub(crate) fn evaluate<S: Senses>(
             Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
             Op::JumpUnless { a, target } => {
                 if !file.truth(a) {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessLess { a, b, target } => {
+                // Of what is not a number nothing is less, and it is less than nothing.
+                let is_less = file.at(a) < file.at(b);
+                if !is_less {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessBoth { a, b, target } => {
+                if !(file.truth(a) && file.truth(b)) {
                     ahead = code[target as usize..].iter();
                 }
             }
@@ -209,6 +233,13 @@ fn maximum(a: f64, b: f64) -> f64 {
         Some(_) => b,
         None => f64::NAN,
     }
+}
+
+/// The unit vector in the direction of an angle. By itself, so that sine and cosine stay one call: among the other operations
+/// the compiler would share the call of each with theirs.
+#[inline(never)]
+fn direction(angle: f64) -> Vector2 {
+    unit(angle)
 }
 
 fn sign(value: f64) -> f64 {

@@ -21,12 +21,16 @@ pub type Block = Range<u32>;
 pub enum Op {
     /// `to = a`
     Copy { to: Register, a: Register },
+    /// `to = a`, a vector
+    CopyVector { to: Wide, a: Wide },
     /// `to = a + b`
     Add { to: Register, a: Register, b: Register },
     /// `to = a - b`
     Subtract { to: Register, a: Register, b: Register },
     /// `to = a * b`
     Multiply { to: Register, a: Register, b: Register },
+    /// `to = a * b + c`, rounded twice
+    MultiplyAdd { to: Register, a: Register, b: Register, c: Register },
     /// `to = a / b`
     Divide { to: Register, a: Register, b: Register },
     /// `to = -a`
@@ -53,6 +57,8 @@ pub enum Op {
     Floor { to: Register, a: Register },
     /// `to = a wrapped to (-π, π]`
     Wrap { to: Register, a: Register },
+    /// `to = b - a` as a turn from the angle a to the angle b, wrapped to (-π, π]
+    Turn { to: Register, a: Register, b: Register },
     /// `to = a < b`
     Less { to: Register, a: Register, b: Register },
     /// `to = a <= b`
@@ -77,6 +83,8 @@ pub enum Op {
     DivideVector { to: Wide, a: Wide, b: Register },
     /// `to = (1 - share) a + share b`, vectors
     Blend { to: Wide, a: Wide, b: Wide, share: Register },
+    /// `to = dot product of the vectors a and b`
+    Dot { to: Register, a: Wide, b: Wide },
     /// `to = length of the vector a`
     Norm { to: Register, a: Wide },
     /// `to = length of a - b`, vectors
@@ -85,6 +93,8 @@ pub enum Op {
     Unit { to: Wide, a: Wide },
     /// `to = direction of the vector a` (rad)
     Angle { to: Register, a: Wide },
+    /// `to = the unit vector in the direction of the angle a`
+    Direction { to: Wide, a: Register },
     /// `to = the vector a turned by the angle b`
     Rotate { to: Wide, a: Wide, b: Register },
     /// `to = time since the start of the run`
@@ -95,6 +105,8 @@ pub enum Op {
     BodyPosition { to: Wide },
     /// `to = a quantity of a whisker`
     Whisker { to: Register, whisker: Register, quantity: WhiskerScalar },
+    /// `to = the size of a quantity of a whisker`
+    WhiskerSize { to: Register, whisker: Register, quantity: WhiskerScalar },
     /// `to = a vector of a whisker`
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
     /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
@@ -110,6 +122,10 @@ pub enum Op {
     Clear { memory: Register, count: u16 },
     /// Goes on at `target` unless `a`; `target` lies ahead.
     JumpUnless { a: Register, target: u32 },
+    /// Goes on at `target` unless `a < b`; `target` lies ahead.
+    JumpUnlessLess { a: Register, b: Register, target: u32 },
+    /// Goes on at `target` unless both `a` and `b`; `target` lies ahead.
+    JumpUnlessBoth { a: Register, b: Register, target: u32 },
     /// Goes on at `target`, which lies ahead.
     Jump { target: u32 },
     /// Takes a whisker's tip as a point of the estimated contour.

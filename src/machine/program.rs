@@ -39,6 +39,8 @@ pub struct Program {
     pub states: Vec<State>,
     /// Index of the state that a run starts in.
     pub initial: usize,
+    /// What is done once, when a run begins: computes what follows from parameters and constants alone.
+    pub start: Block,
     /// Transitions that are tried first, whatever the state.
     pub always: Vec<Transition>,
     /// Where a state without a failsafe of its own is left to when the machine cannot go on in it.
@@ -199,7 +201,7 @@ fn article(noun: &str) -> &'static str {
 
 impl Guard {
     /// What computes it.
-    pub(super) fn code(&self) -> &Block {
+    pub(crate) fn code(&self) -> &Block {
         match self {
             Self::When { code, .. } | Self::After { code, .. } => code,
         }
@@ -224,7 +226,7 @@ impl Program {
         guards(&self.always) + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
 
-    /// A bound on the operations of any tick: eight transitions, each with the most that one can do, guards before and behind
+    /// A bound on the operations of any tick: what a run begins with, eight transitions, each with the most that one can do, guards before and behind
     /// each, a failsafe, and what states do.
     #[must_use]
     pub fn most_operations(&self) -> usize {
@@ -243,7 +245,7 @@ impl Program {
             + most(&|state| on_the_way(state, &entering));
         let look = most(&|state| on_the_way(state, &|state| guards(&state.transitions)));
         let act = most(&|state| on_the_way(state, &|state| state.body.len()));
-        guards(&self.always) + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
+        self.start.len() + guards(&self.always) + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
     }
 
     /// Bytes that a running machine keeps: registers, times, and which state was last active in which.

@@ -118,6 +118,7 @@ impl Program {
             parameters,
             states,
             initial,
+            start: _,
             always,
             failsafe: _,
             code,
@@ -265,7 +266,8 @@ impl Program {
             state.transitions.iter().flat_map(of_transition).chain(own).chain(failsafe).collect::<Vec<Block>>()
         };
         let failsafe = self.failsafe.iter().map(of_target);
-        let always: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).collect();
+        let always = self.always.iter().flat_map(of_transition).chain(failsafe).chain([self.start.clone()]);
+        let always: Vec<Block> = always.collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));
@@ -322,6 +324,10 @@ impl Program {
             }
             match *op {
                 Op::Copy { to, a } => copied_from.entry(to).or_default().push(a),
+                Op::CopyVector { to, a } => {
+                    copied_from.entry(to).or_default().push(a);
+                    copied_from.entry(to + 1).or_default().push(a + 1);
+                }
                 Op::Clear { count, .. } if count > CLEAR_LIMIT => {
                     let (count, limit) = (count.into(), CLEAR_LIMIT.into());
                     return Err(Unsound::TooMany { what: "registers to clear at once", count, limit });
@@ -347,7 +353,7 @@ impl Program {
                 return Err(Unsound::Whisker(register));
             }
         }
-        for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. })) {
+        for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. } | Op::CopyVector { .. })) {
             for register in op.operands().writes.into_iter().flat_map(Place::registers) {
                 if let Ok(register) = Register::try_from(register)
                     && whiskers.contains(&register)

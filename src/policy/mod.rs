@@ -18,6 +18,7 @@ mod hint;
 pub mod index;
 mod load;
 mod lower;
+mod optimise;
 mod pair;
 mod parse;
 mod path;
@@ -99,7 +100,7 @@ pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
-    Ok(front(source)?.2.program)
+    Ok(optimise::optimise(front(source)?.2.program))
 }
 
 /// Compiles the text of a policy, and looks for what is probably not meant.
@@ -116,7 +117,9 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
     let (source, files, lowered) = front(source)?;
     let warnings = analysis::warnings(&files, &lowered);
-    let artifact = artifact::artifact(&source, &files.main, lowered.program);
+    // Behind the analysis, which takes conditions as they are written.
+    let program = optimise::optimise(lowered.program);
+    let artifact = artifact::artifact(&source, &files.main, program);
     Ok(Compiled { artifact, tests: lowered.tests, warnings })
 }
 

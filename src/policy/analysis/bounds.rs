@@ -76,6 +76,7 @@ impl<'m> Bounds<'m> {
     }
 
     /// One operation; `None` if it does more than to compute.
+    #[expect(clippy::too_many_lines, reason = "one arm an operation")]
     fn step(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let mut one = |bounds: &mut Self, to, a, operation: fn(Interval) -> Interval| {
             let value = operation(bounds.at(a, region));
@@ -104,7 +105,22 @@ impl<'m> Bounds<'m> {
             | Op::Equal { .. }
             | Op::And { .. }
             | Op::Or { .. } => self.two(op, region)?,
-            Op::Clamp { .. } | Op::Blend { .. } | Op::Distance { .. } => self.several(op, region)?,
+            Op::Clamp { .. }
+            | Op::Blend { .. }
+            | Op::Distance { .. }
+            | Op::Dot { .. }
+            | Op::Turn { .. }
+            | Op::MultiplyAdd { .. } => {
+                self.several(op, region)?;
+            }
+            Op::CopyVector { to, a } => {
+                let value = self.vector_at(a, region);
+                self.put_vector(to, value);
+            }
+            Op::Direction { to, a } => {
+                let angle = self.at(a, region);
+                self.put_vector(to, [angle.cosine(), angle.sine()]);
+            }
             Op::AddVectors { to, a, b } => self.parts(to, (a, b), region, Interval::add),
             Op::SubtractVectors { to, a, b } => self.parts(to, (a, b), region, Interval::subtract),
             Op::NegateVector { to, a } => {
@@ -148,6 +164,12 @@ impl<'m> Bounds<'m> {
                 let value = values.reduce(Interval::join).unwrap_or(Interval::ANYTHING);
                 self.put(to, value);
             }
+            Op::WhiskerSize { to, whisker, quantity } => {
+                let whiskers = self.whiskers(whisker, region);
+                let values = whiskers.map(|whisker| scalar(region, whisker, quantity));
+                let value = values.reduce(Interval::join).unwrap_or(Interval::ANYTHING).absolute();
+                self.put(to, value);
+            }
             Op::WhiskerVector { to, whisker, quantity } => {
                 let whiskers = self.whiskers(whisker, region);
                 let values = whiskers.map(|whisker| vector(region, whisker, quantity));
@@ -166,6 +188,8 @@ impl<'m> Bounds<'m> {
             }
             Op::Clear { .. }
             | Op::JumpUnless { .. }
+            | Op::JumpUnlessLess { .. }
+            | Op::JumpUnlessBoth { .. }
             | Op::Jump { .. }
             | Op::Record { .. }
             | Op::Mark { .. }
@@ -209,6 +233,18 @@ impl<'m> Bounds<'m> {
             Op::Distance { to, a, b } => {
                 let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
                 self.put(to, Interval::norm([x.subtract(u), y.subtract(v)]));
+            }
+            Op::Dot { to, a, b } => {
+                let ([x, y], [u, v]) = (self.vector_at(a, region), self.vector_at(b, region));
+                self.put(to, x.multiply(u).add(y.multiply(v)));
+            }
+            Op::MultiplyAdd { to, a, b, c } => {
+                let value = self.at(a, region).multiply(self.at(b, region)).add(self.at(c, region));
+                self.put(to, value);
+            }
+            Op::Turn { to, a, b } => {
+                let value = self.at(b, region).subtract(self.at(a, region)).wrapped();
+                self.put(to, value);
             }
             _ => return None,
         }

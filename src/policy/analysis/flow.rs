@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::machine::{Op, Program, Register};
+use crate::machine::{Op, Place, Program, Register};
 
 /// More values than these are as good as any.
 const VALUE_LIMIT: usize = 16;
@@ -40,8 +40,8 @@ impl Flow {
                     }
                 }
                 _ => {
-                    for register in written(op) {
-                        if let Some(origin) = origins.get_mut(usize::from(register)) {
+                    for register in op.operands().writes.into_iter().flat_map(Place::registers) {
+                        if let Some(origin) = origins.get_mut(register) {
                             *origin = Origin::Computed;
                         }
                     }
@@ -74,65 +74,5 @@ impl Flow {
         values.sort_by(f64::total_cmp);
         values.dedup();
         (!values.is_empty()).then_some(values)
-    }
-}
-
-/// The registers that an operation writes.
-fn written(op: &Op) -> std::ops::Range<Register> {
-    match *op {
-        Op::Copy { to, .. }
-        | Op::Add { to, .. }
-        | Op::Subtract { to, .. }
-        | Op::Multiply { to, .. }
-        | Op::Divide { to, .. }
-        | Op::Negate { to, .. }
-        | Op::Absolute { to, .. }
-        | Op::Sign { to, .. }
-        | Op::SquareRoot { to, .. }
-        | Op::Minimum { to, .. }
-        | Op::Maximum { to, .. }
-        | Op::Clamp { to, .. }
-        | Op::Distance { to, .. }
-        | Op::Sine { to, .. }
-        | Op::Cosine { to, .. }
-        | Op::Exponential { to, .. }
-        | Op::Floor { to, .. }
-        | Op::Wrap { to, .. }
-        | Op::Less { to, .. }
-        | Op::LessOrEqual { to, .. }
-        | Op::Equal { to, .. }
-        | Op::And { to, .. }
-        | Op::Or { to, .. }
-        | Op::Not { to, .. }
-        | Op::Norm { to, .. }
-        | Op::Angle { to, .. }
-        | Op::Time { to }
-        | Op::LowPass { to, .. }
-        | Op::Pid { to, .. }
-        | Op::Body { to, .. }
-        | Op::Whisker { to, .. } => to..to + 1,
-        Op::AddVectors { to, .. }
-        | Op::SubtractVectors { to, .. }
-        | Op::NegateVector { to, .. }
-        | Op::MultiplyVector { to, .. }
-        | Op::DivideVector { to, .. }
-        | Op::Unit { to, .. }
-        | Op::Blend { to, .. }
-        | Op::Rotate { to, .. }
-        | Op::BodyPosition { to }
-        | Op::WhiskerVector { to, .. }
-        | Op::TipAt { to, .. }
-        | Op::ContourAt { to, .. } => to..to + 2,
-        Op::Clear { memory, count } => memory..memory + count,
-        Op::JumpUnless { .. }
-        | Op::Jump { .. }
-        | Op::Record { .. }
-        | Op::Mark { .. }
-        | Op::SteerBodyFacing { .. }
-        | Op::SteerBodyTurning { .. }
-        | Op::SteerWhiskerFacing { .. }
-        | Op::SteerWhiskerTurning { .. }
-        | Op::Hold
-        | Op::Stop => 0..0,
     }
 }

@@ -66,6 +66,8 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         parameters,
         states,
         initial: initial?,
+        // The optimiser finds out what need not be done in every tick.
+        start: 0..0,
         always,
         failsafe,
         code: std::mem::take(&mut compiler.code.ops),

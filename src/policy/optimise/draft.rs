@@ -1,0 +1,128 @@
+//! A program whose code is being shortened.
+
+use crate::machine::{Block, Guard, Op, Program, Register, Target, Transition};
+
+/// A program whose code is being shortened: operations are struck out, and the rest moves up at the end.
+pub(super) struct Draft {
+    program: Program,
+    pub(super) ops: Vec<Op>,
+    /// Whether each operation stays in its place.
+    pub(super) is_kept: Vec<bool>,
+    /// What a run begins with.
+    pub(super) start: Vec<Op>,
+    /// Stretches of the code that are run from their starts to their ends.
+    pub(super) runs: Vec<std::ops::Range<usize>>,
+}
+
+impl Draft {
+    pub(super) fn new(mut program: Program) -> Self {
+        let ops = std::mem::take(&mut program.code);
+        let runs = runs(&program);
+        Self { is_kept: vec![true; ops.len()], ops, start: Vec::new(), runs, program }
+    }
+
+    /// How many registers there are.
+    pub(super) fn registers(&self) -> usize {
+        self.program.image.len()
+    }
+
+    /// Registers that transitions read.
+    pub(super) fn read_by_guards(&self) -> impl Iterator<Item = Register> {
+        let of_states = self.program.states.iter().flat_map(|state| &state.transitions);
+        self.program
+            .always
+            .iter()
+            .chain(of_states)
+            .flat_map(|transition| match transition.guard {
+                Guard::When { truth, lasting, .. } => [Some(truth), lasting.map(|(duration, _)| duration)],
+                Guard::After { time, .. } => [Some(time), None],
+            })
+            .flatten()
+    }
+
+    /// For every operation, whether a jump leads there.
+    pub(super) fn targets(&self) -> Vec<bool> {
+        let mut is_target = vec![false; self.ops.len() + 1];
+        for target in self.ops.iter().filter_map(|op| op.operands().target) {
+            is_target[target as usize] = true;
+        }
+        is_target
+    }
+
+    /// The program without what was struck out.
+    pub(super) fn finish(mut self) -> Program {
+        // Where each operation goes, or what comes behind it if it goes nowhere.
+        let mut places = Vec::with_capacity(self.ops.len() + 1);
+        let mut place = 0;
+        for &is_kept in &self.is_kept {
+            places.push(place);
+            place += u32::from(is_kept);
+        }
+        places.push(place);
+        let moved = |place: u32| places[place as usize];
+        let kept = self.ops.into_iter().zip(self.is_kept).filter(|(_, is_kept)| *is_kept);
+        self.program.code = kept
+            .map(|(mut op, _)| {
+                if let Some(target) = op.target_mut() {
+                    *target = moved(*target);
+                }
+                op
+            })
+            .collect();
+        for block in blocks(&mut self.program) {
+            *block = moved(block.start)..moved(block.end);
+        }
+        self.program.code.append(&mut self.start);
+        self.program.start = place..u32::try_from(self.program.code.len()).unwrap_or(place);
+        self.program
+    }
+}
+
+/// Stretches of the code that are run from their starts to their ends: the guards of a source in one go, all else by itself.
+fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
+    let of_target = |target: &Target| match target {
+        Target::State { arguments, .. } => arguments.clone(),
+        Target::Failure(_) => 0..0,
+    };
+    let of_list = |list: &[Transition]| {
+        let guards = list.first().zip(list.last());
+        let guards = guards.map(|(first, last)| first.guard.code().start..last.guard.code().end);
+        guards.into_iter().chain(list.iter().map(|one| of_target(&one.target))).collect::<Vec<Block>>()
+    };
+    let mut blocks = of_list(&program.always);
+    blocks.extend(program.failsafe.iter().map(of_target));
+    for state in &program.states {
+        blocks.extend(of_list(&state.transitions));
+        blocks.extend([&state.entry, &state.body, &state.exit].map(Block::clone));
+        blocks.extend(state.initial.iter().map(|(_, values)| values.clone()));
+        blocks.extend(state.failsafe.iter().map(of_target));
+    }
+    blocks.retain(|block| !block.is_empty());
+    blocks.sort_by_key(|block| block.start);
+    blocks.into_iter().map(|block| block.start as usize..block.end as usize).collect()
+}
+
+/// All blocks of a program.
+fn blocks(program: &mut Program) -> Vec<&mut Block> {
+    fn of_target(target: &mut Target) -> Option<&mut Block> {
+        match target {
+            Target::State { arguments, .. } => Some(arguments),
+            Target::Failure(_) => None,
+        }
+    }
+    fn of_list(list: &mut [Transition]) -> impl Iterator<Item = &mut Block> {
+        list.iter_mut().flat_map(|Transition { guard, target }| {
+            let (Guard::When { code, .. } | Guard::After { code, .. }) = guard;
+            [Some(code), of_target(target)].into_iter().flatten()
+        })
+    }
+    let mut blocks: Vec<&mut Block> = of_list(&mut program.always).collect();
+    blocks.extend(program.failsafe.as_mut().and_then(of_target));
+    for state in &mut program.states {
+        blocks.extend(of_list(&mut state.transitions));
+        blocks.extend([&mut state.entry, &mut state.body, &mut state.exit]);
+        blocks.extend(state.initial.as_mut().map(|(_, values)| values));
+        blocks.extend(state.failsafe.as_mut().and_then(of_target));
+    }
+    blocks
+}

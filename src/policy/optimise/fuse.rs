@@ -1,0 +1,63 @@
+//! One operation for several.
+
+use crate::machine::{Op, Register};
+
+use super::draft::Draft;
+
+/// The most operations that one takes the place of.
+const MOST: usize = 3;
+
+/// Puts one operation in the place of several that follow one another; `reads` is how often each register is read.
+pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
+    let is_target = draft.targets();
+    for run in draft.runs.clone() {
+        let kept: Vec<usize> = run.filter(|&index| draft.is_kept[index]).collect();
+        let mut ahead = kept.as_slice();
+        while let [first, rest @ ..] = ahead {
+            let reached = |last: usize| is_target[first + 1..=last].contains(&true);
+            let together = 1 + rest.iter().take(MOST - 1).take_while(|&&last| !reached(last)).count();
+            let ops: Vec<Op> = ahead[..together].iter().map(|&index| draft.ops[index]).collect();
+            let (count, op) = fused(&ops, reads).unwrap_or((1, draft.ops[*first]));
+            for &index in &ahead[..count - 1] {
+                draft.is_kept[index] = false;
+            }
+            draft.ops[ahead[count - 1]] = op;
+            ahead = &ahead[count..];
+        }
+    }
+}
+
+/// What one operation can do in the place of the first of these, and of how many.
+fn fused(ops: &[Op], reads: &[u32]) -> Option<(usize, Op)> {
+    // Whether a value is for the operation behind it alone.
+    let is_passed = |from: Register, into: Register| from == into && reads[usize::from(from)] == 1;
+    match *ops {
+        [Op::Multiply { to: x, a, b }, Op::Multiply { to: y, a: c, b: d }, Op::Add { to, a: p, b: q }, ..]
+            if is_passed(x, p) && is_passed(y, q) && (c, d) == (a + 1, b + 1) =>
+        {
+            Some((3, Op::Dot { to, a, b }))
+        }
+        [Op::Multiply { to: product, a, b }, Op::Add { to, a: c, b: summand }, ..] if is_passed(product, summand) => {
+            Some((2, Op::MultiplyAdd { to, a, b, c }))
+        }
+        [Op::Whisker { to: value, whisker, quantity }, Op::Absolute { to, a }, ..] if is_passed(value, a) => {
+            Some((2, Op::WhiskerSize { to, whisker, quantity }))
+        }
+        [Op::And { to, a, b }, Op::JumpUnless { a: truth, target }, ..] if is_passed(to, truth) => {
+            Some((2, Op::JumpUnlessBoth { a, b, target }))
+        }
+        [Op::Cosine { to, a }, Op::Sine { to: y, a: same }, ..] if a == same && a != to && y == to + 1 => {
+            Some((2, Op::Direction { to, a }))
+        }
+        [Op::Subtract { to: difference, a, b }, Op::Wrap { to, a: wrapped }, ..] if is_passed(difference, wrapped) => {
+            Some((2, Op::Turn { to, a: b, b: a }))
+        }
+        [Op::Less { to, a, b }, Op::JumpUnless { a: truth, target }, ..] if is_passed(to, truth) => {
+            Some((2, Op::JumpUnlessLess { a, b, target }))
+        }
+        [Op::Copy { to, a }, Op::Copy { to: y, a: b }, ..] if y == to + 1 && b == a + 1 && b != to => {
+            Some((2, Op::CopyVector { to, a }))
+        }
+        _ => None,
+    }
+}
