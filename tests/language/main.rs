@@ -18,6 +18,7 @@ mod programs;
 mod recovery;
 #[path = "../common/seen.rs"]
 mod seen;
+mod shorter_code;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
 mod standard_library;
