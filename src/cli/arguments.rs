@@ -259,12 +259,16 @@ pub(super) struct MjcfArguments {
 pub(super) enum World {
     /// The simulation by MuJoCo
     Mujoco,
+    /// Static equilibria, one after the other: no inertia, no friction, and many times as fast
+    #[value(name = "quasistatic")]
+    QuasiStatic,
 }
 
 impl From<World> for WorldKind {
     fn from(world: World) -> Self {
         match world {
             World::Mujoco => Self::Mujoco,
+            World::QuasiStatic => Self::QuasiStatic,
         }
     }
 }

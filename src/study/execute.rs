@@ -9,18 +9,22 @@ use sha2::{Digest, Sha256};
 use crate::machine::Program;
 use crate::run::{BindError, Control, Run, Trace, drive};
 use crate::scene::{Scene, mjcf};
+use crate::world::{QuasiStaticError, QuasiStaticWorld, World};
 
 /// The worlds that a run can take place in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WorldKind {
     /// The simulation by MuJoCo.
     Mujoco,
+    /// Static equilibria, one after the other.
+    QuasiStatic,
 }
 
 impl fmt::Display for WorldKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Mujoco => f.write_str("mujoco"),
+            Self::QuasiStatic => f.write_str("quasistatic"),
         }
     }
 }
@@ -38,6 +42,9 @@ pub enum ExecuteError {
     #[cfg(feature = "sim")]
     #[error(transparent)]
     Mujoco(#[from] crate::world::MujocoError),
+    /// The quasi-static world could not be built.
+    #[error(transparent)]
+    QuasiStatic(#[from] QuasiStaticError),
     /// The program was built without the world.
     #[cfg(not(feature = "sim"))]
     #[error("this build has no world `{0}`; build it with the feature `sim`")]
@@ -62,19 +69,15 @@ pub fn execute(
     drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
-#[cfg(feature = "sim")]
-fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+    let Scene { rig, solids, start, .. } = scene;
     match kind {
-        WorldKind::Mujoco => {
-            let world = crate::world::MujocoWorld::new(&scene.rig, &scene.solids, scene.start, seed)?;
-            Ok(Box::new(world))
-        }
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => Ok(Box::new(crate::world::MujocoWorld::new(rig, solids, *start, seed)?)),
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
+        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, solids, *start, seed)?)),
     }
-}
-
-#[cfg(not(feature = "sim"))]
-fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
-    Err(ExecuteError::NoWorld(kind))
 }
 
 /// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the

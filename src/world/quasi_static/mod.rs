@@ -1,0 +1,14 @@
+//! The quasi-static world: whiskers in static equilibrium at every sample, against exact outlines.
+
+mod balance;
+mod bordered;
+mod lag;
+mod platform;
+mod surface;
+mod touch;
+mod whisker;
+mod wire;
+#[expect(clippy::module_inception, reason = "the world is its noun")]
+mod world;
+
+pub use world::{QuasiStaticError, QuasiStaticWorld};
