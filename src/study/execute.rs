@@ -1,6 +1,5 @@
 //! One run: build the world, drive it, give what happened.
 
-use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -8,26 +7,8 @@ use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
 use crate::run::{BindError, Control, Run, Trace, drive};
-use crate::scene::{Scene, mjcf};
+use crate::scene::{Scene, WorldKind, mjcf};
 use crate::world::{QuasiStaticError, QuasiStaticWorld, World};
-
-/// The worlds that a run can take place in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WorldKind {
-    /// The simulation by MuJoCo.
-    Mujoco,
-    /// Static equilibria, one after the other.
-    QuasiStatic,
-}
-
-impl fmt::Display for WorldKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mujoco => f.write_str("mujoco"),
-            Self::QuasiStatic => f.write_str("quasistatic"),
-        }
-    }
-}
 
 /// Why a run could not begin.
 #[derive(Debug, thiserror::Error)]
@@ -47,7 +28,7 @@ pub enum ExecuteError {
     QuasiStatic(#[from] QuasiStaticError),
     /// The program was built without the world.
     #[cfg(not(feature = "sim"))]
-    #[error("this build has no world `{0}`; build it with the feature `sim`")]
+    #[error("this build has no world `{0}`; build it with the feature `sim`, or run in the world `quasistatic`")]
     NoWorld(WorldKind),
 }
 
@@ -80,19 +61,23 @@ fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, Ex
     }
 }
 
-/// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the
-/// model that it is given.
+/// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
+/// the model that it is given.
 #[must_use]
-pub fn engine_hash(scene: &Scene) -> [u8; 32] {
-    #[cfg(feature = "sim")]
-    let engine = crate::world::engine_version();
-    #[cfg(not(feature = "sim"))]
-    let engine = "none";
+pub fn engine_hash(scene: &Scene, world: WorldKind) -> [u8; 32] {
+    let engine = match world {
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => crate::world::engine_version(),
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => "none",
+        WorldKind::QuasiStatic => world.name(),
+    };
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
+    // It has all of the rig, the solids and the start, whichever world they are for.
     hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
     hash.finalize().into()
 }

@@ -2,8 +2,9 @@
 
 mod balance;
 mod bordered;
+mod carriage;
+mod hull;
 mod lag;
-mod platform;
 mod surface;
 mod touch;
 mod whisker;

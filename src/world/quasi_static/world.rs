@@ -2,12 +2,12 @@
 
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::rig::Rig;
-use crate::scene::Solid;
+use crate::scene::{Overlap, Solid, overlap};
 use crate::signal::{Command, Sample};
 use crate::world::sensors::{Sensors, whole};
 use crate::world::{Fault, World};
 
-use super::platform::Carriage;
+use super::carriage::Carriage;
 use super::surface::Surfaces;
 use super::whisker::{Follower, Lost};
 
@@ -21,6 +21,12 @@ pub enum QuasiStaticError {
     Friction {
         /// The coefficient.
         friction: f64,
+    },
+    /// The rig stands in something.
+    #[error("{part} is in a solid, or touches it, where the run starts; start elsewhere")]
+    Start {
+        /// The part of the rig that is.
+        part: String,
     },
 }
 
@@ -49,6 +55,13 @@ impl QuasiStaticWorld {
         if friction > 0.0 {
             return Err(QuasiStaticError::Friction { friction });
         }
+        if let Some(overlap) = solids.iter().find_map(|solid| overlap(rig, &start, solid.outline())) {
+            let part = match overlap {
+                Overlap::Platform => "the platform".to_owned(),
+                Overlap::Whisker(index) => format!("the whisker `{}`", rig.whiskers[index].name),
+            };
+            return Err(QuasiStaticError::Start { part });
+        }
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
         let base = |whisker: &crate::rig::Whisker| Pose {
@@ -57,7 +70,7 @@ impl QuasiStaticWorld {
         };
         Ok(Self {
             surfaces: Surfaces::new(solids),
-            carriage: Carriage::at_rest(start),
+            carriage: Carriage::at_rest(start, &rig.platform, &rig.physics),
             whiskers: rig.whiskers.iter().map(|whisker| Follower::new(whisker, base(whisker))).collect(),
             period: sensing.sample_rate.recip(),
             samples_per_tick,
@@ -80,15 +93,17 @@ impl QuasiStaticWorld {
             force += whisker.force();
             moment += (whisker.base() - centre).perp(&whisker.force());
         }
-        let platform = &self.rig.platform;
-        let aim = Carriage::aim(platform, command, force, moment);
-        self.carriage.go(aim, platform.servo, self.period);
+        let touch = self.carriage.go(command, (force, moment), self.period, &self.surfaces);
         self.samples_done += 1;
         let (body, time) = (self.carriage.pose, self.time());
         if !body.is_finite() {
             return Err(Fault::Diverged { time, cause: "a command is too large or not a number" });
         }
+        self.body_touched |= touch.is_some();
         let limit = self.rig.physics.penetration_limit;
+        if let Some(depth) = touch.filter(|&depth| depth > limit) {
+            return Err(Fault::Crash { time, depth });
+        }
         for (whisker, part) in self.whiskers.iter_mut().zip(&self.rig.whiskers) {
             let position: Point2 = body.point_to_world(part.base_body);
             let base = Pose { position, heading: body.heading + part.direction_body };
