@@ -28,6 +28,8 @@ struct Stop {
     normal: Vector2,
     /// Distance (m).
     gap: f64,
+    /// What it gives to the body while that gives way: mass times way, or momentum.
+    impulse: f64,
 }
 
 /// How far (m) from the body solids are looked for.
@@ -35,7 +37,7 @@ const LOOKED_FOR: f64 = 20e-3;
 /// What is deeper in the body or in a solid than this (m) belongs to another side of it.
 const SKIN: f64 = 2e-4;
 /// Rounds in which stops take turns.
-const ROUNDS: usize = 20;
+const ROUNDS: usize = 60;
 
 impl Hull {
     pub(super) fn new(platform: &Platform) -> Self {
@@ -79,17 +81,21 @@ impl Hull {
         impact
     }
 
-    /// Changes a motion so that it leads no farther towards any stop than there is room, as impulses would: stop by stop.
-    fn give_way(&self, twist: &mut Twist, room: impl Fn(&Stop) -> f64) {
+    /// Changes a motion so that it leads no farther towards any stop than there is room, as impulses would: stop by stop, each as
+    /// strong as it has to be beside the others.
+    fn give_way(&mut self, twist: &mut Twist, room: impl Fn(&Stop) -> f64) {
+        for stop in &mut self.stops {
+            stop.impulse = 0.0;
+        }
         for _ in 0..ROUNDS {
-            for stop in &self.stops {
+            for stop in &mut self.stops {
+                let lever = stop.arm.perp(&stop.normal);
                 let missing = -(room(stop) + stop.normal.dot(&twist.at(stop.arm)));
-                if missing > 0.0 {
-                    let lever = stop.arm.perp(&stop.normal);
-                    let impulse = missing / (1.0 / self.mass + lever * lever / self.inertia);
-                    twist.along += impulse / self.mass * stop.normal;
-                    twist.turn += impulse / self.inertia * lever;
-                }
+                let wanted = stop.impulse + missing / (1.0 / self.mass + lever * lever / self.inertia);
+                let change = wanted.max(0.0) - stop.impulse;
+                stop.impulse += change;
+                twist.along += change / self.mass * stop.normal;
+                twist.turn += change / self.inertia * lever;
             }
         }
     }
@@ -108,7 +114,7 @@ impl Hull {
         let mut add = |place: Point2, normal: Vector2, gap: f64| {
             if gap > -SKIN && gap < LOOKED_FOR {
                 clear = clear.min(gap);
-                self.stops.push(Stop { arm: place - pose.position, normal, gap });
+                self.stops.push(Stop { arm: place - pose.position, normal, gap, impulse: 0.0 });
             }
         };
         let mut nearest_corners = LOOKED_FOR;
@@ -118,13 +124,13 @@ impl Hull {
                     add(corner, foot.normal, foot.height);
                 }
             }
-            if let Joint::Convex(tip) = facet.joint {
+            if let Joint::Convex(solids_corner) = facet.joint {
                 for side in &sides {
-                    if let Some(height) = side.height(tip.point) {
-                        add(tip.point, -side.outwards, height);
+                    if let Some(height) = side.height(solids_corner.point) {
+                        add(solids_corner.point, -side.outwards, height);
                     }
                 }
-                let distances = corners.iter().map(|corner| (corner - tip.point).norm());
+                let distances = corners.iter().map(|corner| (corner - solids_corner.point).norm());
                 nearest_corners = distances.fold(nearest_corners, f64::min);
             }
             if let Some((centre, radius)) = facet.bulge() {

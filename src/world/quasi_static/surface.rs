@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use crate::geometry::{BoundingBox, Piece, Point2, Vector2, perpendicular, unit};
+use crate::geometry::{BoundingBox, Contour, Piece, Point2, Vector2, perpendicular, unit};
 use crate::scene::Solid;
 
 /// The outlines of all solids, piece by piece.
 #[derive(Debug)]
 pub(super) struct Surfaces {
+    outlines: Vec<Contour>,
     facets: Vec<Facet>,
     tree: RTree<Leaf>,
 }
@@ -17,8 +18,9 @@ pub(super) struct Surfaces {
 /// A piece of an outline. What is solid is on its left.
 #[derive(Debug, Clone)]
 pub(super) struct Facet {
-    piece: Piece,
     form: Form,
+    ends: [Point2; 2],
+    bounds: BoundingBox,
     /// The piece after this one.
     pub(super) next: usize,
     /// How it meets that.
@@ -31,14 +33,14 @@ pub(super) enum Joint {
     /// Without a corner.
     Smooth,
     /// In a corner that sticks out.
-    Convex(Tip),
+    Convex(Corner),
     /// In a corner that points inwards.
     Concave,
 }
 
 /// A corner that sticks out, with the directions in which the outline comes to it and leaves it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tip {
+pub(super) struct Corner {
     pub(super) point: Point2,
     into: Vector2,
     out: Vector2,
@@ -84,7 +86,7 @@ impl Surfaces {
                 let next = &pieces[following];
                 let corner = corners.iter().find(|corner| corner.point == next.start());
                 let joint = match corner {
-                    Some(corner) if corner.turn > 0.0 => Joint::Convex(Tip {
+                    Some(corner) if corner.turn > 0.0 => Joint::Convex(Corner {
                         point: corner.point,
                         into: piece.tangent_at(piece.length()),
                         out: next.tangent_at(0.0),
@@ -92,12 +94,23 @@ impl Surfaces {
                     Some(_) => Joint::Concave,
                     None => Joint::Smooth,
                 };
-                facets.push(Facet { piece: *piece, form: Form::of(piece), next: first + following, joint });
+                facets.push(Facet {
+                    form: Form::of(piece),
+                    ends: [piece.start(), piece.end()],
+                    bounds: piece.bounding_box(),
+                    next: first + following,
+                    joint,
+                });
             }
         }
-        let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.piece.bounding_box() };
+        let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.bounds };
         let tree = RTree::bulk_load(facets.iter().enumerate().map(leaf).collect());
-        Self { facets, tree }
+        Self { outlines: solids.iter().map(|solid| solid.outline().clone()).collect(), facets, tree }
+    }
+
+    /// How deep (m) in a solid a point is; below 0 outside of all.
+    pub(super) fn depth(&self, point: Point2) -> f64 {
+        self.outlines.iter().map(|outline| -outline.signed_distance(point)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     pub(super) fn facet(&self, index: usize) -> &Facet {
@@ -159,7 +172,12 @@ impl Facet {
 
     /// Distance (m) of a point from the facet.
     pub(super) fn distance(&self, point: Point2) -> f64 {
-        self.piece.distance(point)
+        match (self.form, self.foot(point)) {
+            (_, Some(foot)) => foot.height.abs(),
+            // The centre is as far from everywhere.
+            (Form::Round { centre, radius, .. }, None) if point == centre => radius,
+            _ => self.ends.iter().map(|end| (point - end).norm()).fold(f64::INFINITY, f64::min),
+        }
     }
 }
 
@@ -190,7 +208,7 @@ impl Form {
     }
 }
 
-impl Tip {
+impl Corner {
     /// The foot of a point whose nearest point of the outline is the corner.
     pub(super) fn foot(&self, point: Point2) -> Option<Foot> {
         let outward = point - self.point;

@@ -18,8 +18,9 @@ pub(super) struct Pair {
 /// What may touch what.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
-    /// The far end of the link and the facet with this index.
-    EndOnFacet(usize),
+    /// The far end of the link and the facet with this index; and whether the end has been outside of it since it came beside it.
+    /// If not, it is behind what is solid, and came there round its other end.
+    EndOnFacet(usize, bool),
     /// The far end of the link and the corner behind a facet.
     EndOnCorner(usize),
     /// The side of the link and the corner behind a facet; which is on the link's left (+1) or right (−1).
@@ -80,15 +81,12 @@ pub(super) fn survey(wire: &Wire, shape: &Shape, surfaces: &Surfaces, pairs: &mu
             let (start, end) = (shape.ends[link], shape.ends[link + 1]);
             let rest = facet.distance(nalgebra::center(&start, &end)) - 0.5 * wire.link - wire.radius(link);
             if rest > WATCHED {
-                take(link, Part::EndOnFacet(index), rest);
+                take(link, Part::EndOnFacet(index, false), rest);
                 continue;
             }
             let radius = wire.end_radius(link);
-            // Whoever is inside by more than the wire is thick is behind the solid.
-            let is_outside = facet.foot(end).is_none_or(|foot| foot.height > -radius);
-            if is_outside {
-                take(link, Part::EndOnFacet(index), facet.distance(end) - radius);
-            }
+            let is_outside = facet.foot(end).is_some_and(|foot| foot.height > -radius);
+            take(link, Part::EndOnFacet(index, is_outside), facet.distance(end) - radius);
             if let Joint::Convex(corner) = facet.joint {
                 take(link, Part::EndOnCorner(index), (end - corner.point).norm() - radius);
                 let (along, aside) = beside(shape, link, corner.point);
@@ -116,7 +114,8 @@ fn beside(shape: &Shape, link: usize, point: Point2) -> (f64, f64) {
 impl Part {
     fn is_same(self, other: Self) -> bool {
         match (self, other) {
-            (Self::SideOnCorner(one, _), Self::SideOnCorner(two, _)) => one == two,
+            (Self::SideOnCorner(one, _), Self::SideOnCorner(two, _))
+            | (Self::EndOnFacet(one, _), Self::EndOnFacet(two, _)) => one == two,
             _ => self == other,
         }
     }
@@ -146,7 +145,11 @@ impl Pair {
             force: self.force,
         };
         match &mut self.part {
-            Part::EndOnFacet(index) => surfaces.facet(*index).foot(end).map(of_end),
+            Part::EndOnFacet(index, is_outside) => {
+                let foot = surfaces.facet(*index).foot(end);
+                *is_outside = foot.is_some_and(|foot| *is_outside || foot.height > -wire.end_radius(link));
+                foot.filter(|_| *is_outside).map(of_end)
+            }
             Part::EndOnCorner(index) => {
                 let Joint::Convex(corner) = surfaces.facet(*index).joint else { return None };
                 corner.foot(end).map(of_end)
@@ -172,9 +175,14 @@ impl Pair {
         }
     }
 
-    /// The facets whose common corner an end is at, if it is on one of them.
+    /// Whether it is one of the first link.
+    pub(super) fn is_at_base(&self) -> bool {
+        self.link == 0
+    }
+
+    /// The facet that an end may touch.
     fn facet(&self) -> Option<usize> {
-        if let Part::EndOnFacet(index) = self.part { Some(index) } else { None }
+        if let Part::EndOnFacet(index, _) = self.part { Some(index) } else { None }
     }
 }
 

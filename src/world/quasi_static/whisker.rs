@@ -135,8 +135,11 @@ impl Follower {
             return Err(Lost::Restless);
         }
         let deepest = self.contacts.iter().map(|contact| contact.gap).fold(0.0, f64::min);
-        if deepest < -limit {
-            return Err(Lost::Inside(-deepest));
+        // The base cannot give way.
+        let is_base_near = self.pairs.iter().any(Pair::is_at_base);
+        let depth = if is_base_near { surfaces.depth(base.position).max(-deepest) } else { -deepest };
+        if depth > limit {
+            return Err(Lost::Inside(depth));
         }
         self.note_pace(settled, way);
         self.hinge.follow(self.wire.base_angle(&self.shape), period);
