@@ -18,7 +18,8 @@ use super::{file, output};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let conditions = conditions(arguments);
-    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?.into_iter().unzip();
+    let (conditions, jobs): (Vec<_>, Vec<_>) =
+        jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?.into_iter().unzip();
     make_directory(arguments.out.as_deref())?;
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));

@@ -2,14 +2,14 @@
 
 use std::sync::{Arc, Once};
 
-use mujoco_rs::logging::set_log_handler;
-use mujoco_rs::prelude::{MjData, MjModel};
-use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
-use mujoco_rs::wrappers::mj_model::MjtObjBase;
 use crate::geometry::{Point2, Pose};
 use crate::rig::Rig;
 use crate::scene::{Solid, mjcf};
 use crate::signal::{Command, Sample};
+use mujoco_rs::logging::set_log_handler;
+use mujoco_rs::prelude::{MjData, MjModel};
+use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
+use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
 use super::sensors::{Sensors, whole};
 use super::{Fault, World};

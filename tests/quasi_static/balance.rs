@@ -91,7 +91,10 @@ fn check(rig: &Rig, outlines: &[Contour], sample: &Sample) -> Result<Option<()>,
         for step in 0..=20 {
             let place = from + (to - from) * (f64::from(step) / 20.0);
             if distance(place) < radius - 1e-6 {
-                return Err(format!("{:.1} um inside, touched at link {touched}, {along} m", (radius - distance(place)) * 1e6));
+                return Err(format!(
+                    "{:.1} um inside, touched at link {touched}, {along} m",
+                    (radius - distance(place)) * 1e6
+                ));
             }
         }
     }

@@ -66,7 +66,9 @@ fn a_base_angle_is_late_by_the_hinges_time_constant() {
     let mut world = QuasiStaticWorld::new(&rig, &disk(), START, 0).unwrap();
     let mut free = Vec::new();
     for _ in 0..75 {
-        free.extend(world.advance(&command(0.0, 0.05, 0.0)).unwrap().iter().map(|sample| sample.whiskers[0].base_angle));
+        free.extend(
+            world.advance(&command(0.0, 0.05, 0.0)).unwrap().iter().map(|sample| sample.whiskers[0].base_angle),
+        );
     }
     let late = reading(0.01, 75);
     assert!(late.abs() > 3e-5, "{late}");

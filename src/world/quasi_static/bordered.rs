@@ -20,6 +20,8 @@ pub(super) struct Bordered {
 
 /// A pivot this small beside its row is no pivot.
 const LEAST_PIVOT: f64 = 1e-9;
+/// As little of an entry of the diagonal as this is what rounding leaves of it.
+const LEAST_SHARE: f64 = 1e-12;
 
 impl Bordered {
     /// Factors a matrix by its diagonal and what is beside it, `None` if that cannot be done in the order of its rows.
@@ -32,7 +34,7 @@ impl Bordered {
         }
         let mut pivot = *diagonal.first()?;
         for row in 0..self.size {
-            if !(pivot.abs() > LEAST_PIVOT * diagonal[row].abs()) {
+            if pivot.is_nan() || pivot.abs() <= LEAST_PIVOT * diagonal[row].abs() {
                 return None;
             }
             self.negative += usize::from(pivot < 0.0);
@@ -101,21 +103,21 @@ impl Small {
     pub(super) fn solve(mut self) -> Option<([f64; MOST], usize)> {
         let size = self.size;
         let mut scale = [0.0; MOST];
-        for row in 0..size {
-            scale[row] = self.matrix[row][row].abs().sqrt();
-            if scale[row] == 0.0 {
+        for (row, scale) in scale.iter_mut().enumerate().take(size) {
+            *scale = self.matrix[row][row].abs();
+            if *scale == 0.0 {
                 return None;
             }
         }
         let mut order: [usize; MOST] = std::array::from_fn(|index| index);
         let mut positive = 0;
         for step in 0..size {
-            let weight = |&row: &usize| (self.matrix[row][row] / scale[row].powi(2)).abs();
+            let weight = |&row: &usize| (self.matrix[row][row] / scale[row]).abs();
             let best = (step..size).max_by(|&a, &b| weight(&order[a]).total_cmp(&weight(&order[b])))?;
             order.swap(step, best);
             let row = order[step];
             let pivot = self.matrix[row][row];
-            if !(pivot.abs() > 1e-12 * scale[row].powi(2)) {
+            if pivot.is_nan() || pivot.abs() <= LEAST_SHARE * scale[row] {
                 return None;
             }
             positive += usize::from(pivot > 0.0);
@@ -130,7 +132,8 @@ impl Small {
         let mut solution = [0.0; MOST];
         for step in (0..size).rev() {
             let row = order[step];
-            let rest: f64 = order[step + 1..size].iter().map(|&column| self.matrix[row][column] * solution[column]).sum();
+            let rest: f64 =
+                order[step + 1..size].iter().map(|&column| self.matrix[row][column] * solution[column]).sum();
             solution[row] = (self.right[row] - rest) / self.matrix[row][row];
         }
         Some((solution, positive))

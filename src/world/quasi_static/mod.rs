@@ -9,7 +9,6 @@ mod surface;
 mod touch;
 mod whisker;
 mod wire;
-#[expect(clippy::module_inception, reason = "the world is its noun")]
 mod world;
 
 pub use world::{QuasiStaticError, QuasiStaticWorld};

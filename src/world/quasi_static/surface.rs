@@ -49,9 +49,20 @@ pub(super) struct Corner {
 /// A piece, as quick to ask as can be.
 #[derive(Debug, Clone, Copy)]
 enum Form {
-    Flat { start: Point2, tangent: Vector2, length: f64 },
+    Flat {
+        start: Point2,
+        tangent: Vector2,
+        length: f64,
+    },
     /// An arc; `sense` is +1 if it bulges outwards, −1 if it is hollow.
-    Round { centre: Point2, radius: f64, sense: f64, from: Vector2, to: Vector2, extent: Extent },
+    Round {
+        centre: Point2,
+        radius: f64,
+        sense: f64,
+        from: Vector2,
+        to: Vector2,
+        extent: Extent,
+    },
 }
 
 /// How much of its circle an arc is.

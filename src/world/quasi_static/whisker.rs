@@ -204,7 +204,7 @@ impl Follower {
             self.force += force * contact.normal;
         }
         // A free whisker that has sprung back is straight.
-        if step.is_newtons && share == 1.0 && bearing.is_empty() {
+        if step.is_newtons && share >= 1.0 && bearing.is_empty() {
             self.shape.angles.fill(0.0);
         }
         self.shape.place(&self.wire, self.shape.base);
