@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::study::WorldKind;
+use crate::scene::{Scene, WorldKind};
 use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
@@ -57,9 +57,9 @@ pub(super) struct RunArguments {
     /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     pub(super) settings: Vec<Setting>,
-    /// World to run in
-    #[arg(long, value_enum, default_value_t = World::Mujoco)]
-    pub(super) world: World,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
     /// Seed of the sensors' noise instead of the scenario's; it matters only to a rig with noise
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u64>,
@@ -89,6 +89,9 @@ pub(super) struct BenchArguments {
     /// Give the sensors the noise and the resolution that the real one is estimated to have
     #[arg(long)]
     pub(super) noise: bool,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -119,6 +122,9 @@ pub(super) struct CompareArguments {
     /// How far headings may be from the scenario's: --jitter-heading "10 deg"
     #[arg(long, value_name = "ANGLE", default_value = "0 deg", value_parser = parse_angle)]
     pub(super) jitter_heading: f64,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
     /// Print only JSON: the runs that did not complete, and the figures with their intervals
     #[arg(long)]
     pub(super) json: bool,
@@ -148,6 +154,9 @@ pub(super) struct FamiliesArguments {
     /// Draw only the scene with this number
     #[arg(long, value_name = "K", conflicts_with = "count")]
     pub(super) trial: Option<u64>,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy"])]
     pub(super) print: bool,
@@ -224,9 +233,9 @@ pub(super) struct TestArguments {
     /// Run only tests whose title has this text in it
     #[arg(long, value_name = "TEXT")]
     pub(super) filter: Option<String>,
-    /// World to run in
-    #[arg(long, value_enum, default_value_t = World::Mujoco)]
-    pub(super) world: World,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
     /// Write a picture and the result of every test's run into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -259,13 +268,19 @@ pub(super) struct MjcfArguments {
 pub(super) enum World {
     /// The simulation by MuJoCo
     Mujoco,
+    /// Static equilibria, one after the other: no inertia, no friction, and many times as fast
+    #[value(name = "quasistatic")]
+    QuasiStatic,
 }
 
-impl From<World> for WorldKind {
-    fn from(world: World) -> Self {
-        match world {
-            World::Mujoco => Self::Mujoco,
-        }
+impl World {
+    /// The world to run a scene in when this is asked for, if anything is.
+    pub(super) fn of(asked: Option<Self>, scene: &Scene) -> WorldKind {
+        let asked = asked.map(|world| match world {
+            Self::Mujoco => WorldKind::Mujoco,
+            Self::QuasiStatic => WorldKind::QuasiStatic,
+        });
+        asked.or(scene.world).unwrap_or_default()
     }
 }
 

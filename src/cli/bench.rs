@@ -6,10 +6,9 @@ use sha2::{Digest, Sha256};
 
 use crate::report::RunResult;
 use crate::scene::{Outcome, Violation};
-use crate::study::WorldKind;
 use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
 
-use super::arguments::BenchArguments;
+use super::arguments::{BenchArguments, World};
 use super::batch::{Finished, run_all};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
@@ -19,7 +18,8 @@ use super::{file, output};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let conditions = conditions(arguments);
-    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs(&policies(&arguments.policies)?, &conditions)?.into_iter().unzip();
+    let (conditions, jobs): (Vec<_>, Vec<_>) =
+        jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?.into_iter().unzip();
     make_directory(arguments.out.as_deref())?;
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
@@ -76,7 +76,11 @@ fn conditions(arguments: &BenchArguments) -> Vec<Conditions> {
 }
 
 /// Every scenario under every policy and all conditions; the runs of a scenario stand together.
-fn jobs(policies: &[(PathBuf, Loaded<Policy>)], conditions: &[Conditions]) -> Result<Vec<(Conditions, Job)>, Failure> {
+fn jobs(
+    policies: &[(PathBuf, Loaded<Policy>)],
+    conditions: &[Conditions],
+    world: Option<World>,
+) -> Result<Vec<(Conditions, Job)>, Failure> {
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, input::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
     let mut jobs = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
@@ -91,10 +95,8 @@ fn jobs(policies: &[(PathBuf, Loaded<Policy>)], conditions: &[Conditions]) -> Re
                 }
                 let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
                 let (program, seed) = (policy.value.artifact.program.clone(), scene.seed);
-                jobs.push((
-                    conditions,
-                    Job::with(Path::new(file.path), scene, program, WorldKind::Mujoco, seed, hashes),
-                ));
+                let world = World::of(world, &scene);
+                jobs.push((conditions, Job::with(Path::new(file.path), scene, program, world, seed, hashes)));
             }
         }
     }

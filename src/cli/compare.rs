@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::scene::{Jitter, Scene};
-use crate::study::WorldKind;
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_table};
 
-use super::arguments::CompareArguments;
+use super::arguments::{CompareArguments, World};
 use super::batch::run_all;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded};
@@ -37,7 +36,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         for Setting { path, scene, hash } in &settings {
             let hashes = (hash.clone().finalize(), policy.hash.clone().finalize());
             let program = policy.value.artifact.program.clone();
-            jobs.push(Job::with(path, scene.clone(), program, WorldKind::Mujoco, scene.seed, hashes));
+            let world = World::of(arguments.world, scene);
+            jobs.push(Job::with(path, scene.clone(), program, world, scene.seed, hashes));
         }
     }
     let mut results = run_all(&jobs, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);

@@ -12,11 +12,11 @@ use crate::diagnostic::Source;
 use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
-use crate::scene::Scene;
+use crate::scene::{Scene, WorldKind};
 use crate::score::Score;
-use crate::study::{WorldKind, engine_hash, execute};
+use crate::study::{engine_hash, execute};
 
-use super::arguments::RunArguments;
+use super::arguments::{RunArguments, World};
 use super::exit::Failure;
 use super::input::{self, Loaded, Policy, PolicyText};
 use super::{file, output};
@@ -93,7 +93,8 @@ impl Job {
         let policy_hash = with_settings(policy_hash, settings);
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
-        Ok(Self::with(path, scene, program, arguments.world.into(), seed, hashes))
+        let world = World::of(arguments.world, &scene);
+        Ok(Self::with(path, scene, program, world, seed, hashes))
     }
 
     /// A run of `program` in a `scene` that was read from `path`, with the hashes of both.
@@ -105,7 +106,7 @@ impl Job {
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
     ) -> Self {
-        let engine = engine_hash(&scene);
+        let engine = engine_hash(&scene, world);
         let identity = Identity {
             scenario: scene.name.clone(),
             policy: program.name.clone(),

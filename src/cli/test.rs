@@ -12,7 +12,7 @@ use crate::report::RunResult;
 use crate::score::Score;
 use crate::study::violations;
 
-use super::arguments::TestArguments;
+use super::arguments::{TestArguments, World};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
 use super::job::{Job, with_settings};
@@ -105,9 +105,9 @@ fn job_of(
     test.set(&mut program);
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
-    let seed = scene.seed;
+    let (seed, world) = (scene.seed, World::of(arguments.world, &scene));
     let hashes = (hash.finalize(), policy_hash.finalize());
-    Ok(Job::with(&path, scene, program, arguments.world.into(), seed, hashes))
+    Ok(Job::with(&path, scene, program, world, seed, hashes))
 }
 
 fn tell(

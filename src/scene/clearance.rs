@@ -9,7 +9,7 @@ const TOUCHING: f64 = 1e-5;
 
 /// A part of a rig that overlaps a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Overlap {
+pub(crate) enum Overlap {
     /// The platform.
     Platform,
     /// The undeflected whisker with this index.
@@ -17,7 +17,7 @@ pub(super) enum Overlap {
 }
 
 /// The first part of the rig that overlaps or touches the inside of `object` when the rig stands at `pose`, its whiskers straight.
-pub(super) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
+pub(crate) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
     let outline = rig.platform.outline_body().map(|corner| pose.point_to_world(corner));
     let sides = (0..4).map(|side| (outline[side], outline[(side + 1) % 4]));
     let swallowed = is_within(&outline, object.point_at(0.0));

@@ -18,8 +18,10 @@ mod solid;
 mod stop;
 mod truth;
 mod wall;
+mod world_kind;
 mod yaml;
 
+pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use jitter::Jitter;
 pub use mjcf::mjcf;
@@ -28,3 +30,4 @@ pub use scenario::{Files, Scene};
 pub use solid::{Solid, SolidError};
 pub use stop::{LoopClosed, Reached, Stalled, Stop};
 pub use truth::Truth;
+pub use world_kind::WorldKind;

@@ -1,7 +1,7 @@
 //! A scenario as a whole.
 
 use super::clearance::overlap;
-use super::{Expectation, Solid, Stop, Truth, yaml};
+use super::{Expectation, Solid, Stop, Truth, WorldKind, yaml};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::geometry::Pose;
 use crate::rig::Rig;
@@ -32,6 +32,8 @@ pub struct Scene {
     pub expect: Vec<Expectation>,
     /// The policy to run unless another is asked for, relative to the scenario's file.
     pub policy: Option<PathBuf>,
+    /// The world to run in unless another is asked for.
+    pub world: Option<WorldKind>,
     /// Seed of the sensor noise.
     pub seed: u64,
 }

@@ -1,6 +1,5 @@
 //! One run: build the world, drive it, give what happened.
 
-use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -8,22 +7,8 @@ use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
 use crate::run::{BindError, Control, Run, Trace, drive};
-use crate::scene::{Scene, mjcf};
-
-/// The worlds that a run can take place in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WorldKind {
-    /// The simulation by MuJoCo.
-    Mujoco,
-}
-
-impl fmt::Display for WorldKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mujoco => f.write_str("mujoco"),
-        }
-    }
-}
+use crate::scene::{Scene, WorldKind, mjcf};
+use crate::world::{QuasiStaticError, QuasiStaticWorld, World};
 
 /// Why a run could not begin.
 #[derive(Debug, thiserror::Error)]
@@ -38,9 +23,12 @@ pub enum ExecuteError {
     #[cfg(feature = "sim")]
     #[error(transparent)]
     Mujoco(#[from] crate::world::MujocoError),
+    /// The quasi-static world could not be built.
+    #[error(transparent)]
+    QuasiStatic(#[from] QuasiStaticError),
     /// The program was built without the world.
     #[cfg(not(feature = "sim"))]
-    #[error("this build has no world `{0}`; build it with the feature `sim`")]
+    #[error("this build has no world `{0}`; build it with the feature `sim`, or run in the world `quasistatic`")]
     NoWorld(WorldKind),
 }
 
@@ -62,34 +50,34 @@ pub fn execute(
     drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
-#[cfg(feature = "sim")]
-fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+    let Scene { rig, solids, start, .. } = scene;
     match kind {
-        WorldKind::Mujoco => {
-            let world = crate::world::MujocoWorld::new(&scene.rig, &scene.solids, scene.start, seed)?;
-            Ok(Box::new(world))
-        }
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => Ok(Box::new(crate::world::MujocoWorld::new(rig, solids, *start, seed)?)),
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
+        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, solids, *start, seed)?)),
     }
 }
 
-#[cfg(not(feature = "sim"))]
-fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
-    Err(ExecuteError::NoWorld(kind))
-}
-
-/// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the
-/// model that it is given.
+/// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
+/// the model that it is given.
 #[must_use]
-pub fn engine_hash(scene: &Scene) -> [u8; 32] {
-    #[cfg(feature = "sim")]
-    let engine = crate::world::engine_version();
-    #[cfg(not(feature = "sim"))]
-    let engine = "none";
+pub fn engine_hash(scene: &Scene, world: WorldKind) -> [u8; 32] {
+    let engine = match world {
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => crate::world::engine_version(),
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => "none",
+        WorldKind::QuasiStatic => world.name(),
+    };
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
+    // It has all of the rig, the solids and the start, whichever world they are for.
     hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
     hash.finalize().into()
 }

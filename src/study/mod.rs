@@ -8,6 +8,6 @@ pub mod families;
 mod judge;
 mod parallel;
 
-pub use execute::{ExecuteError, WorldKind, engine_hash, execute};
+pub use execute::{ExecuteError, engine_hash, execute};
 pub use judge::violations;
 pub use parallel::{in_parallel, processors};

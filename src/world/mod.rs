@@ -3,10 +3,13 @@
 mod fault;
 #[cfg(feature = "sim")]
 mod mujoco;
+mod quasi_static;
+mod sensors;
 
 pub use fault::Fault;
 #[cfg(feature = "sim")]
 pub use mujoco::{MujocoError, MujocoWorld, engine_version};
+pub use quasi_static::{QuasiStaticError, QuasiStaticWorld};
 
 use crate::signal::{Command, Sample};
 

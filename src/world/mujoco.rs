@@ -2,19 +2,16 @@
 
 use std::sync::{Arc, Once};
 
-use mujoco_rs::logging::set_log_handler;
-use mujoco_rs::prelude::{MjData, MjModel};
-use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
-use mujoco_rs::wrappers::mj_model::MjtObjBase;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, Normal};
-
 use crate::geometry::{Point2, Pose};
 use crate::rig::Rig;
 use crate::scene::{Solid, mjcf};
 use crate::signal::{Command, Sample};
+use mujoco_rs::logging::set_log_handler;
+use mujoco_rs::prelude::{MjData, MjModel};
+use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
+use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
+use super::sensors::{Sensors, whole};
 use super::{Fault, World};
 
 /// What each of MuJoCo's warning counters means and what to do about it, in their order.
@@ -46,8 +43,7 @@ pub struct MujocoWorld {
     samples_per_tick: usize,
     samples: Vec<Sample>,
     steps_done: u64,
-    noise: Option<Normal<f64>>,
-    random: ChaCha8Rng,
+    sensors: Sensors,
     platform_geom: i32,
     body_touched: bool,
 }
@@ -77,8 +73,7 @@ impl MujocoWorld {
             samples_per_tick,
             samples: Vec::with_capacity(samples_per_tick),
             steps_done: 0,
-            noise: Normal::new(0.0, sensing.angle_noise).ok().filter(|_| sensing.angle_noise > 0.0),
-            random: ChaCha8Rng::seed_from_u64(seed),
+            sensors: Sensors::new(sensing, seed),
             platform_geom,
             body_touched: false,
         })
@@ -131,8 +126,7 @@ impl MujocoWorld {
         };
         let mut joint = 3;
         for ((index, whisker), reading) in self.rig.whiskers.iter().enumerate().zip(&mut sample.whiskers) {
-            let noise = self.noise.map_or(0.0, |noise| noise.sample(&mut self.random));
-            reading.base_angle = quantised(positions[joint] + noise, self.rig.sensing.angle_resolution);
+            reading.base_angle = self.sensors.read(positions[joint]);
             joint += 1 + whisker.shaft.links;
             if self.rig.sensing.forces {
                 let force = &self.data.sensordata()[3 * index..3 * index + 3];
@@ -166,17 +160,6 @@ impl World for MujocoWorld {
     fn body_touches(&self) -> bool {
         self.body_touched
     }
-}
-
-/// Rounds to a count; scenes are validated so that the value is one.
-fn whole(value: f64) -> usize {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
-    let count = value.round().max(1.0) as usize;
-    count
-}
-
-fn quantised(value: f64, resolution: f64) -> f64 {
-    if resolution > 0.0 { (value / resolution).round() * resolution } else { value }
 }
 
 /// The version of the linked MuJoCo.

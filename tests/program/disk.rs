@@ -9,9 +9,9 @@ use vibrissa::diagnostic::Source;
 use vibrissa::machine::Program;
 use vibrissa::policy::compile;
 use vibrissa::run::Run;
-use vibrissa::scene::{Outcome, Scene};
+use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::Score;
-use vibrissa::study::{WorldKind, execute};
+use vibrissa::study::execute;
 
 fn read(name: &str) -> Source {
     Source::new(name, std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap())

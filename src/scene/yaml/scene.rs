@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::{expect, fault, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::rig::Rig;
-use crate::scene::{Files, Scene};
+use crate::scene::{Files, Scene, WorldKind};
 use std::path::PathBuf;
 
 /// Reads a scenario. The list of faults is never empty, and in the order of the text.
@@ -54,6 +54,13 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         Some(entry) => policy(reader, entry).map(Some),
         None => Some(None),
     };
+    let world = match fields.entry("world") {
+        Some(entry) => {
+            let index = reader.choice(&entry.value, "a world", &WorldKind::ALL.map(WorldKind::name));
+            index.and_then(|index| WorldKind::ALL.get(index)).copied().map(Some)
+        }
+        None => Some(None),
+    };
     let seed = match fields.entry("seed") {
         Some(entry) => reader.count(&entry.value, "seed", 0..=u64::MAX, 1),
         None => Some(0),
@@ -76,6 +83,7 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
         stop: stop?.value,
         expect: expect?,
         policy: policy?,
+        world: world?,
         seed: seed?,
     })
 }

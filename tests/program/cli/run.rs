@@ -1,6 +1,6 @@
 //! `vibrissa run`
 
-use super::program::{directory, stderr, vibrissa};
+use super::program::{directory, stderr, stdout, vibrissa};
 
 #[test]
 fn run_tells_the_warnings_of_a_policy_once() {
@@ -196,7 +196,27 @@ mod with_simulation {
 #[cfg(not(feature = "sim"))]
 #[test]
 fn a_build_without_the_simulator_says_so() {
-    let output = vibrissa(&["run", "scenarios/disk.yaml"]);
+    let output = vibrissa(&["run", "scenarios/disk.yaml", "--world", "mujoco"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
+}
+
+/// The world of a run's result.
+fn world_of(arguments: &[&str]) -> String {
+    let output = vibrissa(&[&["run", "--json"], arguments].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let results: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    results[0]["world"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn the_world_is_the_one_asked_for_or_the_scenarios_or_the_one_that_there_is() {
+    let disk = "scenarios/disk.yaml";
+    assert_eq!(world_of(&[disk, "--world", "quasistatic"]), "quasistatic");
+    let usual = if cfg!(feature = "sim") { "mujoco" } else { "quasistatic" };
+    assert_eq!(world_of(&[disk]), usual);
+    let scenario = std::fs::read_to_string(disk).unwrap() + "\nworld: quasistatic\n";
+    let path = directory("world").join("disk.yaml");
+    std::fs::write(&path, scenario).unwrap();
+    assert_eq!(world_of(&[path.to_str().unwrap(), "--policy", "policies/thesis.fsm"]), "quasistatic");
 }

@@ -1,0 +1,138 @@
+//! From what its base feels, a whisker under one force is known from end to end. So readings can be checked for being those of a
+//! whisker in balance, without knowing how they came about.
+
+use std::f64::consts::PI;
+
+use proptest::prelude::*;
+use vibrissa::geometry::{Contour, Point2, Pose, Vector2, unit};
+use vibrissa::rig::{Rig, Whisker};
+use vibrissa::signal::{Command, Reading, Sample};
+use vibrissa::world::{Fault, QuasiStaticWorld, World};
+
+use crate::scene::{START, command, one_whisker, outlines, solids};
+
+/// A whisker followed from its base on.
+struct Followed {
+    /// The base and the ends of all links (m, world frame).
+    ends: Vec<Point2>,
+    along: Vec<Vector2>,
+    /// The bending moment (N m) at the base of every link, and at the tip.
+    moments: Vec<f64>,
+    /// The force at the base (N, world frame).
+    force: Vector2,
+}
+
+impl Followed {
+    /// As if nothing touched it but at its tip.
+    fn new(whisker: &Whisker, base: Pose, reading: &Reading) -> Self {
+        let mut angle = base.heading + reading.base_angle;
+        let force = reading.axial.unwrap() * unit(angle) + reading.shear.unwrap() * unit(angle + PI / 2.0);
+        let mut moment = whisker.hinge.stiffness * reading.base_angle;
+        let (mut ends, mut along, mut moments) = (vec![base.position], Vec::new(), Vec::new());
+        for stiffness in whisker.shaft.joint_stiffnesses() {
+            moments.push(moment);
+            angle += moment / stiffness;
+            along.push(unit(angle));
+            moment -= whisker.shaft.link_length() * unit(angle).perp(&force);
+            ends.push(ends[ends.len() - 1] + whisker.shaft.link_length() * unit(angle));
+        }
+        moments.push(moment);
+        Self { ends, along, moments, force }
+    }
+}
+
+fn base(whisker: &Whisker, body: Pose) -> Pose {
+    Pose { position: body.point_to_world(whisker.base_body), heading: body.heading + whisker.direction_body }
+}
+
+/// Whether the moment comes down to nothing just where something without friction touches, and the whisker is outside of all.
+/// `None` where more than one thing seems to touch.
+fn check(rig: &Rig, outlines: &[Contour], sample: &Sample) -> Result<Option<()>, String> {
+    let whisker = &rig.whiskers[0];
+    let (reading, radius, link) = (&sample.whiskers[0], whisker.shaft.radius, whisker.shaft.link_length());
+    let followed = Followed::new(whisker, base(whisker, sample.body), reading);
+    let distance = |point: Point2| outlines.iter().map(|o| o.signed_distance(point)).fold(f64::INFINITY, f64::min);
+    if distance(followed.ends[1]) < 2.0 * radius || distance(followed.ends[0]) < 2.0 * radius {
+        // So near to its base it cannot give way.
+        return Ok(None);
+    }
+    // The first link on which the moment comes down to nothing, and where on it.
+    let touched = followed.moments.windows(2).position(|pair| pair[0] * pair[1] <= 0.0 || pair[1].abs() < 1e-11);
+    let (touched, along) = if followed.force.norm() == 0.0 {
+        if reading.base_angle.abs() > 1e-12 {
+            return Err("bent without a force".to_owned());
+        }
+        (followed.along.len() - 1, link)
+    } else {
+        let Some(touched) = touched else { return Ok(None) };
+        let (before, after) = (followed.moments[touched], followed.moments[touched + 1]);
+        let share = if after.abs() < 1e-11 { 1.0 } else { before / (before - after) };
+        let place = followed.ends[touched] + share * link * followed.along[touched];
+        if (distance(place) - radius).abs() > 2e-7 {
+            // Two forces, which together are not where one would be.
+            return Ok(None);
+        }
+        let push = followed.force.normalize();
+        let probe = 1e-7;
+        let rises = (distance(place + probe * push) - distance(place)) / probe;
+        if rises < 0.999 {
+            return Err(format!("the force is not square to what is touched: {rises}"));
+        }
+        if touched + 1 < followed.along.len() && share < 0.9999 && push.dot(&followed.along[touched]).abs() > 1e-4 {
+            return Err("a force on the side that is not square to it".to_owned());
+        }
+        (touched, share * link)
+    };
+    // Behind the touch it is straight.
+    let mut ends = followed.ends[..=touched].to_vec();
+    let rest = (followed.along.len() - touched) as f64 * link;
+    ends.push(followed.ends[touched] + rest * followed.along[touched]);
+    for (from, to) in ends.iter().zip(&ends[1..]) {
+        for step in 0..=20 {
+            let place = from + (to - from) * (f64::from(step) / 20.0);
+            if distance(place) < radius - 1e-6 {
+                return Err(format!(
+                    "{:.1} um inside, touched at link {touched}, {along} m",
+                    (radius - distance(place)) * 1e6
+                ));
+            }
+        }
+    }
+    Ok(Some(()))
+}
+
+fn commands() -> impl Strategy<Value = Vec<(Command, usize)>> {
+    let command = (-0.06..0.09_f64, -0.09..0.09_f64, -0.6..0.6_f64).prop_map(|(x, y, yaw)| command(x, y, yaw));
+    proptest::collection::vec((command, 5..60_usize), 3..9)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(120))]
+
+    #[test]
+    fn a_whisker_that_has_come_to_rest_is_in_balance_and_outside_of_all(commands in commands(), which in 0..11_usize) {
+        let rig = one_whisker();
+        let (name, outline) = outlines().swap_remove(which);
+        let outlines = [outline];
+        let mut world = QuasiStaticWorld::new(&rig, &solids(outlines.clone()), START, 0).unwrap();
+        for (command, ticks) in commands {
+            let mut resting = None;
+            for command in std::iter::repeat_n(command, ticks).chain(std::iter::repeat_n(Command::STOP, 30)) {
+                match world.advance(&command) {
+                    Ok(samples) => resting = samples.last().copied(),
+                    Err(Fault::Crash { .. }) => return Ok(()),
+                    Err(fault) => {
+                        // What is driven into something by its very base cannot give way.
+                        let base = resting.map(|sample: Sample| base(&rig.whiskers[0], sample.body));
+                        let is_base = base.is_some_and(|base| outlines[0].signed_distance(base.position) < 5e-3);
+                        prop_assert!(is_base && matches!(fault, Fault::Penetration { .. }), "{name}: {fault}");
+                        return Ok(());
+                    }
+                }
+            }
+            let sample = resting.unwrap();
+            let checked = check(&rig, &outlines, &sample);
+            prop_assert!(checked.is_ok(), "{name} at {} s: {}", sample.time, checked.unwrap_err());
+        }
+    }
+}
