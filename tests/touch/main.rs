@@ -8,6 +8,7 @@ mod elastica;
 mod friction;
 mod gaps;
 mod perception;
+mod quasi_static;
 mod sliding;
 mod steering;
 mod tip_model;

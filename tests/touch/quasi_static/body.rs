@@ -5,7 +5,7 @@ use vibrissa::geometry::{Point2, Segment, polygon};
 use vibrissa::rig::Rig;
 use vibrissa::world::{Fault, QuasiStaticWorld, World};
 
-use crate::scene::{START, command, drive, outlines, points, solids};
+use super::scene::{START, command, drive, outlines, points, solids};
 
 /// A wall 20 mm before the nose, out of the whiskers' reach.
 fn wall_ahead() -> Vec<vibrissa::scene::Solid> {

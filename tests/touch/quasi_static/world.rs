@@ -4,7 +4,7 @@ use vibrissa::rig::Rig;
 use vibrissa::signal::Command;
 use vibrissa::world::{Fault, QuasiStaticError, QuasiStaticWorld, World};
 
-use crate::scene::{START, command, drive, one_whisker, outlines, solids};
+use super::scene::{START, command, drive, one_whisker, outlines, solids};
 
 fn disk() -> Vec<vibrissa::scene::Solid> {
     solids([outlines().swap_remove(0).1])

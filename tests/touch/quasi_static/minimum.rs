@@ -8,7 +8,7 @@ use vibrissa::rig::Whisker;
 use vibrissa::signal::Command;
 use vibrissa::world::{QuasiStaticWorld, World};
 
-use crate::scene::{START, command, one_whisker, outlines, points, solids};
+use super::scene::{START, command, one_whisker, outlines, points, solids};
 
 /// Force for a depth (N/m): what touches sinks in by some hundredths of a micrometre.
 const PENALTY: f64 = 1e5;

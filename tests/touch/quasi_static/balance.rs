@@ -9,7 +9,7 @@ use vibrissa::rig::{Rig, Whisker};
 use vibrissa::signal::{Command, Reading, Sample};
 use vibrissa::world::{Fault, QuasiStaticWorld, World};
 
-use crate::scene::{START, command, one_whisker, outlines, solids};
+use super::scene::{START, command, one_whisker, outlines, solids};
 
 /// A whisker followed from its base on.
 struct Followed {
