@@ -66,6 +66,9 @@ pub(super) struct RunArguments {
     /// Write a picture and the result of every run into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Write what every tick perceived and commanded into this file, one line of JSON a tick
+    #[arg(long, value_name = "FILE", conflicts_with = "watch")]
+    pub(super) ticks: Option<PathBuf>,
     /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,

@@ -2,25 +2,34 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::{RunResult, table};
+use crate::report::{RunResult, table, tick_lines};
 use crate::score::Score;
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
 use super::job::{Files, Job, extended, tell};
-use super::output;
+use super::{file, output};
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let jobs = Job::all(arguments, &mut Files::default())?;
     make_directory(arguments.out.as_deref())?;
-    let (mut results, mut exit) = (Vec::with_capacity(jobs.len()), Exit::Done);
+    let (mut results, mut exit, mut ticks) = (Vec::with_capacity(jobs.len()), Exit::Done, String::new());
     for job in &jobs {
         let run = job.execute_with_bar()?;
         let (result, held) = finish(job, &run, arguments.out.as_deref())?;
         if !held {
             exit = Exit::Unexpected;
         }
+        if arguments.ticks.is_some() {
+            for line in tick_lines(&result.scenario, &run.trace) {
+                ticks.push_str(&serde_json::to_string(&line)?);
+                ticks.push('\n');
+            }
+        }
         results.push(result);
+    }
+    if let Some(path) = &arguments.ticks {
+        file::write(path, ticks)?;
     }
     if arguments.json {
         output::json(&results)?;

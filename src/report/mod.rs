@@ -7,6 +7,7 @@ mod picture;
 mod result;
 mod style;
 mod table;
+mod tick_line;
 
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub use picture::picture;
@@ -14,6 +15,7 @@ pub use result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanStd, MeanStdMax, Retrieval, RunResult, TickUs,
 };
 pub use table::table;
+pub use tick_line::{TickLine, tick_lines};
 
 pub(crate) use number::{mean_std, millimetres};
 pub(crate) use table::{NONE, ruled};

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::machine::{Failsafe, Senses, Status, WhiskerScalar};
+use crate::geometry::{Point2, Vector2};
+use crate::machine::{Failsafe, Senses, Status, WhiskerScalar, WhiskerVector};
+use crate::percept::Perception;
 use crate::scene::{Outcome, Reached, Stop};
 use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
@@ -11,7 +13,7 @@ use crate::world::{Fault, World};
 use super::control::Control;
 use super::loop_watch::LoopWatch;
 use super::stall_watch::StallWatch;
-use super::trace::{MarkRecord, TickRecord, Trace};
+use super::trace::{MarkRecord, TickRecord, Touch, Trace};
 
 /// What a run gave.
 #[derive(Debug, Clone)]
@@ -130,6 +132,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
         state: machine.failure().is_none().then(|| machine.state()),
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
+        touches: Default::default(),
         tip_spreads: [0.0; MAX_WHISKERS],
         command,
         failsafe,
@@ -138,7 +141,18 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
     for whisker in 0..machine.program().whiskers.len() {
         tick.deflections[whisker] = perception.deflection(whisker);
         tick.tips[whisker] = perception.recorded_tip(whisker);
+        tick.touches[whisker] = touch(perception, whisker);
         tick.tip_spreads[whisker] = perception.whisker(whisker, WhiskerScalar::TipSpread);
     }
     tick
+}
+
+fn touch(perception: &Perception, whisker: usize) -> Touch {
+    let known = |vector: Vector2| vector.iter().all(|part| part.is_finite()).then_some(vector);
+    let vector = |quantity| known(perception.whisker_vector(whisker, quantity));
+    Touch {
+        is_touching: perception.whisker(whisker, WhiskerScalar::Touching) > 0.0,
+        tip_world: vector(WhiskerVector::Tip).map(Point2::from),
+        tangent_world: vector(WhiskerVector::ContourTangent),
+    }
 }

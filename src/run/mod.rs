@@ -8,4 +8,4 @@ mod trace;
 
 pub use control::{BindError, Control};
 pub use drive::{Run, drive};
-pub use trace::{MarkRecord, TickRecord, Trace};
+pub use trace::{MarkRecord, TickRecord, Touch, Trace};

@@ -85,6 +85,7 @@ mod tests {
                 state: None,
                 deflections: [0.0; MAX_WHISKERS],
                 tips,
+                touches: Default::default(),
                 tip_spreads: [0.0; MAX_WHISKERS],
                 command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
                 failsafe: None,

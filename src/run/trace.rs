@@ -1,6 +1,6 @@
 //! What happened in a run, tick by tick.
 
-use crate::geometry::{Point2, Pose};
+use crate::geometry::{Point2, Pose, Vector2};
 use crate::machine::{Failsafe, Mark};
 use crate::signal::{Command, MAX_WHISKERS};
 
@@ -47,7 +47,9 @@ pub struct TickRecord {
     pub deflections: [f64; MAX_WHISKERS],
     /// Tip estimates that the policy recorded (m, world frame).
     pub tips: [Option<Point2>; MAX_WHISKERS],
-    /// How far off each of them may be (m), as standard deviations, by what the tip model tells.
+    /// What the whiskers' tips touch, recorded or not.
+    pub touches: [Touch; MAX_WHISKERS],
+    /// How far off each tip may be (m), as standard deviations, by what the tip model tells.
     pub tip_spreads: [f64; MAX_WHISKERS],
     /// The command that the tick gave.
     pub command: Command,
@@ -55,6 +57,17 @@ pub struct TickRecord {
     pub failsafe: Option<Failsafe>,
     /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
     pub body_touches: bool,
+}
+
+/// What a whisker's tip touches, as perceived.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Touch {
+    /// Whether the base angle is beyond the rig's contact threshold.
+    pub is_touching: bool,
+    /// Where the tip is, or would be if it touched (m, world frame); `None` in a tick that brought no reading.
+    pub tip_world: Option<Point2>,
+    /// Direction of travel (unit vector, world frame) at the end of the contour that the policy last recorded, once it is ready.
+    pub tangent_world: Option<Vector2>,
 }
 
 impl Trace {

@@ -110,6 +110,23 @@ mod with_simulation {
     }
 
     #[test]
+    fn ticks_go_to_a_file_one_line_each() {
+        let path = directory("ticks").join("ticks.jsonl");
+        let output = vibrissa(&["run", "scenarios/disk.yaml", "--json", "--ticks", &path.display().to_string()]);
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let text = std::fs::read_to_string(path).unwrap();
+        let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert_eq!(lines.last().unwrap()["time_s"], results[0]["sim_s"]);
+        let recorded = |line: &&Value| line["whiskers"][0]["recorded"] == true;
+        assert_eq!(
+            lines.iter().filter(recorded).count(),
+            usize::try_from(results[0]["error_mm"]["n"].as_u64().unwrap()).unwrap()
+        );
+        let known = lines.iter().filter(recorded).all(|line| line["whiskers"][0]["tip_m"][1].is_number());
+        assert!(known, "a recorded tip has a place");
+    }
+
+    #[test]
     fn a_compiled_machine_runs_as_its_policy_does() {
         let machine = directory("run_compiled").join("thesis.machine").display().to_string();
         assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));

@@ -1,0 +1,82 @@
+//! What every tick of a run perceived and commanded, as programs read it.
+
+use serde::Serialize;
+
+use crate::run::{TickRecord, Trace};
+
+/// One control tick, in the units that its keys name; serialised, it is a line of what `run --ticks` writes.
+///
+/// Places and directions are in the world frame. Every key is always there, with `null` for what the tick does not have.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TickLine<'a> {
+    /// Name of the scenario.
+    pub scenario: &'a str,
+    /// Time since the start of the run.
+    pub time_s: f64,
+    /// Name of the active state after the tick; `None` after a failure.
+    pub state: Option<&'a str>,
+    /// Place of the platform's centre of mass.
+    pub position_m: [f64; 2],
+    /// Heading of the platform.
+    pub heading_rad: f64,
+    /// Velocity of the centre of mass that the tick commanded.
+    pub velocity_m_s: [f64; 2],
+    /// Yaw rate that it commanded, counter-clockwise positive.
+    pub yaw_rate_rad_s: f64,
+    /// Whether the platform's body touched something since the last tick; no policy sees this.
+    pub body_touches: bool,
+    /// The whiskers that the policy binds, in its order.
+    pub whiskers: Vec<WhiskerLine<'a>>,
+}
+
+/// One whisker in a tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WhiskerLine<'a> {
+    /// Its name.
+    pub whisker: &'a str,
+    /// Filtered base angle, counter-clockwise positive.
+    pub deflection_rad: f64,
+    /// Whether that is beyond the contact threshold.
+    pub touching: bool,
+    /// Where the tip is perceived to be.
+    pub tip_m: Option<[f64; 2]>,
+    /// How far off that may be: a standard deviation.
+    pub tip_spread_m: f64,
+    /// Direction of travel at the end of the contour that was last recorded.
+    pub tangent: Option<[f64; 2]>,
+    /// Whether the tip was recorded.
+    pub recorded: bool,
+    /// What the policy marked: `lost`, `found`.
+    pub marks: Vec<&'static str>,
+}
+
+/// The lines of a run's ticks.
+pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace) -> impl Iterator<Item = TickLine<'a>> {
+    trace.ticks.iter().enumerate().map(move |(index, tick)| TickLine {
+        scenario,
+        time_s: tick.time,
+        state: tick.state.and_then(|state| trace.states.get(state)).map(String::as_str),
+        position_m: tick.body.position.coords.into(),
+        heading_rad: tick.body.heading,
+        velocity_m_s: tick.command.velocity_world.into(),
+        yaw_rate_rad_s: tick.command.yaw_rate,
+        body_touches: tick.body_touches,
+        whiskers: whisker_lines(trace, index, tick),
+    })
+}
+
+fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<WhiskerLine<'a>> {
+    let first_mark = trace.marks.partition_point(|mark| mark.tick < index);
+    let marks = || trace.marks[first_mark..].iter().take_while(|mark| mark.tick == index);
+    let line = |(whisker, name): (usize, &'a String)| WhiskerLine {
+        whisker: name,
+        deflection_rad: tick.deflections[whisker],
+        touching: tick.touches[whisker].is_touching,
+        tip_m: tick.touches[whisker].tip_world.map(|tip| tip.coords.into()),
+        tip_spread_m: tick.tip_spreads[whisker],
+        tangent: tick.touches[whisker].tangent_world.map(Into::into),
+        recorded: tick.tips[whisker].is_some(),
+        marks: marks().filter(|mark| mark.whisker == whisker).map(|mark| mark.mark.name()).collect(),
+    };
+    trace.whiskers.iter().enumerate().map(line).collect()
+}
