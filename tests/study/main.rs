@@ -14,4 +14,5 @@ mod score;
 mod seen;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
+mod ticks;
 mod way;

@@ -1,9 +1,6 @@
 //! What a run tells of every tick.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-mod runs;
-
-use runs::{arc_of_tips, run_with};
+use crate::runs::{arc_of_tips, run_with};
 use serde_json::{Value, json};
 use vibrissa::geometry::{Point2, Vector2};
 use vibrissa::machine::Mark;
