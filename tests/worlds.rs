@@ -1,0 +1,52 @@
+//! Both worlds against each other: the same policy on the same scenes.
+
+#![cfg(feature = "sim")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use vibrissa::diagnostic::Source;
+use vibrissa::machine::Program;
+use vibrissa::policy::{compile, gather};
+use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
+use vibrissa::score::Score;
+use vibrissa::study::bench::{POLICIES, SCENARIOS};
+use vibrissa::study::{execute, in_parallel, processors};
+
+/// How far mean errors may be apart (m).
+const APART: f64 = 5e-5;
+
+fn thesis() -> Arc<Program> {
+    let source = Source::new(POLICIES[0].path, POLICIES[0].text);
+    Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap())
+}
+
+/// Outcome and mean error (m) of a run.
+fn run(scene: &Scene, program: &Arc<Program>, world: WorldKind) -> (Outcome, f64) {
+    let run = execute(scene, Arc::clone(program), world, scene.seed, |_| ControlFlow::Continue(())).unwrap();
+    let error = Score::new(&run, &scene.truth).figure(Metric::ErrorMean).unwrap();
+    (run.outcome, error)
+}
+
+#[test]
+fn the_thesis_policy_does_as_well_in_both_worlds_on_all_scenes() {
+    let program = thesis();
+    let compared = in_parallel(
+        SCENARIOS,
+        processors(),
+        |file| {
+            let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+            (scene.name.clone(), WorldKind::ALL.map(|world| run(&scene, &program, world)))
+        },
+        |_| (),
+    );
+    for (name, [mujoco, quasi_static]) in compared {
+        assert_eq!(mujoco.0, quasi_static.0, "{name}");
+        // At the mouth of this tunnel the right whisker comes off the wall's end three times here, and twice there, and each time the
+        // model of one channel is off by millimetres.
+        let allowed = if name == "zigzag-tunnel" { 2e-4 } else { APART };
+        let apart = (mujoco.1 - quasi_static.1).abs();
+        assert!(apart < allowed, "{name}: {:.4} and {:.4} mm", 1e3 * mujoco.1, 1e3 * quasi_static.1);
+    }
+}
