@@ -11,3 +11,5 @@ mod policies;
 mod tutorial;
 #[cfg(feature = "sim")]
 mod watch;
+#[cfg(feature = "sim")]
+mod worlds;

@@ -1,8 +1,5 @@
 //! Both worlds against each other: the same policy on the same scenes.
 
-#![cfg(feature = "sim")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
