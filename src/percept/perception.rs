@@ -8,10 +8,12 @@ use crate::rig::{Rig, Whisker};
 use crate::signal::Sample;
 
 use super::low_pass::{CutoffError, LowPass};
+use super::one_channel::OneChannel;
 use super::sliding::Sliding;
-use super::tip_model::{TipModel, TipModelError};
+use super::tip_curve::{TipCurve, TipModelError};
+use super::tip_model::{TipModel, Touch};
 use super::tip_table::TipTable;
-use super::whisker::PerceivedWhisker;
+use super::whisker::{PerceivedWhisker, deflection_spread};
 
 /// Perception of a rig by the whiskers that a policy binds.
 #[derive(Debug, Clone)]
@@ -61,9 +63,14 @@ impl Perception {
         let perceived = perceived.map(|(&index, kind)| {
             let whisker = &rig.whiskers[index];
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
-            let model = TipModel::with_friction(whisker, sensing.friction)?;
-            let sliding = (kind == TipModelKind::Sliding).then(|| Sliding::new(whisker, table(whisker), sensing));
-            Ok(PerceivedWhisker::new(whisker, filter, model, sliding, sensing))
+            let curve = Arc::new(TipCurve::with_friction(whisker, sensing.friction)?);
+            let model: Box<dyn TipModel> = match kind {
+                TipModelKind::OneChannel => {
+                    Box::new(OneChannel::new(Arc::clone(&curve), deflection_spread(sensing), whisker.shaft.length))
+                }
+                TipModelKind::Sliding => Box::new(Sliding::new(whisker, table(whisker), sensing)),
+            };
+            Ok(PerceivedWhisker::new(whisker, filter, curve, model, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
         Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
@@ -81,7 +88,7 @@ impl Perception {
         self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
-                whisker.take(sample.whiskers[index].base_angle, sample.body);
+                whisker.take(&sample.whiskers[index], sample.body);
             }
             if sample.time.is_finite() {
                 self.time = sample.time;
@@ -111,6 +118,12 @@ impl Perception {
     #[must_use]
     pub fn deflection(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].deflection()
+    }
+
+    /// Where a whisker is touched, if its tip model can tell in this tick.
+    #[must_use]
+    pub fn touch(&self, whisker: usize) -> Option<&Touch> {
+        self.whiskers[whisker].touch()
     }
 
     /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.

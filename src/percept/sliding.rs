@@ -7,8 +7,10 @@ use nalgebra::{Matrix2, RowVector2, Vector2 as Column};
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, rotate, unit};
 use crate::rig::{Sensing, Whisker};
+use crate::signal::Reading;
 
 use super::recent_line::RecentLine;
+use super::tip_model::{TipModel, Touch};
 use super::tip_table::{TipPlace, TipTable};
 
 /// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
@@ -58,7 +60,7 @@ enum State {
 
 /// The contact of a sliding tip.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Contact {
+struct Contact {
     /// Which way the whisker is bent: +1 counter-clockwise, −1 clockwise.
     bend: f64,
     /// The tip's centre (m, world frame), and where it was one, two and three samples before.
@@ -68,6 +70,8 @@ pub(super) struct Contact {
     normal: f64,
     /// Of the normal's direction (rad) and the centre's place along the normal (m).
     covariance: Matrix2<f64>,
+    /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
+    tip: TipPlace,
 }
 
 /// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
@@ -119,61 +123,8 @@ impl Sliding {
     }
 
     /// The contact, while the tip slides.
-    pub(super) fn contact(&self) -> Option<&Contact> {
+    fn contact(&self) -> Option<&Contact> {
         if let State::Settled(contact) = &self.state { Some(contact) } else { None }
-    }
-
-    /// Where the surface is touched (m, world frame).
-    pub(super) fn touched(&self, contact: &Contact) -> Point2 {
-        contact.centre - self.tip_radius * unit(contact.normal)
-    }
-
-    /// Where a surface that is turned as the one touched would be touched (m, frame of the base) at another base angle (rad), by a
-    /// whisker with its undeflected shaft in the direction `yaw` (rad); `None` where the model does not reach.
-    pub(super) fn tip_at(&self, contact: &Contact, base_angle: f64, yaw: f64) -> Option<Vector2> {
-        let bend = base_angle.signum();
-        // On the other side of the shaft it would be the mirror image.
-        let normal = contact.bend * (contact.normal - yaw);
-        let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
-        let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
-        Some(Vector2::new(tip.x, bend * tip.y))
-    }
-
-    /// Takes a base angle (rad), as sampled with the whisker's base at `base`: its place, and the direction of the undeflected shaft.
-    pub(super) fn take(&mut self, base_angle: f64, base: Pose) {
-        self.line.take(base_angle);
-        let slope = self.line.slope();
-        self.calm_for = if slope.abs() < CALM_RATE { self.calm_for + 1 } else { 0 };
-        let angle = self.line.value(self.delay);
-        let bend = angle.signum();
-        let way = self.base_before.map_or(0.0, |(place, heading)| {
-            (base.position - place).norm() + self.length * (base.heading - heading).abs()
-        });
-        self.base_before = Some((base.position, base.heading));
-        if angle.abs() < self.contact_threshold {
-            self.state = State::Free;
-            return;
-        }
-        self.state = match self.state {
-            State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
-            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
-                if self.calm_for < self.calm_samples {
-                    State::Unsettled { left, bend }
-                } else {
-                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
-                }
-            }
-            _ => State::Unsettled { left: None, bend },
-        };
-    }
-
-    /// Forgets what is before a gap in the readings.
-    pub(super) fn interrupt(&mut self) {
-        self.line.clear();
-        self.calm_for = 0;
-        self.base_before = None;
-        self.state = State::Free;
     }
 
     /// Where the tip's centre is (m, world frame), with its changes, on a surface whose normal has a direction (rad, world frame).
@@ -227,6 +178,7 @@ impl Sliding {
             before: [last.before[1], last.before[2], last.centre],
             normal: last.normal - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
+            tip,
         })
     }
 
@@ -260,6 +212,67 @@ impl Sliding {
     }
 }
 
+impl TipModel for Sliding {
+    fn take(&mut self, reading: &Reading, base: Pose) {
+        self.line.take(reading.base_angle);
+        let slope = self.line.slope();
+        self.calm_for = if slope.abs() < CALM_RATE { self.calm_for + 1 } else { 0 };
+        let angle = self.line.value(self.delay);
+        let bend = angle.signum();
+        let way = self.base_before.map_or(0.0, |(place, heading)| {
+            (base.position - place).norm() + self.length * (base.heading - heading).abs()
+        });
+        self.base_before = Some((base.position, base.heading));
+        if angle.abs() < self.contact_threshold {
+            self.state = State::Free;
+            return;
+        }
+        self.state = match self.state {
+            State::Free if self.calm_for > 0 => self.first(angle, base),
+            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
+            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
+                if self.calm_for < self.calm_samples {
+                    State::Unsettled { left, bend }
+                } else {
+                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
+                }
+            }
+            _ => State::Unsettled { left: None, bend },
+        };
+    }
+
+    fn interrupt(&mut self) {
+        self.line.clear();
+        self.calm_for = 0;
+        self.base_before = None;
+        self.state = State::Free;
+    }
+
+    fn touch(&self, _: f64, _: Pose) -> Option<Touch> {
+        let contact = self.contact()?;
+        Some(Touch {
+            point_world: contact.centre - self.tip_radius * unit(contact.normal),
+            covariance_world: contact.place_covariance(self.tip_radius, self.angle_spread),
+            spread: contact.place_spread(),
+            contact_length: self.length,
+        })
+    }
+
+    fn touch_at(&self, deflection: f64, yaw: f64) -> Option<Vector2> {
+        let contact = self.contact()?;
+        let bend = deflection.signum();
+        // On the other side of the shaft it would be the mirror image.
+        let normal = contact.bend * (contact.normal - yaw);
+        let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
+        let tip = self.table.at(deflection.abs(), force)?.tip_base - self.tip_radius * unit(normal);
+        Some(Vector2::new(tip.x, bend * tip.y))
+    }
+
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
+}
+
 /// What is left of a tip's place (m) even when readings are exact.
 const SMOOTHNESS: f64 = 5e-6;
 /// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
@@ -285,11 +298,25 @@ impl Contact {
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
             + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
-        Self { bend, centre, before: [centre; 3], normal, covariance }
+        Self { bend, centre, before: [centre; 3], normal, covariance, tip: *tip }
     }
 
     /// Standard deviation of the place along the normal (m).
-    pub(super) fn place_spread(&self) -> f64 {
+    fn place_spread(&self) -> f64 {
         self.covariance.m22.max(0.0).sqrt().hypot(CONTACT_SPREAD)
+    }
+
+    /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
+    /// `angle_spread` (rad). Along the surface the place goes by what base angle and direction tell.
+    fn place_covariance(&self, tip_radius: f64, angle_spread: f64) -> Matrix2<f64> {
+        let normal = unit(self.normal);
+        let tangent = perpendicular(normal);
+        let by_direction = self.tip.by_direction.dot(&tangent) - tip_radius;
+        let along =
+            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_spread).powi(2);
+        let both = by_direction * self.covariance.m12;
+        along * tangent * tangent.transpose()
+            + both * (tangent * normal.transpose() + normal * tangent.transpose())
+            + self.place_spread().powi(2) * normal * normal.transpose()
     }
 }
