@@ -1,11 +1,14 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
+mod base_angle;
 mod deflection;
 mod local_contour;
 mod low_pass;
+mod moment_and_shear;
 mod one_channel;
 mod perception;
 mod recent_line;
+mod recursive;
 mod sliding;
 mod tip_curve;
 mod tip_model;

@@ -29,7 +29,7 @@ impl TipModel for OneChannel {
 
     fn interrupt(&mut self) {}
 
-    fn touch(&self, deflection: f64, base: Pose) -> Option<Touch> {
+    fn touch(&mut self, deflection: f64, base: Pose) -> Option<Touch> {
         let covariance = self.curve.covariance(deflection, self.deflection_spread)?;
         Some(Touch {
             point_world: base.position + rotate(self.curve.contact_base(deflection), base.heading),

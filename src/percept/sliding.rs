@@ -9,8 +9,8 @@ use crate::geometry::{Point2, Pose, Vector2, perpendicular, rotate, unit};
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
-use super::recent_line::RecentLine;
-use super::tip_model::{TipModel, Touch};
+use super::base_angle::BaseAngle;
+use super::tip_model::{CONTACT_SPREAD, TipModel, Touch};
 use super::tip_table::{TipPlace, TipTable};
 
 /// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
@@ -32,11 +32,7 @@ pub(super) struct Sliding {
     usual_normal: f64,
     /// By how much friction turns the force from the normal (rad).
     friction_angle: f64,
-    /// Time by which the base angle is behind the base moment (s): the hinge's damping over its stiffness.
-    delay: f64,
-    line: RecentLine,
-    /// Standard deviation of the base angle in equilibrium (rad).
-    angle_spread: f64,
+    angle: BaseAngle,
     contact_threshold: f64,
     /// Samples for which the base angle must have been calm before a contact is estimated anew.
     calm_samples: usize,
@@ -74,10 +70,6 @@ struct Contact {
     tip: TipPlace,
 }
 
-/// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
-const MODEL_SPREAD: f64 = 3e-7;
-/// The spread of the base angle (rad) that is worth a longer line through the readings.
-const WANTED_SPREAD: f64 = 4.5e-7;
 /// Variance of a surface's direction for every way along it (rad²/m): a bend of 0.1 rad within 10 mm.
 const BENDING: f64 = 1.0;
 /// The same for every sample (rad²): what keeps the filter from being sure for ever.
@@ -92,28 +84,20 @@ const FIRST_PLACE: f64 = 2e-5;
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
-/// A base angle that changes faster (rad/s) is that of a whisker in free motion.
-const CALM_RATE: f64 = 6e-4;
-/// Time (s) for which it must have been slower.
+/// Time (s) for which the base angle must have been calm.
 const CALM_TIME: f64 = 0.02;
 
 impl Sliding {
     pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
-        let period = sensing.sample_rate.recip();
-        let delay = whisker.hinge.damping / whisker.hinge.stiffness;
-        let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
-        let line = RecentLine::new(period, delay, noise, WANTED_SPREAD);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
         Self {
             table,
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
-            usual_normal: PI - (whisker.direction_body.abs() - FRAC_PI_2).abs(),
+            usual_normal: whisker.usual_normal(),
             friction_angle: sensing.friction.atan(),
-            delay,
-            angle_spread: MODEL_SPREAD.hypot(noise * line.noise_gain(delay)),
-            line,
+            angle: BaseAngle::new(whisker, sensing),
             contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
@@ -164,7 +148,7 @@ impl Sliding {
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
-        let noise = (tip.by_angle.dot(&normal) * self.angle_spread).powi(2) + SMOOTHNESS.powi(2);
+        let noise = (tip.by_angle.dot(&normal) * self.angle.spread).powi(2) + SMOOTHNESS.powi(2);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
         if !is_sliding {
@@ -214,10 +198,9 @@ impl Sliding {
 
 impl TipModel for Sliding {
     fn take(&mut self, reading: &Reading, base: Pose) {
-        self.line.take(reading.base_angle);
-        let slope = self.line.slope();
-        self.calm_for = if slope.abs() < CALM_RATE { self.calm_for + 1 } else { 0 };
-        let angle = self.line.value(self.delay);
+        self.angle.take(reading.base_angle);
+        self.calm_for = if self.angle.is_calm() { self.calm_for + 1 } else { 0 };
+        let angle = self.angle.value();
         let bend = angle.signum();
         let way = self.base_before.map_or(0.0, |(place, heading)| {
             (base.position - place).norm() + self.length * (base.heading - heading).abs()
@@ -242,17 +225,17 @@ impl TipModel for Sliding {
     }
 
     fn interrupt(&mut self) {
-        self.line.clear();
+        self.angle.clear();
         self.calm_for = 0;
         self.base_before = None;
         self.state = State::Free;
     }
 
-    fn touch(&self, _: f64, _: Pose) -> Option<Touch> {
+    fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
         let contact = self.contact()?;
         Some(Touch {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
-            covariance_world: contact.place_covariance(self.tip_radius, self.angle_spread),
+            covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(),
             contact_length: self.length,
         })
@@ -275,9 +258,6 @@ impl TipModel for Sliding {
 
 /// What is left of a tip's place (m) even when readings are exact.
 const SMOOTHNESS: f64 = 5e-6;
-/// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
-/// slides drags. A whole scene may be off to the same side by this.
-const CONTACT_SPREAD: f64 = 3.3e-5;
 /// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::calibration::ContactCurve;
 use crate::geometry::rotate;
 use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
@@ -19,6 +20,8 @@ use crate::rig::Whisker;
 #[derive(Debug, Clone)]
 pub struct TipCurve {
     step: f64,
+    /// The least base angle of which something is known (rad).
+    least: f64,
     /// Places of contact for base angles 0, `step`, 2 `step`, …
     knots: Vec<Knot>,
 }
@@ -128,7 +131,18 @@ impl TipCurve {
             let off = (turned_contact - contact) * (SURFACE_SPREAD / TURN);
             unknowns.push(off * off.transpose());
         }
-        Ok(Self { step, knots: knots(&contacts, &unknowns) })
+        Ok(Self { step, least: 0.0, knots: knots(&contacts, &unknowns) })
+    }
+
+    /// The curve that was measured.
+    #[must_use]
+    pub fn calibrated(measured: &ContactCurve) -> Self {
+        let [least, range] = measured.range;
+        let step = range / STEPS as f64;
+        // Below what was measured there is only somewhere to steer by, and nothing that is told.
+        let contacts: Vec<_> = (0..=STEPS).map(|index| measured.at((step * index as f64).max(least))).collect();
+        let [xx, xy, yy] = measured.covariance;
+        Self { step, least, knots: knots(&contacts, &vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1]) }
     }
 
     /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
@@ -177,7 +191,7 @@ impl TipCurve {
     /// off. `None` beyond the range.
     #[must_use]
     pub fn covariance(&self, base_angle: f64, angle_spread: f64) -> Option<Matrix2<f64>> {
-        if !(base_angle.abs() <= self.range()) {
+        if !(self.least..=self.range()).contains(&base_angle.abs()) {
             return None;
         }
         let (a, b, u) = self.between(base_angle);

@@ -33,7 +33,7 @@ pub trait TipModel: Debug + Send + Sync {
 
     /// Where the whisker is touched now, with the filtered base angle `deflection` (rad) and the base at `base`. `None` if that
     /// cannot be told.
-    fn touch(&self, deflection: f64, base: Pose) -> Option<Touch>;
+    fn touch(&mut self, deflection: f64, base: Pose) -> Option<Touch>;
 
     /// Where a surface that goes as the one touched would be touched (m, frame of the base) at another deflection (rad), with the
     /// undeflected shaft in the direction `yaw` (rad). `None` if nothing is known of the surface.
@@ -48,6 +48,10 @@ impl Clone for Box<dyn TipModel> {
         self.as_ref().boxed()
     }
 }
+
+/// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
+/// slides drags. A whole scene may be off to the same side by this.
+pub(super) const CONTACT_SPREAD: f64 = 3.3e-5;
 
 /// A covariance in a frame that is turned back by an angle (rad).
 pub(super) fn turned(covariance: &Matrix2<f64>, angle: f64) -> Matrix2<f64> {

@@ -95,7 +95,8 @@ impl PerceivedWhisker {
     pub(super) fn place(&mut self, body: Pose) {
         let base = self.base(body);
         (self.base_world, self.yaw) = (base.position, base.heading);
-        self.touch = if self.deflection().is_nan() { None } else { self.model.touch(self.deflection(), base) };
+        let deflection = self.deflection();
+        self.touch = if deflection.is_nan() { None } else { self.model.touch(deflection, base) };
         self.recorded_before = self.recorded;
         self.recorded = false;
         self.marks = Default::default();

@@ -62,8 +62,9 @@ pub fn execute(
     drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
+/// The world of a scene.
 #[cfg(feature = "sim")]
-fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+pub(super) fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
     match kind {
         WorldKind::Mujoco => {
             let world = crate::world::MujocoWorld::new(&scene.rig, &scene.solids, scene.start, seed)?;
@@ -73,7 +74,7 @@ fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn crate::wor
 }
 
 #[cfg(not(feature = "sim"))]
-fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
+pub(super) fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::World>, ExecuteError> {
     Err(ExecuteError::NoWorld(kind))
 }
 

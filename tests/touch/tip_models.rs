@@ -1,5 +1,4 @@
 //! What every tip model tells of a touch.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
@@ -10,12 +9,16 @@ use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// What the right whisker tells after a second on a straight surface, bent by `base_angle` (rad).
 fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Option<Touch>) {
-    let mut perception = Perception::new(&Rig::default(), &[0], &[kind]).unwrap();
+    let mut rig = Rig::default();
+    rig.sensing.forces = true;
+    let mut perception = Perception::new(&rig, &[0], &[kind]).unwrap();
     for tick in 0..30 {
         let samples: [Sample; 10] = std::array::from_fn(|index| {
             let time = f64::from(tick * 10 + i32::try_from(index).unwrap()) / 300.0;
             let mut whiskers = [Reading::default(); MAX_WHISKERS];
             whiskers[0].base_angle = base_angle * (4.0 * time).min(1.0);
+            // A lever of 90 mm on a hinge of 1 N m/rad.
+            whiskers[0].shear = Some(whiskers[0].base_angle / 0.09);
             let along = 0.05 * time;
             let body = Pose { position: Point2::new(along * heading.cos(), along * heading.sin()), heading };
             Sample { time, body, whiskers }
@@ -65,7 +68,8 @@ proptest! {
 
 #[test]
 fn beyond_its_range_a_model_tells_no_touch_and_nothing_is_recorded() {
-    for kind in TipModelKind::ALL {
+    // By two readings the range is where the mechanics have a touch with both.
+    for kind in [TipModelKind::OneChannel, TipModelKind::Sliding, TipModelKind::Recursive] {
         let (perception, found) = touch(kind, -2e-3, 1.0);
         assert_eq!(found, None, "{kind:?}");
         assert_eq!(perception.recorded_tip(0), None, "{kind:?}");
