@@ -3,6 +3,7 @@
 // What pest writes for a grammar without `std` names it.
 extern crate alloc;
 
+pub mod calibration;
 pub mod cli;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]

@@ -53,6 +53,32 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
 }
 
 #[test]
+fn a_tick_by_any_tip_model_allocates_nothing() {
+    let text = include_str!("../policies/thesis.fsm");
+    for model in ["one_channel", "sliding", "moment_and_shear", "recursive"] {
+        let text = text.replace("by one_channel", &format!("by {model}"));
+        let program = compile(&Source::new("thesis.fsm", &text)).unwrap();
+        let mut rig = Rig::default();
+        rig.sensing.forces = true;
+        let mut control = Control::new(&rig, Arc::new(program)).unwrap();
+        let mut told = 0;
+        for tick in 0..90 {
+            let base_angle = [0.0, -1.5e-4, -3e-4][tick / 30];
+            let mut samples = samples(tick, base_angle);
+            for sample in &mut samples {
+                // The lever of a tip that is touched nearly square.
+                sample.whiskers[0].shear = Some(base_angle / 0.09);
+            }
+            let before = allocations();
+            control.tick(&samples);
+            assert_eq!(allocations() - before, 0, "{model}, tick {tick}");
+            told += usize::from(control.perception().touch(0).is_some());
+        }
+        assert!(told > 20, "{model} tells {told}");
+    }
+}
+
+#[test]
 fn a_tick_among_states_in_states_allocates_nothing() {
     let program = compile(&Source::new("nested.fsm", include_str!("fixtures/charts/nested.fsm"))).unwrap();
     let mut control = Control::new(&Rig::default(), Arc::new(program)).unwrap();

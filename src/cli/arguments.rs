@@ -25,6 +25,8 @@ pub(super) enum Command {
     Run(RunArguments),
     /// Run the scenes of the thesis, and put the figures beside the thesis's
     Bench(BenchArguments),
+    /// Fit the tip models of a whisker to touches in known places
+    Calibrate(CalibrateArguments),
     /// Do the same runs under several policies, and say where they differ
     Compare(CompareArguments),
     /// Run scenes that are drawn by chance from families, and say how many complete
@@ -95,6 +97,10 @@ pub(super) struct BenchArguments {
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
+    /// Compare tip models instead, by what `vibrissa.fsm` feels in every scene: without noise, with that of the real sensor, and with
+    /// ten times that
+    #[arg(long, conflicts_with_all = ["policies", "friction", "noise", "out"])]
+    pub(super) estimators: bool,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -104,6 +110,35 @@ pub(super) struct BenchArguments {
     /// How many runs to do at a time; as many as there are processors unless given
     #[arg(short, long, value_name = "J")]
     pub(super) jobs: Option<NonZeroUsize>,
+}
+
+const CALIBRATE_STATUS: &str = "Exit status: 0 done; 2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = CALIBRATE_STATUS)]
+pub(super) struct CalibrateArguments {
+    /// Touches that were measured, as comma-separated values with the columns `x_mm`, `y_mm` and `base_angle_urad`,
+    /// and `normal_deg` and `contact` if they are known; without a file they are taken in the simulated world
+    #[arg(value_name = "SETS")]
+    pub(super) sets: Option<PathBuf>,
+    /// Scenario whose rig has the whisker, instead of the reference rig
+    #[arg(long, value_name = "SCENARIO")]
+    pub(super) rig: Option<PathBuf>,
+    /// Whisker to calibrate; the rig's first unless given
+    #[arg(long, value_name = "NAME")]
+    pub(super) whisker: Option<String>,
+    /// Give the simulated sensors the noise and the resolution that the real one is estimated to have
+    #[arg(long, conflicts_with = "sets")]
+    pub(super) noise: bool,
+    /// Seed of that noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) seed: u64,
+    /// Write the calibration, the sets and a picture of the deflection profile into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 const COMPARE_STATUS: &str = "Exit status: 0 done, whichever is better; 2 unusable input; 3 internal error.";

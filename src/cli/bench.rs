@@ -14,9 +14,12 @@ use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
 use super::run::make_directory;
-use super::{file, output};
+use super::{estimators, file, output};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
+    if arguments.estimators {
+        return estimators::estimators(arguments);
+    }
     let conditions = conditions(arguments);
     let (conditions, jobs): (Vec<_>, Vec<_>) =
         jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?.into_iter().unzip();

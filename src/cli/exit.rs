@@ -3,11 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::calibration::SetsError;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::{ArtifactError, SetError};
 use crate::report::ChartTooLarge;
+use crate::rig::UnknownWhisker;
 use crate::scene::family::{FAMILIES, NoDraw};
 use crate::study::ExecuteError;
+use crate::study::calibrate::FEWEST_SETS;
+#[cfg(feature = "sim")]
+use crate::study::calibrate::StageError;
 
 use super::output;
 
@@ -58,6 +63,20 @@ pub(super) enum Failure {
     NoText { policy: PathBuf },
     #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
     NoSuchTest { filter: String },
+    #[error(transparent)]
+    NoWhisker(UnknownWhisker),
+    #[error("{}: {cause}", path.display())]
+    Sets { path: PathBuf, cause: SetsError },
+    #[error(
+        "there are {count} touches by the tip, which are too few: give {FEWEST_SETS} or more, spread over the places where it touches"
+    )]
+    TooFewSets { count: usize },
+    #[cfg(feature = "sim")]
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    #[cfg(not(feature = "sim"))]
+    #[error("this build has no world; give touches that were measured, or build it with the feature `sim`")]
+    NoStage,
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use crate::calibration::ContactSet;
 use crate::diagnostic::{Diagnostic, Source, suggest};
 use crate::machine::{ARTIFACT_LIMIT, Artifact};
 use crate::outline;
@@ -95,6 +96,12 @@ fn read_scenario(
         Ok(value) => Ok(Loaded { value, hash }),
         Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
     }
+}
+
+/// Reads touches that were measured.
+pub(super) fn contact_sets(path: &Path) -> Result<Vec<ContactSet>, Failure> {
+    let source = read(path)?;
+    ContactSet::read_all(source.text.as_bytes()).map_err(|cause| Failure::Sets { path: path.to_owned(), cause })
 }
 
 /// What a file that is given for a policy holds.

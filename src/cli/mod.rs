@@ -3,9 +3,11 @@
 mod arguments;
 mod batch;
 mod bench;
+mod calibrate;
 mod check;
 mod compare;
 mod compile;
+mod estimators;
 mod exit;
 mod families;
 mod file;
@@ -32,6 +34,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Run(arguments) if arguments.watch => watch::watch(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
+        Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Families(arguments) => families::families(arguments),
         Command::Check(arguments) => check::check(arguments),

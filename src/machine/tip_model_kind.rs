@@ -10,11 +10,15 @@ pub enum TipModelKind {
     /// From base angles and poses one after the other, by what sliding along a surface allows.
     #[default]
     Sliding,
+    /// From the moment and the shear at the base, where the rig measures the latter: finds a touch on the shaft, too.
+    MomentAndShear,
+    /// From the base angle as a polynomial in the tip's place, step by step along its gradient.
+    Recursive,
 }
 
 impl TipModelKind {
     /// Every tip model.
-    pub const ALL: [Self; 2] = [Self::OneChannel, Self::Sliding];
+    pub const ALL: [Self; 4] = [Self::OneChannel, Self::Sliding, Self::MomentAndShear, Self::Recursive];
 
     /// The word that stands for it in a policy.
     #[must_use]
@@ -22,6 +26,8 @@ impl TipModelKind {
         match self {
             Self::OneChannel => "one_channel",
             Self::Sliding => "sliding",
+            Self::MomentAndShear => "moment_and_shear",
+            Self::Recursive => "recursive",
         }
     }
 

@@ -8,10 +8,14 @@ use crate::rig::{Rig, Whisker};
 use crate::signal::Sample;
 
 use super::low_pass::{CutoffError, LowPass};
+use super::moment_and_shear::MomentAndShear;
+use super::one_channel::OneChannel;
+use super::recursive::{self, Recursive};
 use super::sliding::Sliding;
-use super::tip_model::{TipModel, TipModelError};
+use super::tip_curve::{TipCurve, TipModelError};
+use super::tip_model::{TipModel, Touch};
 use super::tip_table::TipTable;
-use super::whisker::PerceivedWhisker;
+use super::whisker::{PerceivedWhisker, deflection_spread};
 
 /// Perception of a rig by the whiskers that a policy binds.
 #[derive(Debug, Clone)]
@@ -30,6 +34,23 @@ pub enum PerceptionError {
     /// A whisker's mechanics give no tip model.
     #[error(transparent)]
     TipModel(#[from] TipModelError),
+    /// A whisker is to be perceived by forces that the rig does not measure.
+    #[error(
+        "the policy perceives the whisker `{whisker}` by moment_and_shear, and the rig measures no forces; give it \
+         `sensing: {{forces: true}}`, or perceive the whisker by sliding"
+    )]
+    NoForces {
+        /// The whisker.
+        whisker: String,
+    },
+    /// The mechanics of a whisker do not suffice for a polynomial.
+    #[error(
+        "whisker {whisker}: its mechanics give too few places for recursive; calibrate it, or perceive it by sliding"
+    )]
+    NoSurface {
+        /// The whisker.
+        whisker: String,
+    },
     /// The rig samples too slowly for the filter.
     #[error(transparent)]
     Cutoff(#[from] CutoffError),
@@ -46,24 +67,45 @@ impl Perception {
     pub fn new(rig: &Rig, whiskers: &[usize], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
         let sensing = &rig.sensing;
         // Whiskers that differ by their place alone have the same table.
-        let mut tables: Vec<(&Whisker, Arc<TipTable>)> = Vec::new();
-        let mut table = |whisker| {
-            let same = |(other, _): &&(&Whisker, _)| bends_alike(other, whisker);
+        let mut tables: Vec<(Whisker, Arc<TipTable>)> = Vec::new();
+        let mut table = |whisker: &Whisker| {
+            let same = |(other, _): &&(Whisker, _)| bends_alike(other, whisker);
             if let Some((_, table)) = tables.iter().find(same) {
                 return Arc::clone(table);
             }
             let table = Arc::new(TipTable::new(whisker));
-            tables.push((whisker, Arc::clone(&table)));
+            tables.push((whisker.clone(), Arc::clone(&table)));
             table
         };
         let perceived =
             whiskers.iter().zip(tip_models.iter().copied().chain(std::iter::repeat(TipModelKind::default())));
         let perceived = perceived.map(|(&index, kind)| {
-            let whisker = &rig.whiskers[index];
+            let whisker = rig.whiskers[index].perceived();
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
-            let model = TipModel::with_friction(whisker, sensing.friction)?;
-            let sliding = (kind == TipModelKind::Sliding).then(|| Sliding::new(whisker, table(whisker), sensing));
-            Ok(PerceivedWhisker::new(whisker, filter, model, sliding, sensing))
+            let calibration = whisker.calibration.as_ref();
+            let curve = Arc::new(match calibration.and_then(|calibration| calibration.one_channel.as_ref()) {
+                Some(measured) => TipCurve::calibrated(measured),
+                None => TipCurve::with_friction(&whisker, sensing.friction)?,
+            });
+            let model: Box<dyn TipModel> = match kind {
+                TipModelKind::OneChannel => {
+                    Box::new(OneChannel::new(Arc::clone(&curve), deflection_spread(sensing), whisker.shaft.length))
+                }
+                TipModelKind::Sliding => Box::new(Sliding::new(&whisker, table(&whisker), sensing)),
+                TipModelKind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
+                TipModelKind::MomentAndShear => {
+                    return Err(PerceptionError::NoForces { whisker: whisker.name });
+                }
+                TipModelKind::Recursive => {
+                    let surface = match calibration.and_then(|calibration| calibration.recursive.clone()) {
+                        Some(measured) => measured,
+                        None => recursive::surface(&whisker, &table(&whisker))
+                            .ok_or_else(|| PerceptionError::NoSurface { whisker: whisker.name.clone() })?,
+                    };
+                    Box::new(Recursive::new(&whisker, Arc::new(surface), Arc::clone(&curve), sensing))
+                }
+            };
+            Ok(PerceivedWhisker::new(&whisker, filter, curve, model, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
         Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
@@ -81,7 +123,7 @@ impl Perception {
         self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
-                whisker.take(sample.whiskers[index].base_angle, sample.body);
+                whisker.take(&sample.whiskers[index], sample.body);
             }
             if sample.time.is_finite() {
                 self.time = sample.time;
@@ -111,6 +153,12 @@ impl Perception {
     #[must_use]
     pub fn deflection(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].deflection()
+    }
+
+    /// Where a whisker is touched, if its tip model can tell in this tick.
+    #[must_use]
+    pub fn touch(&self, whisker: usize) -> Option<&Touch> {
+        self.whiskers[whisker].touch()
     }
 
     /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.

@@ -7,8 +7,10 @@ use nalgebra::{Matrix2, RowVector2, Vector2 as Column};
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, rotate, unit};
 use crate::rig::{Sensing, Whisker};
+use crate::signal::Reading;
 
-use super::recent_line::RecentLine;
+use super::base_angle::BaseAngle;
+use super::tip_model::{CONTACT_SPREAD, TipModel, Touch};
 use super::tip_table::{TipPlace, TipTable};
 
 /// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
@@ -30,11 +32,7 @@ pub(super) struct Sliding {
     usual_normal: f64,
     /// By how much friction turns the force from the normal (rad).
     friction_angle: f64,
-    /// Time by which the base angle is behind the base moment (s): the hinge's damping over its stiffness.
-    delay: f64,
-    line: RecentLine,
-    /// Standard deviation of the base angle in equilibrium (rad).
-    angle_spread: f64,
+    angle: BaseAngle,
     contact_threshold: f64,
     /// Samples for which the base angle must have been calm before a contact is estimated anew.
     calm_samples: usize,
@@ -58,7 +56,7 @@ enum State {
 
 /// The contact of a sliding tip.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Contact {
+struct Contact {
     /// Which way the whisker is bent: +1 counter-clockwise, −1 clockwise.
     bend: f64,
     /// The tip's centre (m, world frame), and where it was one, two and three samples before.
@@ -68,12 +66,10 @@ pub(super) struct Contact {
     normal: f64,
     /// Of the normal's direction (rad) and the centre's place along the normal (m).
     covariance: Matrix2<f64>,
+    /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
+    tip: TipPlace,
 }
 
-/// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
-const MODEL_SPREAD: f64 = 3e-7;
-/// The spread of the base angle (rad) that is worth a longer line through the readings.
-const WANTED_SPREAD: f64 = 4.5e-7;
 /// Variance of a surface's direction for every way along it (rad²/m): a bend of 0.1 rad within 10 mm.
 const BENDING: f64 = 1.0;
 /// The same for every sample (rad²): what keeps the filter from being sure for ever.
@@ -88,28 +84,20 @@ const FIRST_PLACE: f64 = 2e-5;
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
-/// A base angle that changes faster (rad/s) is that of a whisker in free motion.
-const CALM_RATE: f64 = 6e-4;
-/// Time (s) for which it must have been slower.
+/// Time (s) for which the base angle must have been calm.
 const CALM_TIME: f64 = 0.02;
 
 impl Sliding {
     pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
-        let period = sensing.sample_rate.recip();
-        let delay = whisker.hinge.damping / whisker.hinge.stiffness;
-        let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
-        let line = RecentLine::new(period, delay, noise, WANTED_SPREAD);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
         Self {
             table,
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
-            usual_normal: PI - (whisker.direction_body.abs() - FRAC_PI_2).abs(),
+            usual_normal: whisker.usual_normal(),
             friction_angle: sensing.friction.atan(),
-            delay,
-            angle_spread: MODEL_SPREAD.hypot(noise * line.noise_gain(delay)),
-            line,
+            angle: BaseAngle::new(whisker, sensing),
             contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
@@ -119,61 +107,8 @@ impl Sliding {
     }
 
     /// The contact, while the tip slides.
-    pub(super) fn contact(&self) -> Option<&Contact> {
+    fn contact(&self) -> Option<&Contact> {
         if let State::Settled(contact) = &self.state { Some(contact) } else { None }
-    }
-
-    /// Where the surface is touched (m, world frame).
-    pub(super) fn touched(&self, contact: &Contact) -> Point2 {
-        contact.centre - self.tip_radius * unit(contact.normal)
-    }
-
-    /// Where a surface that is turned as the one touched would be touched (m, frame of the base) at another base angle (rad), by a
-    /// whisker with its undeflected shaft in the direction `yaw` (rad); `None` where the model does not reach.
-    pub(super) fn tip_at(&self, contact: &Contact, base_angle: f64, yaw: f64) -> Option<Vector2> {
-        let bend = base_angle.signum();
-        // On the other side of the shaft it would be the mirror image.
-        let normal = contact.bend * (contact.normal - yaw);
-        let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
-        let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
-        Some(Vector2::new(tip.x, bend * tip.y))
-    }
-
-    /// Takes a base angle (rad), as sampled with the whisker's base at `base`: its place, and the direction of the undeflected shaft.
-    pub(super) fn take(&mut self, base_angle: f64, base: Pose) {
-        self.line.take(base_angle);
-        let slope = self.line.slope();
-        self.calm_for = if slope.abs() < CALM_RATE { self.calm_for + 1 } else { 0 };
-        let angle = self.line.value(self.delay);
-        let bend = angle.signum();
-        let way = self.base_before.map_or(0.0, |(place, heading)| {
-            (base.position - place).norm() + self.length * (base.heading - heading).abs()
-        });
-        self.base_before = Some((base.position, base.heading));
-        if angle.abs() < self.contact_threshold {
-            self.state = State::Free;
-            return;
-        }
-        self.state = match self.state {
-            State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
-            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
-                if self.calm_for < self.calm_samples {
-                    State::Unsettled { left, bend }
-                } else {
-                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
-                }
-            }
-            _ => State::Unsettled { left: None, bend },
-        };
-    }
-
-    /// Forgets what is before a gap in the readings.
-    pub(super) fn interrupt(&mut self) {
-        self.line.clear();
-        self.calm_for = 0;
-        self.base_before = None;
-        self.state = State::Free;
     }
 
     /// Where the tip's centre is (m, world frame), with its changes, on a surface whose normal has a direction (rad, world frame).
@@ -213,7 +148,7 @@ impl Sliding {
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
-        let noise = (tip.by_angle.dot(&normal) * self.angle_spread).powi(2) + SMOOTHNESS.powi(2);
+        let noise = (tip.by_angle.dot(&normal) * self.angle.spread).powi(2) + SMOOTHNESS.powi(2);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
         if !is_sliding {
@@ -227,6 +162,7 @@ impl Sliding {
             before: [last.before[1], last.before[2], last.centre],
             normal: last.normal - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
+            tip,
         })
     }
 
@@ -260,11 +196,68 @@ impl Sliding {
     }
 }
 
+impl TipModel for Sliding {
+    fn take(&mut self, reading: &Reading, base: Pose) {
+        self.angle.take(reading.base_angle);
+        self.calm_for = if self.angle.is_calm() { self.calm_for + 1 } else { 0 };
+        let angle = self.angle.value();
+        let bend = angle.signum();
+        let way = self.base_before.map_or(0.0, |(place, heading)| {
+            (base.position - place).norm() + self.length * (base.heading - heading).abs()
+        });
+        self.base_before = Some((base.position, base.heading));
+        if angle.abs() < self.contact_threshold {
+            self.state = State::Free;
+            return;
+        }
+        self.state = match self.state {
+            State::Free if self.calm_for > 0 => self.first(angle, base),
+            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
+            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
+                if self.calm_for < self.calm_samples {
+                    State::Unsettled { left, bend }
+                } else {
+                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
+                }
+            }
+            _ => State::Unsettled { left: None, bend },
+        };
+    }
+
+    fn interrupt(&mut self) {
+        self.angle.clear();
+        self.calm_for = 0;
+        self.base_before = None;
+        self.state = State::Free;
+    }
+
+    fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
+        let contact = self.contact()?;
+        Some(Touch {
+            point_world: contact.centre - self.tip_radius * unit(contact.normal),
+            covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
+            spread: contact.place_spread(),
+            contact_length: self.length,
+        })
+    }
+
+    fn touch_at(&self, deflection: f64, yaw: f64) -> Option<Vector2> {
+        let contact = self.contact()?;
+        let bend = deflection.signum();
+        // On the other side of the shaft it would be the mirror image.
+        let normal = contact.bend * (contact.normal - yaw);
+        let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
+        let tip = self.table.at(deflection.abs(), force)?.tip_base - self.tip_radius * unit(normal);
+        Some(Vector2::new(tip.x, bend * tip.y))
+    }
+
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
+}
+
 /// What is left of a tip's place (m) even when readings are exact.
 const SMOOTHNESS: f64 = 5e-6;
-/// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
-/// slides drags. A whole scene may be off to the same side by this.
-const CONTACT_SPREAD: f64 = 3.3e-5;
 /// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;
@@ -285,11 +278,25 @@ impl Contact {
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
             + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
-        Self { bend, centre, before: [centre; 3], normal, covariance }
+        Self { bend, centre, before: [centre; 3], normal, covariance, tip: *tip }
     }
 
     /// Standard deviation of the place along the normal (m).
-    pub(super) fn place_spread(&self) -> f64 {
+    fn place_spread(&self) -> f64 {
         self.covariance.m22.max(0.0).sqrt().hypot(CONTACT_SPREAD)
+    }
+
+    /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
+    /// `angle_spread` (rad). Along the surface the place goes by what base angle and direction tell.
+    fn place_covariance(&self, tip_radius: f64, angle_spread: f64) -> Matrix2<f64> {
+        let normal = unit(self.normal);
+        let tangent = perpendicular(normal);
+        let by_direction = self.tip.by_direction.dot(&tangent) - tip_radius;
+        let along =
+            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_spread).powi(2);
+        let both = by_direction * self.covariance.m12;
+        along * tangent * tangent.transpose()
+            + both * (tangent * normal.transpose() + normal * tangent.transpose())
+            + self.place_spread().powi(2) * normal * normal.transpose()
     }
 }

@@ -1,14 +1,17 @@
 //! One whisker as perceived.
 
+use std::sync::Arc;
+
 use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::machine::{ContourVector, Mark};
 use crate::rig::{Sensing, Whisker};
+use crate::signal::Reading;
 
 use super::deflection::{Deflection, GREATEST_ANGLE};
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
-use super::sliding::{Contact, Sliding};
-use super::tip_model::TipModel;
+use super::tip_curve::TipCurve;
+use super::tip_model::{TipModel, Touch};
 
 /// One whisker as perceived: where it is, how it bends, what it has touched.
 #[derive(Debug, Clone)]
@@ -18,8 +21,11 @@ pub(super) struct PerceivedWhisker {
     pub(super) side: f64,
     pub(super) length: f64,
     pub(super) deflection: Deflection,
-    pub(super) model: TipModel,
-    pub(super) sliding: Option<Sliding>,
+    model: Box<dyn TipModel>,
+    /// Where the whisker is touched by the model, if that can be told in this tick.
+    touch: Option<Touch>,
+    /// Where the tip is taken to be when the model cannot tell.
+    curve: Arc<TipCurve>,
     contact_threshold: f64,
     /// Standard deviation of the deflection (rad).
     deflection_spread: f64,
@@ -39,13 +45,10 @@ impl PerceivedWhisker {
     pub(super) fn new(
         whisker: &Whisker,
         filter: LowPass,
-        model: TipModel,
-        sliding: Option<Sliding>,
+        curve: Arc<TipCurve>,
+        model: Box<dyn TipModel>,
         sensing: &Sensing,
     ) -> Self {
-        // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
-        let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
-        let rounding = sensing.angle_resolution / 12.0_f64.sqrt();
         Self {
             base_body: whisker.base_body.coords,
             direction_body: whisker.direction_body,
@@ -53,9 +56,10 @@ impl PerceivedWhisker {
             length: whisker.shaft.length,
             deflection: Deflection::new(filter),
             model,
-            sliding,
+            touch: None,
+            curve,
             contact_threshold: sensing.contact_threshold,
-            deflection_spread: noise.hypot(rounding),
+            deflection_spread: deflection_spread(sensing),
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: LocalContour::default(),
@@ -71,23 +75,28 @@ impl PerceivedWhisker {
         self.deflection.value()
     }
 
-    /// Takes a base angle (rad), sampled with the platform at `body`.
-    pub(super) fn take(&mut self, base_angle: f64, body: Pose) {
-        self.deflection.take(base_angle);
-        if let Some(sliding) = &mut self.sliding {
-            if base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
-                let position = body.point_to_world(self.base_body.into());
-                sliding.take(base_angle, Pose { position, heading: body.heading + self.direction_body });
-            } else {
-                sliding.interrupt();
-            }
+    /// Takes a reading, sampled with the platform at `body`.
+    pub(super) fn take(&mut self, reading: &Reading, body: Pose) {
+        self.deflection.take(reading.base_angle);
+        if reading.base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
+            self.model.take(reading, self.base(body));
+        } else {
+            self.model.interrupt();
         }
     }
 
-    /// Goes where it is with the platform at `body`.
+    /// Where the base is, and the direction of the undeflected shaft, with the platform at `body`.
+    fn base(&self, body: Pose) -> Pose {
+        let position = body.point_to_world(self.base_body.into());
+        Pose { position, heading: body.heading + self.direction_body }
+    }
+
+    /// Goes where it is with the platform at `body`, and estimates where it is touched.
     pub(super) fn place(&mut self, body: Pose) {
-        self.base_world = body.point_to_world(self.base_body.into());
-        self.yaw = body.heading + self.direction_body;
+        let base = self.base(body);
+        (self.base_world, self.yaw) = (base.position, base.heading);
+        let deflection = self.deflection();
+        self.touch = if deflection.is_nan() { None } else { self.model.touch(deflection, base) };
         self.recorded_before = self.recorded;
         self.recorded = false;
         self.marks = Default::default();
@@ -106,45 +115,44 @@ impl PerceivedWhisker {
         self.deflection().abs() > self.contact_threshold
     }
 
+    /// Where the whisker is touched, if that can be told in this tick.
+    pub(super) fn touch(&self) -> Option<&Touch> {
+        self.touch.as_ref()
+    }
+
     /// Where the tip touches, in the frame of the base (m).
     pub(super) fn tip_base(&self) -> Vector2 {
-        match self.contact() {
-            Some((sliding, contact)) => rotate(sliding.touched(contact) - self.base_world, -self.yaw),
-            None => self.model.contact_base(self.deflection()),
+        match &self.touch {
+            Some(touch) => rotate(touch.point_world - self.base_world, -self.yaw),
+            None => self.curve.contact_base(self.deflection()),
         }
     }
 
     /// Where the tip would touch at another deflection, in the frame of the base (m): the surface turned as it is now, or, where
     /// nothing is known of it, parallel to the heading.
     pub(super) fn tip_at(&self, deflection: f64) -> Vector2 {
-        let sliding = self.contact().and_then(|(sliding, contact)| sliding.tip_at(contact, deflection, self.yaw));
-        sliding.unwrap_or_else(|| self.model.contact_base(deflection))
+        let touched = self.touch.and_then(|_| self.model.touch_at(deflection, self.yaw));
+        touched.unwrap_or_else(|| self.curve.contact_base(deflection))
     }
 
-    /// The contact of the tip, if it slides and the tick has brought a valid reading.
-    fn contact(&self) -> Option<(&Sliding, &Contact)> {
-        let sliding = self.sliding.as_ref()?;
-        if self.deflection().is_nan() { None } else { Some((sliding, sliding.contact()?)) }
-    }
-
-    /// Whether the whisker touches what can be told: with a tip that slides, if that is how it is perceived.
+    /// Whether the whisker touches where that can be told.
     pub(super) fn is_felt(&self) -> bool {
-        self.touches() && (self.sliding.is_none() || self.contact().is_some())
+        self.touches() && self.touch.is_some()
     }
 
     /// Where the tip touches, in the world frame (m).
     pub(super) fn tip_world(&self) -> Point2 {
-        match self.contact() {
-            Some((sliding, contact)) => sliding.touched(contact),
+        match &self.touch {
+            Some(touch) => touch.point_world,
             None => self.base_world + rotate(self.tip_base(), self.yaw),
         }
     }
 
     /// How far off the tip may be (m): a standard deviation.
     pub(super) fn tip_spread(&self) -> f64 {
-        match self.contact() {
-            Some((_, contact)) => contact.place_spread(),
-            None => self.model.spread(self.deflection(), self.deflection_spread),
+        match &self.touch {
+            Some(touch) => touch.spread,
+            None => self.curve.spread(self.deflection(), self.deflection_spread),
         }
     }
 
@@ -177,4 +185,11 @@ impl PerceivedWhisker {
             self.recorded_from = self.base_world;
         }
     }
+}
+
+/// Standard deviation of a deflection (rad).
+pub(super) fn deflection_spread(sensing: &Sensing) -> f64 {
+    // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
+    let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
+    noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt())
 }

@@ -10,7 +10,7 @@ mod table;
 mod tick_line;
 
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
-pub use picture::picture;
+pub use picture::{picture, profile_picture};
 pub use result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanStd, MeanStdMax, Retrieval, RunResult, TickUs,
 };

@@ -19,6 +19,8 @@ pub struct Sensing {
     pub friction: f64,
     /// Whether samples carry shear and axial force at each base.
     pub forces: bool,
+    /// Standard deviation of the noise on each of these forces (N).
+    pub force_noise: f64,
 }
 
 /// Noise of the real sensor (rad), as a standard deviation, and its resolution (rad): an estimate, nobody has measured them.
@@ -28,11 +30,15 @@ pub struct Sensing {
 /// 300 Hz, that is up to 13 counts.
 const REAL_NOISE: f64 = 0.5e-6;
 const REAL_RESOLUTION: f64 = 0.034e-6;
+/// Noise of a sensor of force (N) that is as fine as that of base angles: both are a 600th of what a target bend has. Nobody has built
+/// one.
+const REAL_FORCE_NOISE: f64 = 2e-6;
 
 impl Sensing {
-    /// Gives the base angles the noise and the resolution of the real sensor.
+    /// Gives the readings the noise and the resolution of the real sensor.
     pub fn make_real(&mut self) {
         (self.angle_noise, self.angle_resolution) = (REAL_NOISE, REAL_RESOLUTION);
+        self.force_noise = REAL_FORCE_NOISE;
     }
 }
 
@@ -47,6 +53,7 @@ impl Default for Sensing {
             contact_threshold: 2e-5,
             friction: 0.0,
             forces: false,
+            force_noise: 0.0,
         }
     }
 }

@@ -1,8 +1,11 @@
 //! One whisker: where it sits, its shaft, and the spring at its base.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use nalgebra::Point2;
 
 use super::{Hinge, Shaft};
+use crate::calibration::Calibration;
 
 /// One whisker: where it sits, its shaft, and the spring at its base.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +20,8 @@ pub struct Whisker {
     pub shaft: Shaft,
     /// The base hinge, whose angle is the sensor's reading.
     pub hinge: Hinge,
+    /// What perception is told of it beyond that.
+    pub calibration: Option<Calibration>,
 }
 
 impl Whisker {
@@ -28,7 +33,31 @@ impl Whisker {
             direction_body: side * 105_f64.to_radians(),
             shaft: Shaft::default(),
             hinge: Hinge::default(),
+            calibration: None,
         }
+    }
+
+    /// The whisker as perception takes it to be: with the base hinge that was measured, if one was.
+    #[must_use]
+    pub fn perceived(&self) -> Self {
+        let mut whisker = self.clone();
+        if let Some(stiffness) = self.calibration.as_ref().and_then(|calibration| calibration.hinge_stiffness) {
+            whisker.hinge.stiffness = stiffness;
+        }
+        whisker
+    }
+
+    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a bend to the left. A whisker swept
+    /// forward is bent forward by it, one swept back to the back; in the frame of the base the one is the mirror image of the other.
+    #[must_use]
+    pub fn usual_normal(&self) -> f64 {
+        PI - (self.direction_body.abs() - FRAC_PI_2).abs()
+    }
+
+    /// Which way such a surface bends it: +1 counter-clockwise, −1 clockwise.
+    #[must_use]
+    pub fn usual_bend(&self) -> f64 {
+        if self.direction_body.abs() < FRAC_PI_2 { -self.side() } else { self.side() }
     }
 
     /// Which side of the platform the whisker points to: −1 for right, +1 for left.

@@ -169,7 +169,7 @@ mod tests {
        young_modulus: 7 GPa, damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, contact_time: 2 ms, contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
-     angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true}";
+     angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN}";
         let expected = Rig {
             platform: Platform {
                 tail_width: 0.01,
@@ -197,6 +197,7 @@ mod tests {
                     links: 9,
                 },
                 hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
+                calibration: None,
             }],
             physics: Physics {
                 step: 1e-3,
@@ -214,6 +215,7 @@ mod tests {
                 angle_noise: 3e-6,
                 angle_resolution: 4e-3,
                 forces: true,
+                force_noise: 5e-3,
             },
         };
         assert_eq!(with_rig(text), expected);

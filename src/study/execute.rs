@@ -50,7 +50,7 @@ pub fn execute(
     drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
-fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+pub(super) fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
     let Scene { rig, solids, start, .. } = scene;
     match kind {
         #[cfg(feature = "sim")]

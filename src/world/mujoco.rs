@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Once};
 
-use crate::geometry::{Point2, Pose};
-use crate::rig::Rig;
+use crate::geometry::{Point2, Pose, unit};
+use crate::rig::{Rig, Whisker};
 use crate::scene::{Solid, mjcf};
 use crate::signal::{Command, Sample};
 use mujoco_rs::logging::set_log_handler;
@@ -45,6 +45,8 @@ pub struct MujocoWorld {
     steps_done: u64,
     sensors: Sensors,
     platform_geom: i32,
+    /// The geom of every whisker's first link; those of the others come one after the other.
+    first_links: Vec<i32>,
     body_touched: bool,
 }
 
@@ -58,10 +60,13 @@ impl MujocoWorld {
         let refused = |error: &dyn std::fmt::Display| MujocoError::Model(error.to_string());
         let xml = mjcf(rig, solids, start);
         let model = MjModel::from_xml_string(&xml).map_err(|error| refused(&error))?;
-        let platform_geom = model
-            .name_to_id(MjtObjBase::mjOBJ_GEOM, "platform/body")
-            .and_then(|id| i32::try_from(id).ok())
-            .ok_or_else(|| refused(&"it has no geom for the platform"))?;
+        let geom = |name: &str| {
+            let id = model.name_to_id(MjtObjBase::mjOBJ_GEOM, name).and_then(|id| i32::try_from(id).ok());
+            id.ok_or_else(|| refused(&format_args!("it has no geom `{name}`")))
+        };
+        let platform_geom = geom("platform/body")?;
+        let first_links = rig.whiskers.iter().map(|whisker| geom(&format!("{}.0", whisker.name)));
+        let first_links = first_links.collect::<Result<Vec<_>, _>>()?;
         let mut data = MjData::try_new(Arc::new(model)).map_err(|error| refused(&error))?;
         data.reset_keyframe(0).map_err(|error| refused(&error))?;
         let sensing = &rig.sensing;
@@ -75,8 +80,42 @@ impl MujocoWorld {
             steps_done: 0,
             sensors: Sensors::new(sensing, seed),
             platform_geom,
+            first_links,
             body_touched: false,
         })
+    }
+
+    /// Where a whisker (by its index in the rig) is touched, as the simulation has it: the place (m, world frame), half as deep as the
+    /// contact, and the length of the shaft from the base to there (m). Of several contacts it is the deepest. No sensor reports
+    /// this: it is for who measures with a ruler, never for policies.
+    #[must_use]
+    pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
+        let links = self.rig.whiskers[whisker].shaft.links;
+        let link_of = |geom: &i32| usize::try_from(geom - self.first_links[whisker]).ok().filter(|link| *link < links);
+        let contacts = self.data.contact().iter().filter(|contact| contact.dist < 0.0);
+        let touching = contacts.filter_map(|contact| Some((contact, contact.geom.iter().find_map(link_of)?)));
+        let (contact, link) = touching.min_by(|(a, _), (b, _)| a.dist.total_cmp(&b.dist))?;
+        let place = Point2::new(contact.pos[0], contact.pos[1]);
+        let (start, direction) = self.link(whisker, link);
+        let link_length = self.rig.whiskers[whisker].shaft.link_length();
+        let along = (place - start).dot(&unit(direction)).clamp(0.0, link_length);
+        Some((place, link as f64 * link_length + along))
+    }
+
+    /// Where a link of a whisker begins (m, world frame), and its direction (rad).
+    fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
+        let positions = self.data.qpos();
+        let first: usize = self.rig.whiskers[..whisker].iter().map(|other| 1 + other.shaft.links).sum();
+        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
+        let body = Pose { position: Point2::new(positions[0], positions[1]), heading: positions[2] };
+        let joints = &positions[3 + first..3 + first + 1 + shaft.links];
+        let mut start = body.point_to_world(*base_body);
+        let mut direction = body.heading + direction_body + joints[0] + joints[1];
+        for turn in &joints[2..2 + link] {
+            start += shaft.link_length() * unit(direction);
+            direction += turn;
+        }
+        (start, direction)
     }
 
     fn time(&self) -> f64 {
@@ -131,7 +170,9 @@ impl MujocoWorld {
             if self.rig.sensing.forces {
                 let force = &self.data.sensordata()[3 * index..3 * index + 3];
                 // MuJoCo reports what the platform does to the shaft.
-                (reading.axial, reading.shear) = (Some(-force[0]), Some(-force[1]));
+                let (axial, shear) = (-force[0], -force[1]);
+                (reading.axial, reading.shear) =
+                    (Some(self.sensors.read_force(axial)), Some(self.sensors.read_force(shear)));
             }
         }
         sample

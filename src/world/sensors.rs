@@ -11,6 +11,7 @@ use crate::rig::Sensing;
 pub(super) struct Sensors {
     noise: Option<Normal<f64>>,
     resolution: f64,
+    force_noise: Option<Normal<f64>>,
     random: ChaCha8Rng,
 }
 
@@ -18,17 +19,32 @@ impl Sensors {
     /// Sensors of which the `seed` fixes the noise.
     pub(super) fn new(sensing: &Sensing, seed: u64) -> Self {
         Self {
-            noise: Normal::new(0.0, sensing.angle_noise).ok().filter(|_| sensing.angle_noise > 0.0),
+            noise: normal(sensing.angle_noise),
             resolution: sensing.angle_resolution,
+            force_noise: normal(sensing.force_noise),
             random: ChaCha8Rng::seed_from_u64(seed),
         }
     }
 
     /// What is read of a base angle (rad).
     pub(super) fn read(&mut self, base_angle: f64) -> f64 {
-        let noisy = base_angle + self.noise.map_or(0.0, |noise| noise.sample(&mut self.random));
+        let noisy = base_angle + drawn(self.noise, &mut self.random);
         if self.resolution > 0.0 { (noisy / self.resolution).round() * self.resolution } else { noisy }
     }
+
+    /// What is read of a force (N) at the base.
+    pub(super) fn read_force(&mut self, force: f64) -> f64 {
+        force + drawn(self.force_noise, &mut self.random)
+    }
+}
+
+/// Noise of a standard deviation, if there is any.
+fn normal(spread: f64) -> Option<Normal<f64>> {
+    Normal::new(0.0, spread).ok().filter(|_| spread > 0.0)
+}
+
+fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
+    noise.map_or(0.0, |noise| noise.sample(random))
 }
 
 /// Rounds to a count; scenes are validated so that the value is one.

@@ -6,6 +6,7 @@ mod bench;
 mod common;
 mod compare;
 mod corners;
+mod estimators;
 mod report;
 mod retrieval;
 mod runs;

@@ -4,7 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use vibrissa::geometry::{Path, Point2, Pose, Vector2, circle, rotate};
-use vibrissa::percept::TipModel;
+use vibrissa::percept::TipCurve;
 use vibrissa::rig::Rig;
 use vibrissa::scene::Solid;
 use vibrissa::signal::{Command, Sample};
@@ -76,13 +76,13 @@ fn the_tip_model_that_reckons_with_the_friction_finds_the_wall() {
         let rig = rig(friction);
         let whisker = &rig.whiskers[0];
         let sample = *drag(&rig, 0.05, &[]).last().unwrap();
-        let off = |model: &TipModel| {
+        let off = |model: &TipCurve| {
             let contact = rotate(model.contact_base(sample.whiskers[0].base_angle), whisker.direction_body);
             let place = sample.body.point_to_world(whisker.base_body + contact);
             (place.x - FACE).abs()
         };
         let (known, unknowing) =
-            (off(&TipModel::with_friction(whisker, friction).unwrap()), off(&TipModel::new(whisker).unwrap()));
+            (off(&TipCurve::with_friction(whisker, friction).unwrap()), off(&TipCurve::new(whisker).unwrap()));
         assert!(known < 0.1e-3, "{friction}: {known} m off");
         assert!(unknowing > unknown, "{friction}: only {unknowing} m off without it");
     }

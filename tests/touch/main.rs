@@ -1,16 +1,19 @@
 //! From contact to command: mechanics, readings, perception, steering, worlds.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+mod calibration;
 #[path = "../common/mod.rs"]
 mod common;
 mod elastica;
 #[cfg(feature = "sim")]
 mod friction;
 mod gaps;
+mod moment_and_shear;
 mod perception;
 mod quasi_static;
 mod sliding;
 mod steering;
 mod tip_model;
+mod tip_models;
 #[cfg(feature = "sim")]
 mod world;

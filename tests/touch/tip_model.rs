@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use vibrissa::mechanics::{Equilibrium, ShaftChain};
-use vibrissa::percept::{TipModel, TipModelError};
+use vibrissa::percept::{TipCurve, TipModelError};
 use vibrissa::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
@@ -206,7 +206,7 @@ fn range(whisker: &Whisker) -> f64 {
 #[test]
 fn the_tip_models_table_is_within_a_micrometre_of_direct_solutions() {
     let whisker = left();
-    let model = TipModel::new(&whisker).unwrap();
+    let model = TipCurve::new(&whisker).unwrap();
     let mut worst: f64 = 0.0;
     for index in 1..=777 {
         let base_angle = range(&whisker) * f64::from(index) / 777.0;
@@ -218,7 +218,7 @@ fn the_tip_models_table_is_within_a_micrometre_of_direct_solutions() {
 #[test]
 fn the_tip_model_is_the_same_for_both_whiskers_and_mirrored_for_the_other_bend() {
     let rig = Rig::default();
-    let [right, left] = [0, 1].map(|index| TipModel::new(&rig.whiskers[index]).unwrap());
+    let [right, left] = [0, 1].map(|index| TipCurve::new(&rig.whiskers[index]).unwrap());
     for index in 1..2000 {
         let base_angle = f64::from(index) * 1e-6;
         let contact = left.contact_base(base_angle);
@@ -230,7 +230,7 @@ fn the_tip_model_is_the_same_for_both_whiskers_and_mirrored_for_the_other_bend()
 #[test]
 fn the_contact_changes_sides_of_the_wire_at_zero_and_nothing_else_jumps() {
     let whisker = left();
-    let model = TipModel::new(&whisker).unwrap();
+    let model = TipCurve::new(&whisker).unwrap();
     let jump = model.contact_base(1e-12) - model.contact_base(-1e-12);
     assert!((jump.y + 2.0 * whisker.shaft.radius * FORCE.sin()).abs() < 1e-8 && jump.x.abs() < 1e-8, "{jump}");
     let step = 1e-7;
@@ -246,9 +246,9 @@ fn the_contact_changes_sides_of_the_wire_at_zero_and_nothing_else_jumps() {
 fn friction_turns_the_force_as_sweeping_back_does() {
     for friction in [0.05_f64, 0.1, 0.3, 0.6] {
         let turn = friction.atan();
-        let model = TipModel::with_friction(&left(), friction).unwrap();
+        let model = TipCurve::with_friction(&left(), friction).unwrap();
         let swept = Whisker { direction_body: left().direction_body + turn, ..left() };
-        let like = TipModel::new(&swept).unwrap();
+        let like = TipCurve::new(&swept).unwrap();
         let spot = |direction: f64| -left().shaft.radius * Vector2::new(direction.cos(), direction.sin());
         let apart = spot(FORCE) - spot(FORCE - turn);
         for index in 1..=100 {
@@ -262,14 +262,14 @@ fn friction_turns_the_force_as_sweeping_back_does() {
 #[test]
 fn a_whisker_swept_forward_by_the_angle_of_its_friction_sticks_and_has_no_model() {
     let forward = Whisker { direction_body: 75_f64.to_radians(), ..left() };
-    assert!(TipModel::with_friction(&forward, 0.1).is_ok());
-    assert!(matches!(TipModel::with_friction(&forward, 0.3), Err(TipModelError::HeadOn { .. })));
+    assert!(TipCurve::with_friction(&forward, 0.1).is_ok());
+    assert!(matches!(TipCurve::with_friction(&forward, 0.3), Err(TipModelError::HeadOn { .. })));
 }
 
 #[test]
 fn the_tip_comes_nearer_the_more_the_whisker_bends() {
     let whisker = left();
-    let model = TipModel::new(&whisker).unwrap();
+    let model = TipCurve::new(&whisker).unwrap();
     let contacts: Vec<f64> =
         (0..=1000).map(|index| model.contact_base(range(&whisker) * f64::from(index) / 1000.0).x).collect();
     assert!(contacts.windows(2).all(|pair| pair[1] < pair[0]));
@@ -278,7 +278,7 @@ fn the_tip_comes_nearer_the_more_the_whisker_bends() {
 #[test]
 fn beyond_the_range_the_tip_stays_and_no_number_gives_no_number() {
     let whisker = left();
-    let model = TipModel::new(&whisker).unwrap();
+    let model = TipCurve::new(&whisker).unwrap();
     let last = model.contact_base(range(&whisker));
     for base_angle in [1.001 * range(&whisker), 1.0, 1e9, f64::INFINITY] {
         assert!((model.contact_base(base_angle) - last).norm() < 1e-15);
@@ -299,7 +299,7 @@ proptest! {
         (whisker.shaft.length, whisker.shaft.radius) = (length, radius);
         whisker.hinge.stiffness = ratio * whisker.shaft.bending_stiffness() / length;
         whisker.direction_body = side * (90.0 + sweep).to_radians();
-        let model = TipModel::new(&whisker);
+        let model = TipCurve::new(&whisker);
         prop_assert!(model.is_ok(), "{:?}", model.err());
         let straight = model.unwrap().contact_base(0.0);
         prop_assert!((straight.x - length).abs() <= 1.001 * radius);
@@ -316,7 +316,7 @@ proptest! {
         let mut whisker = with_links(links);
         whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
         whisker.direction_body = (90.0 + sweep).to_radians();
-        let model = TipModel::new(&whisker);
+        let model = TipCurve::new(&whisker);
         prop_assert!(model.is_ok(), "{:?}", model.err());
         let straight = model.unwrap().contact_base(0.0);
         prop_assert!((straight.x - whisker.shaft.length).abs() <= 1.001 * taper * whisker.shaft.radius);
@@ -328,7 +328,7 @@ proptest! {
 fn a_whisker_straight_across_the_platform_has_none_and_the_error_says_what_to_do() {
     for degrees in [90.0, -90.0, 94.0, 86.0_f64] {
         let whisker = Whisker { direction_body: degrees.to_radians(), ..left() };
-        let error = TipModel::new(&whisker).unwrap_err();
+        let error = TipCurve::new(&whisker).unwrap_err();
         assert!(matches!(&error, TipModelError::HeadOn { .. }) && error.to_string().contains("sweep it"), "{error}");
     }
 }
@@ -337,7 +337,7 @@ fn a_whisker_straight_across_the_platform_has_none_and_the_error_says_what_to_do
 #[test]
 fn whiskers_swept_forward_and_back_by_the_same_angle_have_the_same_model() {
     let [back, forward] = [105.0, 75.0_f64]
-        .map(|degrees| TipModel::new(&Whisker { direction_body: degrees.to_radians(), ..left() }).unwrap());
+        .map(|degrees| TipCurve::new(&Whisker { direction_body: degrees.to_radians(), ..left() }).unwrap());
     for base_angle in [-5e-4, -1e-5, 0.0, 1e-4, 3e-4] {
         assert!((back.contact_base(base_angle) - forward.contact_base(base_angle)).norm() < 1e-12);
     }
@@ -345,7 +345,7 @@ fn whiskers_swept_forward_and_back_by_the_same_angle_have_the_same_model() {
 
 #[test]
 fn the_spread_of_a_tip_is_that_of_surfaces_which_are_not_parallel_to_the_heading() {
-    let model = TipModel::new(&left()).unwrap();
+    let model = TipCurve::new(&left()).unwrap();
     for base_angle in [5e-5, 1e-4, TARGET, 5e-4] {
         let contact = |turn: f64| {
             let (direction, radius) = (FORCE + turn, left().shaft.radius);
@@ -365,7 +365,7 @@ fn the_spread_of_a_tip_is_that_of_surfaces_which_are_not_parallel_to_the_heading
 proptest! {
     #[test]
     fn the_spread_of_a_tip_grows_with_what_the_base_angle_may_be_off(base_angle in -1e-3..1e-3_f64, off in 1e-7..2e-6_f64) {
-        let model = TipModel::new(&left()).unwrap();
+        let model = TipCurve::new(&left()).unwrap();
         let (still, spread) = (model.spread(base_angle, 0.0), model.spread(base_angle, off));
         prop_assert!((model.spread(-base_angle, off) - spread).abs() <= f64::EPSILON * spread);
         let moved = (model.contact_base(base_angle + off) - model.contact_base(base_angle - off)).norm() / 2.0;
@@ -378,7 +378,7 @@ proptest! {
 
 #[test]
 fn a_whisker_that_is_not_bent_is_where_it_is_and_beyond_the_model_nothing_is_known() {
-    let model = TipModel::new(&left()).unwrap();
+    let model = TipCurve::new(&left()).unwrap();
     // The sphere at its tip may be touched on any side.
     assert!(model.spread(0.0, 0.0) <= left().shaft.radius);
     assert!(model.spread(2e-3, 0.0).is_infinite());

@@ -77,7 +77,7 @@ const MARK: &[Place] = &[Place::Mark];
 const TIP_MODEL: &[Place] = &[Place::TipModel];
 
 /// Every word of the language that is no function.
-pub(super) const WORDS: [Word; 50] = [
+pub(super) const WORDS: [Word; 52] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
     entry(
@@ -91,7 +91,7 @@ pub(super) const WORDS: [Word; 50] = [
         "by",
         INSIDE,
         "by ${1:sliding}",
-        "The tip model by which whiskers are perceived: `sliding` or `one_channel`.",
+        "The tip model by which whiskers are perceived: `sliding`, `one_channel`, `moment_and_shear` or `recursive`.",
     ),
     entry(
         "param",
@@ -209,6 +209,13 @@ pub(super) const WORDS: [Word; 50] = [
     entry("run", &[Place::Run], "run", "The whole run, of which a test expects something."),
     entry("resume", TARGET, "resume ${1:State}", "Enters a state, and in it the one that was active last."),
     entry("sliding", TIP_MODEL, "sliding", "Tip and surface together, by what sliding along it allows."),
+    entry(
+        "moment_and_shear",
+        TIP_MODEL,
+        "moment_and_shear",
+        "From base angle and shear; tells the shaft from the tip.",
+    ),
+    entry("recursive", TIP_MODEL, "recursive", "Step by step, from the base angle as a polynomial in the tip's place."),
     entry("one_channel", TIP_MODEL, "one_channel", "From the deflection alone, on a surface parallel to the heading."),
     entry("lost", MARK, "lost", "The whisker has lost the object's edge."),
     entry("found", MARK, "found", "The whisker has found contact again."),

@@ -132,7 +132,7 @@ impl<'f> Compiler<'f> {
                 faulty = Some(name.span);
                 let message = format!("there is no tip model `{}`", name.text);
                 let known = machine::TipModelKind::ALL.map(machine::TipModelKind::name);
-                let list = known.map(|name| format!("`{name}`")).join(" and ");
+                let list = known.map(|name| format!("`{name}`")).join(", ");
                 let diagnostic = Diagnostic::error("P0414", message, name.span, "is none");
                 self.report(did_you_mean(diagnostic, &name.text, known).hint(format!("tip models are {list}")));
             }

@@ -2,8 +2,11 @@
 
 mod legend;
 mod map;
+mod profile;
 mod scale;
 mod timeline;
+
+pub use profile::profile_picture;
 
 use std::iter;
 use std::ops::Range;

@@ -17,6 +17,7 @@ const FILTER_CUTOFF: Key = Key::new("filter_cutoff", Dimension::FREQUENCY, (0.1,
 const CONTACT_THRESHOLD: Key = Key::new("contact_threshold", Dimension::ANGLE, (1e-9, 1.0), "20 urad");
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
 const ANGLE_NOISE: Key = Key::new("angle_noise", Dimension::ANGLE, (0.0, 1.0), "2 urad");
+const FORCE_NOISE: Key = Key::new("force_noise", Dimension::FORCE, (0.0, 1.0), "0.002 mN");
 const ANGLE_RESOLUTION: Key = Key::new("angle_resolution", Dimension::ANGLE, (0.0, 1.0), "1 urad");
 
 /// A step that is off a whole part of the sample period by less than this share is taken for that part: 3.33 ms for 1/300 s.
@@ -46,6 +47,7 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
     {
         sensing.forces = forces;
     }
+    fields.set(reader, &FORCE_NOISE, &mut sensing.force_noise);
     fields.finish(reader);
 }
 

@@ -5,6 +5,7 @@ use super::fields::Fields;
 use super::key::Key;
 use super::node::{Entry, Node};
 use super::reader::Reader;
+use crate::calibration::Calibration;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::rig::{Hinge, Rig, Shaft, Whisker};
 use crate::scene::mjcf::{LEAST_INERTIA, link_inertia};
@@ -91,6 +92,10 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
         Some(entry) => hinge(reader, entry),
         None => Some(Hinge::default()),
     };
+    let calibration = match fields.entry("calibration") {
+        Some(entry) => calibration(reader, entry).map(Some),
+        None => Some(None),
+    };
     fields.finish(reader);
     Some(Whisker {
         name: name.value.clone(),
@@ -98,7 +103,23 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
         direction_body: direction_body?,
         shaft,
         hinge: hinge?,
+        calibration: calibration?,
     })
+}
+
+/// Reads the file of a calibration.
+fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
+    let path = reader.text(&entry.value)?;
+    let text = reader
+        .file(&path.value)
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
+    let found = text.and_then(|text| Calibration::from_yaml(&text).map_err(|error| error.to_string()));
+    found
+        .map_err(|reason| {
+            let fault = Diagnostic::error(fault::FILE, format!("cannot use `{}`", path.value), path.span, reason);
+            reader.report(fault.hint("a path leads from the folder of the scenario to a file of `vibrissa calibrate`"));
+        })
+        .ok()
 }
 
 /// Reads the keys of the shaft of the whisker whose name stands at `place`.

@@ -121,7 +121,8 @@ impl QuasiStaticWorld {
             reading.base_angle = self.sensors.read(whisker.base_angle());
             if self.rig.sensing.forces {
                 let force = whisker.force_base();
-                (reading.axial, reading.shear) = (Some(force.x), Some(force.y));
+                (reading.axial, reading.shear) =
+                    (Some(self.sensors.read_force(force.x)), Some(self.sensors.read_force(force.y)));
             }
         }
         sample

@@ -5,7 +5,9 @@ use super::program::{bad, stderr, stdout, vibrissa};
 #[test]
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
-    for command in ["run", "bench", "compare", "families", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"] {
+    for command in
+        ["run", "bench", "calibrate", "compare", "families", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"]
+    {
         assert!(help.contains(command));
         let output = vibrissa(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));

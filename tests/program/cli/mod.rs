@@ -1,6 +1,7 @@
 //! The command line as its users meet it: what goes where, and with which exit status.
 
 mod argument;
+mod calibrate;
 mod check;
 mod compile;
 mod fmt;

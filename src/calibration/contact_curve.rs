@@ -1,0 +1,77 @@
+//! The place of a touch as polynomials in the base angle.
+
+use nalgebra::Matrix2;
+use serde::Deserialize;
+
+use super::contact_set::ContactSet;
+use super::least_squares;
+use crate::geometry::Vector2;
+
+/// Coefficients of a polynomial of order five.
+const COUNT: usize = 6;
+
+/// The place of a touch as polynomials of order five in the base angle, for a bend to the left: what one channel can tell.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactCurve {
+    /// The least and the greatest base angle (rad) that it was fitted to.
+    pub range: [f64; 2],
+    /// Coefficients (m) of the place's x, in the frame of the base, by powers of the base angle over the end of the range.
+    pub x: [f64; COUNT],
+    /// The same of its y.
+    pub y: [f64; COUNT],
+    /// Covariance of the place (m²): xx, xy, yy; that of the sets about the curve.
+    pub covariance: [f64; 3],
+}
+
+impl ContactCurve {
+    /// The curve that comes nearest to sets, each with a weight. `None` if they are too few.
+    #[must_use]
+    pub fn fit(sets: &[(ContactSet, f64)]) -> Option<Self> {
+        let angles = || sets.iter().map(|(set, _)| set.base_angle);
+        let range = [angles().fold(f64::INFINITY, f64::min), angles().fold(0.0, f64::max)];
+        let rows = |value: fn(&ContactSet) -> f64| -> Vec<_> {
+            sets.iter().map(|(set, weight)| (powers(set.base_angle / range[1]), value(set), *weight)).collect()
+        };
+        let x = least_squares::fit(&rows(|set| set.contact_base.x))?;
+        let y = least_squares::fit(&rows(|set| set.contact_base.y))?;
+        let mut curve = Self { range, x, y, covariance: [0.0; 3] };
+        let (mut sum, mut total) = (Matrix2::zeros(), 0.0);
+        for (set, weight) in sets {
+            let off = set.contact_base - curve.at(set.base_angle);
+            sum += *weight * off * off.transpose();
+            total += weight;
+        }
+        sum /= total;
+        curve.covariance = [sum.m11, sum.m12, sum.m22];
+        Some(curve)
+    }
+
+    /// The place (m, frame of the base) at a base angle (rad) within the range.
+    #[must_use]
+    pub fn at(&self, base_angle: f64) -> Vector2 {
+        let powers = powers(base_angle / self.range[1]);
+        let value = |coefficients: &[f64; COUNT]| coefficients.iter().zip(powers).map(|(a, power)| a * power).sum();
+        Vector2::new(value(&self.x), value(&self.y))
+    }
+
+    /// Whether it is a curve: finite, over a range that is one, with a covariance that is one.
+    pub(super) fn is_sound(&self) -> bool {
+        let [xx, xy, yy] = self.covariance;
+        let numbers = self.x.iter().chain(&self.y).chain(&self.covariance).chain(&self.range);
+        numbers.clone().all(|number| number.is_finite())
+            && 0.0 <= self.range[0]
+            && self.range[0] < self.range[1]
+            && xx >= 0.0
+            && yy >= 0.0
+            && xy * xy <= xx * yy * (1.0 + 1e-9)
+    }
+}
+
+fn powers(value: f64) -> [f64; COUNT] {
+    let mut powers = [1.0; COUNT];
+    for index in 1..COUNT {
+        powers[index] = powers[index - 1] * value;
+    }
+    powers
+}

@@ -1,0 +1,110 @@
+//! One touch in a known place.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::geometry::Vector2;
+
+/// What was read when a whisker was touched in a known place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSet {
+    /// The place on the surface (m, frame of the base: along the undeflected shaft, and to its left).
+    pub contact_base: Vector2,
+    /// Base angle (rad).
+    pub base_angle: f64,
+    /// Direction of the surface's normal, to the whisker's side (rad, frame of the base), if it is known.
+    pub normal: Option<f64>,
+    /// Whether the shaft was touched, not the tip.
+    pub on_shaft: bool,
+}
+
+/// Why sets cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {reason}")]
+pub struct SetsError {
+    line: u64,
+    reason: String,
+}
+
+/// The columns of a file of sets: those that must be there, and those that may.
+const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
+const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
+/// The most sets of a file.
+const MOST: usize = 100_000;
+
+impl ContactSet {
+    /// The set as one of a bend to the left: itself or its mirror image, with a normal from 0 to 2π.
+    #[must_use]
+    pub fn to_left(self) -> Self {
+        let bend = if self.base_angle < 0.0 { -1.0 } else { 1.0 };
+        let contact_base = Vector2::new(self.contact_base.x, bend * self.contact_base.y);
+        let normal = self.normal.map(|normal| (bend * normal).rem_euclid(2.0 * PI));
+        Self { contact_base, base_angle: bend * self.base_angle, normal, ..self }
+    }
+
+    /// Reads sets from a text of comma-separated values: a header with the names of columns, in any order, and a set a line.
+    /// There must be `x_mm`, `y_mm` and `base_angle_urad`, and may be `normal_deg` and `contact`, which is `tip` or `shaft`.
+    ///
+    /// # Errors
+    /// [`SetsError`] with the first line that cannot be used.
+    pub fn read_all(bytes: &[u8]) -> Result<Vec<Self>, SetsError> {
+        let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
+        let refusal = |error: &csv::Error| SetsError {
+            line: error.position().map_or(1, csv::Position::line),
+            reason: "every line must be UTF-8 text with as many values as the header has names".to_owned(),
+        };
+        let header = reader.headers().map_err(|error| refusal(&error))?.clone();
+        let known = |name: &str| NEEDED.contains(&name) || OPTIONAL.contains(&name);
+        let at_top = |reason| SetsError { line: 1, reason };
+        if let Some(name) = header.iter().find(|name| !known(name)) {
+            let names = NEEDED.iter().chain(&OPTIONAL).copied().collect::<Vec<_>>().join(", ");
+            return Err(at_top(format!("there is no column `{name}`; columns are {names}")));
+        }
+        if let Some(name) = NEEDED.iter().find(|name| !header.iter().any(|found| found == **name)) {
+            return Err(at_top(format!("the column `{name}` is missing")));
+        }
+        let column = |name: &str| header.iter().position(|found| found == name);
+        let mut sets = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| refusal(&error))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            if sets.len() == MOST {
+                return Err(SetsError { line, reason: format!("there are more than {MOST} sets") });
+            }
+            sets.push(Self::read(&record, &column).map_err(|reason| SetsError { line, reason })?);
+        }
+        Ok(sets)
+    }
+
+    fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
+        let field = |name: &str| column(name).and_then(|index| record.get(index)).unwrap_or_default().to_owned();
+        let number = |name: &str| {
+            let number: Option<f64> = field(name).parse().ok().filter(|number: &f64| number.is_finite());
+            number.ok_or_else(|| format!("`{name}` must be a number, and is `{}`", field(name)))
+        };
+        let normal = if field("normal_deg").is_empty() { None } else { Some(number("normal_deg")?.to_radians()) };
+        let on_shaft = match field("contact").as_str() {
+            "" | "tip" => false,
+            "shaft" => true,
+            other => return Err(format!("`contact` must be `tip` or `shaft`, and is `{other}`")),
+        };
+        let contact_base = Vector2::new(number("x_mm")?, number("y_mm")?) * 1e-3;
+        Ok(Self { contact_base, base_angle: number("base_angle_urad")? * 1e-6, normal, on_shaft })
+    }
+
+    /// Sets as such a text.
+    #[must_use]
+    pub fn write_all(sets: &[Self]) -> String {
+        let mut text = String::from("x_mm,y_mm,base_angle_urad,normal_deg,contact\n");
+        for Self { contact_base, base_angle, normal, on_shaft } in sets {
+            let (x, y, angle) = (1e3 * contact_base.x, 1e3 * contact_base.y, 1e6 * base_angle);
+            let normal = normal.map_or_else(String::new, |normal| format!("{:.3}", normal.to_degrees()));
+            let contact = if *on_shaft { "shaft" } else { "tip" };
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{x:.4},{y:.4},{angle:.4},{normal},{contact}");
+        }
+        text
+    }
+}

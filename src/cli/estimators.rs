@@ -1,0 +1,32 @@
+//! `vibrissa bench --estimators`
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use crate::study::bench::{DEFAULT_POLICY, SCENARIOS, TextFile};
+use crate::study::estimators::{estimators_table, judge_all};
+use crate::study::in_parallel;
+
+use super::arguments::BenchArguments;
+use super::exit::{Exit, Failure};
+use super::{input, output};
+
+/// Compares tip models. Whichever is better, that is done.
+pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
+    let program = Arc::new(input::built_in_policy(&DEFAULT_POLICY)?.value.artifact.program);
+    let work = |file: &TextFile| {
+        let scene = input::built_in_scenario(file)?.value;
+        let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
+        judge_all(&scene, Arc::clone(&program)).map_err(failed)
+    };
+    // One at a time unless told otherwise: their times are compared, too.
+    let threads = arguments.jobs.unwrap_or(NonZeroUsize::MIN);
+    let rows = in_parallel(SCENARIOS, threads, work, |_| ());
+    let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
+    if arguments.json {
+        output::json(&rows)?;
+    } else {
+        output::result(estimators_table(&rows))?;
+    }
+    Ok(Exit::Done)
+}

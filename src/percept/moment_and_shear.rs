@@ -1,0 +1,145 @@
+//! The tip model of two channels: the moment and the shear at the base.
+
+use nalgebra::{Matrix2, Vector2 as Column};
+
+use crate::geometry::{Pose, Vector2, rotate, unit};
+use crate::mechanics::{Bend, Elastica};
+use crate::rig::{Sensing, Shaft, Whisker};
+use crate::signal::Reading;
+
+use super::base_angle::BaseAngle;
+use super::recent_line::RecentLine;
+use super::tip_model::{CONTACT_SPREAD, TipModel, Touch, turned};
+
+/// Finds the touch without friction that has the moment and the shear of the base; on the shaft, too.
+///
+/// Base angle and shear are those of straight lines through the newest readings, no longer than their noise asks for. A whisker in free
+/// motion has a shear that no touch makes: while the base angle changes fast nothing is told.
+#[derive(Debug, Clone)]
+pub(super) struct MomentAndShear {
+    elastica: Elastica,
+    shaft: Shaft,
+    angle: BaseAngle,
+    shear: RecentLine,
+    /// Standard deviation of the base angle (rad) and of the shear (N).
+    spreads: Column<f64>,
+    contact_threshold: f64,
+    /// Whether the newest sample has both readings.
+    has_readings: bool,
+    /// The newest bend that was found, or the straight shaft; where the next is sought from.
+    near: Bend,
+}
+
+/// The spread of the shear that is worth a longer line through the readings, and what the mechanics leave out of it, over `EI / L²`.
+const WANTED_SHEAR: f64 = 5e-4;
+/// The share of an unknown by which it is changed to find what it changes.
+const CHANGE: f64 = 1e-4;
+
+impl MomentAndShear {
+    pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
+        let elastica = Elastica::new(whisker);
+        let shaft = whisker.shaft.clone();
+        let wanted_shear = WANTED_SHEAR * shaft.bending_stiffness() / shaft.length.powi(2);
+        let angle = BaseAngle::new(whisker, sensing);
+        let shear = RecentLine::new(sensing.sample_rate.recip(), 0.0, sensing.force_noise, wanted_shear);
+        let spreads = Column::new(angle.spread, wanted_shear.hypot(sensing.force_noise * shear.noise_gain(0.0)));
+        Self {
+            near: elastica.straight(),
+            elastica,
+            shaft,
+            angle,
+            shear,
+            spreads,
+            contact_threshold: sensing.contact_threshold,
+            has_readings: false,
+        }
+    }
+
+    /// The bend by the newest readings.
+    fn find(&self) -> Option<Bend> {
+        let angle = self.angle.value();
+        let is_felt = self.has_readings && angle.abs() > self.contact_threshold && self.angle.is_calm();
+        if is_felt { self.elastica.locate(angle, self.shear.value(0.0), &self.near).ok() } else { None }
+    }
+
+    /// Where the surface is (m, frame of the base): the wire's radius beside its axis.
+    fn surface(&self, bend: &Bend) -> Vector2 {
+        let radius = self.shaft.radius_at(bend.contact_length / self.shaft.length);
+        bend.contact_base - radius * unit(bend.force_direction)
+    }
+
+    /// Covariance of the place of a bend to the left (m², frame of the base), by what the readings may be off. `None` at
+    /// the brink of springing over, where the place hangs on nothing.
+    fn covariance(&self, bend: &Bend) -> Option<Matrix2<f64>> {
+        let on_shaft = bend.contact_length < self.shaft.length;
+        let angle = bend.force_direction - bend.tip_angle;
+        let changed = |place: f64, force: f64| {
+            let (length, angle) = if on_shaft {
+                (bend.contact_length * (1.0 - place), angle)
+            } else {
+                (bend.contact_length, angle + place)
+            };
+            let changed = self.elastica.under(length, angle, bend.force * (1.0 + force))?;
+            let readings = Column::new(changed.base_angle - bend.base_angle, changed.shear - bend.shear);
+            Some((readings, self.surface(&changed) - self.surface(bend)))
+        };
+        let ((place, place_moved), (force, force_moved)) = (changed(CHANGE, 0.0)?, changed(0.0, CHANGE)?);
+        let by_readings = Matrix2::from_columns(&[place_moved, force_moved])
+            * Matrix2::from_columns(&[place, force]).try_inverse()?;
+        let spread = by_readings * Matrix2::from_diagonal(&self.spreads);
+        let covariance = spread * spread.transpose() + Matrix2::identity() * CONTACT_SPREAD.powi(2);
+        covariance.trace().is_finite().then_some(covariance)
+    }
+}
+
+impl TipModel for MomentAndShear {
+    fn take(&mut self, reading: &Reading, _: Pose) {
+        self.angle.take(reading.base_angle);
+        let shear = reading.shear.filter(|shear| shear.is_finite());
+        self.has_readings = shear.is_some();
+        match shear {
+            Some(shear) => self.shear.take(shear),
+            None => self.shear.clear(),
+        }
+    }
+
+    fn interrupt(&mut self) {
+        self.angle.clear();
+        self.shear.clear();
+        self.has_readings = false;
+    }
+
+    fn touch(&mut self, _: f64, base: Pose) -> Option<Touch> {
+        let Some(bend) = self.find() else {
+            self.near = self.elastica.straight();
+            return None;
+        };
+        self.near = bend;
+        let is_left = bend.base_angle > 0.0;
+        let mut covariance = self.covariance(&if is_left { bend } else { bend.mirrored() })?;
+        if !is_left {
+            (covariance.m12, covariance.m21) = (-covariance.m12, -covariance.m21);
+        }
+        let normal = unit(bend.force_direction);
+        Some(Touch {
+            point_world: base.position + rotate(self.surface(&bend), base.heading),
+            covariance_world: turned(&covariance, base.heading),
+            spread: (normal.transpose() * covariance * normal).x.sqrt(),
+            contact_length: bend.contact_length,
+        })
+    }
+
+    fn touch_at(&self, deflection: f64, _: f64) -> Option<Vector2> {
+        if self.near.base_angle == 0.0 {
+            return None;
+        }
+        // On the other side of the shaft it would be the mirror image.
+        let near = if deflection * self.near.base_angle < 0.0 { self.near.mirrored() } else { self.near };
+        let bend = self.elastica.solve_at(near.contact_length, deflection, near.force_direction, &near)?;
+        Some(self.surface(&bend))
+    }
+
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
+}

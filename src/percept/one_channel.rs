@@ -1,0 +1,49 @@
+//! The tip model of one channel: the base angle alone.
+
+use std::sync::Arc;
+
+use crate::geometry::{Pose, Vector2, rotate};
+use crate::signal::Reading;
+
+use super::tip_curve::TipCurve;
+use super::tip_model::{TipModel, Touch, turned};
+
+/// Takes the tip to be on a [`TipCurve`].
+#[derive(Debug, Clone)]
+pub(super) struct OneChannel {
+    curve: Arc<TipCurve>,
+    /// Standard deviation of the deflection (rad).
+    deflection_spread: f64,
+    length: f64,
+}
+
+impl OneChannel {
+    /// The model of a whisker of `length` (m) whose deflection may be off by `deflection_spread` (rad).
+    pub(super) fn new(curve: Arc<TipCurve>, deflection_spread: f64, length: f64) -> Self {
+        Self { curve, deflection_spread, length }
+    }
+}
+
+impl TipModel for OneChannel {
+    fn take(&mut self, _: &Reading, _: Pose) {}
+
+    fn interrupt(&mut self) {}
+
+    fn touch(&mut self, deflection: f64, base: Pose) -> Option<Touch> {
+        let covariance = self.curve.covariance(deflection, self.deflection_spread)?;
+        Some(Touch {
+            point_world: base.position + rotate(self.curve.contact_base(deflection), base.heading),
+            covariance_world: turned(&covariance, base.heading),
+            spread: covariance.trace().sqrt(),
+            contact_length: self.length,
+        })
+    }
+
+    fn touch_at(&self, _: f64, _: f64) -> Option<Vector2> {
+        None
+    }
+
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
+}

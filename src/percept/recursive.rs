@@ -1,0 +1,144 @@
+//! The recursive tip model: the base angle as a polynomial in the tip's place.
+
+use std::sync::Arc;
+
+use nalgebra::Matrix2;
+
+use crate::calibration::{AngleSurface, ContactSet};
+use crate::geometry::{Pose, Vector2, rotate, unit};
+use crate::rig::{Sensing, Whisker};
+use crate::signal::Reading;
+
+use super::base_angle::BaseAngle;
+use super::tip_curve::TipCurve;
+use super::tip_model::{TipModel, Touch, turned};
+use super::tip_table::TipTable;
+
+/// Follows the tip's place in the frame of the base: from reading to reading it goes as the usual curve does, then a step along the
+/// gradient of `z = f(x, y)`, by a Kalman filter's gain, to the place that has the base angle.
+///
+/// The base angle says nothing of where on the line `f = z` the tip is. That stays as it was at the first touch, and its uncertainty
+/// grows with the way.
+#[derive(Debug, Clone)]
+pub(super) struct Recursive {
+    surface: Arc<AngleSurface>,
+    curve: Arc<TipCurve>,
+    angle: BaseAngle,
+    /// Standard deviation of the base angle (rad), with what the polynomial leaves of it.
+    angle_spread: f64,
+    contact_threshold: f64,
+    length: f64,
+    tip: Option<Tip>,
+    base_before: Option<Pose>,
+}
+
+/// A tip that touches, as that of a whisker which bends to the left.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
+    /// +1 for a bend that is counter-clockwise, −1 for one that is clockwise.
+    bend: f64,
+    base_angle: f64,
+    /// m, frame of the base.
+    place: Vector2,
+    covariance: Matrix2<f64>,
+}
+
+/// Variance of the place for every way of the base (m²/m): 1 mm within 10 mm.
+const SLIDING: f64 = 1e-4;
+
+/// The least and the greatest direction of the force (degrees), and the step between, that a polynomial from the mechanics is
+/// fitted to; and how many base angles, of the lower half of those that the table has.
+const DIRECTIONS: (usize, usize, usize) = (100, 200, 4);
+const ANGLES: usize = 40;
+
+/// The polynomial of a whisker that nobody has measured, from its mechanics; `None` if they give too few places.
+pub(super) fn surface(whisker: &Whisker, table: &TipTable) -> Option<AngleSurface> {
+    let (first, last, step) = DIRECTIONS;
+    let places = (first..=last).step_by(step).flat_map(|degrees| (1..=ANGLES).map(move |angle| (degrees, angle)));
+    let sets = places.filter_map(|(degrees, angle)| {
+        let (normal, base_angle) = ((degrees as f64).to_radians(), table.range() * angle as f64 / (2 * ANGLES) as f64);
+        let tip = table.at(base_angle, normal)?.tip_base;
+        let contact_base = tip - whisker.shaft.radius_at(1.0) * unit(normal);
+        Some(ContactSet { contact_base, base_angle, normal: Some(normal), on_shaft: false })
+    });
+    AngleSurface::fit(&sets.collect::<Vec<_>>())
+}
+
+impl Recursive {
+    pub(super) fn new(whisker: &Whisker, surface: Arc<AngleSurface>, curve: Arc<TipCurve>, sensing: &Sensing) -> Self {
+        let angle = BaseAngle::new(whisker, sensing);
+        Self {
+            angle_spread: angle.spread.hypot(surface.spread),
+            surface,
+            curve,
+            angle,
+            contact_threshold: sensing.contact_threshold,
+            length: whisker.shaft.length,
+            tip: None,
+            base_before: None,
+        }
+    }
+
+    /// The first place of a tip.
+    fn first(&self, bend: f64, base_angle: f64) -> Option<Tip> {
+        let covariance = self.curve.covariance(base_angle, self.angle_spread)?;
+        Some(Tip { bend, base_angle, place: self.curve.contact_base(base_angle), covariance })
+    }
+
+    /// One step of a tip whose base has gone a way (m).
+    fn follow(&self, last: &Tip, base_angle: f64, way: f64) -> Option<Tip> {
+        let usual = self.curve.contact_base(base_angle) - self.curve.contact_base(last.base_angle);
+        let carried = last.place + usual;
+        let covariance = last.covariance + Matrix2::identity() * (SLIDING * way);
+        let (expected, gradient) = self.surface.at(carried);
+        let variance = (gradient.transpose() * covariance * gradient).x + self.angle_spread.powi(2);
+        let gain = covariance * gradient / variance;
+        let place = carried + gain * (base_angle - expected);
+        let covariance = covariance - variance * gain * gain.transpose();
+        self.surface.contains(place).then_some(Tip { bend: last.bend, base_angle, place, covariance })
+    }
+}
+
+impl TipModel for Recursive {
+    fn take(&mut self, reading: &Reading, base: Pose) {
+        self.angle.take(reading.base_angle);
+        let angle = self.angle.value();
+        let (bend, base_angle) = (angle.signum(), angle.abs());
+        let way = self.base_before.map_or(0.0, |before| {
+            (base.position - before.position).norm() + self.length * (base.heading - before.heading).abs()
+        });
+        self.base_before = Some(base);
+        self.tip = match self.tip {
+            _ if base_angle < self.contact_threshold => None,
+            Some(last) if last.bend * bend > 0.0 => self.follow(&last, base_angle, way),
+            _ => self.first(bend, base_angle),
+        };
+    }
+
+    fn interrupt(&mut self) {
+        self.angle.clear();
+        self.tip = None;
+        self.base_before = None;
+    }
+
+    fn touch(&mut self, _: f64, base: Pose) -> Option<Touch> {
+        let Tip { bend, place, mut covariance, .. } = self.tip.filter(|tip| self.surface.contains(tip.place))?;
+        covariance.m12 *= bend;
+        covariance.m21 = covariance.m12;
+        let place = Vector2::new(place.x, bend * place.y);
+        Some(Touch {
+            point_world: base.position + rotate(place, base.heading),
+            covariance_world: turned(&covariance, base.heading),
+            spread: covariance.trace().sqrt(),
+            contact_length: self.length,
+        })
+    }
+
+    fn touch_at(&self, _: f64, _: f64) -> Option<Vector2> {
+        None
+    }
+
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
+}

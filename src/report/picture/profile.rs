@@ -1,0 +1,165 @@
+//! A whisker's deflection profile: where it was touched, and which base angle that made.
+
+use svg::node::element::path::Data;
+use svg::node::element::{Circle, Group, Path, Rectangle, Title};
+
+use super::scale::Scale;
+use crate::calibration::{AngleSurface, Calibration, ContactSet};
+use crate::geometry::Vector2;
+use crate::report::style::{self, Anchor, line, px, text};
+
+/// Size of the picture, and the frame of the plot within it (px).
+const SIZE: (f64, f64) = (900.0, 620.0);
+const FRAME: [f64; 4] = [70.0, 70.0, 860.0, 560.0];
+/// Colours from the least base angle to the greatest.
+const COLOURS: [&str; 6] = ["#440154", "#3b528b", "#21918c", "#35a05a", "#90b020", "#d0a000"];
+/// Lines of equal base angle.
+const LEVELS: f64 = 8.0;
+/// Cells of the plot, either way, in which such a line is straight.
+const CELLS: usize = 120;
+
+/// A picture of the sets that a whisker was calibrated by, all as bends to the left, and of what was fitted to them: the tip's place
+/// in the frame of the base, coloured by the base angle, with lines of equal base angle by `z = f(x, y)` and the curve of one
+/// channel. The thesis's figure 3.5 is of this kind. A self-contained SVG.
+#[must_use]
+pub fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
+    let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();
+    let plot = Plot::new(length, &sets);
+    let mut document = svg::Document::new()
+        .set("width", px(SIZE.0))
+        .set("height", px(SIZE.1))
+        .set("viewBox", format!("0 0 {} {}", px(SIZE.0), px(SIZE.1)))
+        .set("font-family", style::FONT)
+        .set("role", "img")
+        .add(Title::new(style::printable(title)))
+        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+        .add(text(FRAME[0], 30.0, Anchor::Start, 18.0, style::INK, title))
+        .add(text(FRAME[0], 52.0, Anchor::Start, 13.0, style::GREY, &plot.subtitle(calibration)))
+        .add(plot.axes());
+    if let Some(surface) = &calibration.recursive {
+        document = document.add(plot.levels(surface));
+    }
+    document = document.add(plot.shaft(length)).add(plot.sets(&sets));
+    if let Some(curve) = &calibration.one_channel {
+        let [least, greatest] = curve.range;
+        let at = |share: f64| curve.at(least + share * (greatest - least));
+        document = document.add(plot.path((0..=100).map(|index| at(f64::from(index) / 100.0)), style::ALARM, 2.5));
+    }
+    document.to_string()
+}
+
+/// Where places of the base's frame are in the picture.
+struct Plot {
+    x: Scale,
+    y: Scale,
+    /// The greatest base angle (rad).
+    greatest: f64,
+}
+
+impl Plot {
+    fn new(length: f64, sets: &[ContactSet]) -> Self {
+        let highest = sets.iter().map(|set| set.contact_base.y).fold(0.3 * length, f64::max);
+        let [left, top, right, bottom] = FRAME;
+        // One scale for both, so that the shaft is as long as it is.
+        let breadth = (1.1 * length).max(1.1 * highest * (right - left) / (bottom - top));
+        let height = breadth * (bottom - top) / (right - left);
+        Self {
+            x: Scale { values: (-0.02 * length, breadth - 0.02 * length), places: (left, right) },
+            y: Scale { values: (-0.05 * height, 0.95 * height), places: (bottom, top) },
+            greatest: sets.iter().map(|set| set.base_angle).fold(0.0, f64::max),
+        }
+    }
+
+    fn subtitle(&self, calibration: &Calibration) -> String {
+        let mut parts = vec![format!("colours up to {:.0} µrad", 1e6 * self.greatest), "○ on the shaft".to_owned()];
+        if calibration.recursive.is_some() {
+            parts.push(format!("thin: equal base angles, every {:.0} µrad", 1e6 * self.greatest / LEVELS));
+        }
+        if calibration.one_channel.is_some() {
+            parts.push("thick: one channel".to_owned());
+        }
+        parts.join("; ")
+    }
+
+    fn at(&self, place: Vector2) -> (f64, f64) {
+        (self.x.at(place.x), self.y.at(place.y))
+    }
+
+    fn colour(&self, base_angle: f64) -> &'static str {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index of a colour")]
+        let index = (base_angle / self.greatest * COLOURS.len() as f64).max(0.0) as usize;
+        COLOURS[index.min(COLOURS.len() - 1)]
+    }
+
+    /// Axes with their ticks (mm).
+    fn axes(&self) -> Group {
+        let [left, _, right, bottom] = FRAME;
+        let mut group = Group::new();
+        let millimetres =
+            |scale: &Scale| Scale { values: (1e3 * scale.values.0, 1e3 * scale.values.1), places: scale.places };
+        let (x, y) = (millimetres(&self.x), millimetres(&self.y));
+        for (value, label) in x.ticks(8.0) {
+            let place = x.at(value);
+            group = group.add(line((place, FRAME[1]), (place, bottom), style::GRID, 1.0));
+            group = group.add(text(place, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
+        }
+        for (value, label) in y.ticks(5.0) {
+            let place = y.at(value);
+            group = group.add(line((left, place), (right, place), style::GRID, 1.0));
+            group = group.add(text(left - 8.0, place + 4.0, Anchor::End, 12.0, style::GREY, &label));
+        }
+        let middle = f64::midpoint(left, right);
+        group.add(text(middle, bottom + 42.0, Anchor::Middle, 13.0, style::INK, "along the undeflected shaft, mm"))
+    }
+
+    /// The undeflected shaft.
+    fn shaft(&self, length: f64) -> Path {
+        self.path([Vector2::zeros(), Vector2::new(length, 0.0)].into_iter(), style::PLATFORM, 3.0)
+    }
+
+    fn sets(&self, sets: &[ContactSet]) -> Group {
+        sets.iter().fold(Group::new(), |group, set| {
+            let (x, y) = self.at(set.contact_base);
+            let colour = self.colour(set.base_angle);
+            let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", 4).set("stroke", colour);
+            group.add(dot.set("fill", if set.on_shaft { "none" } else { colour }))
+        })
+    }
+
+    fn path(&self, places: impl Iterator<Item = Vector2>, colour: &str, width: f64) -> Path {
+        let data = places.enumerate().fold(Data::new(), |data, (index, place)| {
+            let (x, y) = self.at(place);
+            if index == 0 { data.move_to((x, y)) } else { data.line_to((x, y)) }
+        });
+        Path::new().set("d", data).set("fill", "none").set("stroke", colour).set("stroke-width", px(width))
+    }
+
+    /// Lines of equal base angle, where the polynomial holds: straight across every cell that they cross.
+    fn levels(&self, surface: &AngleSurface) -> Group {
+        let between = |(low, high): (f64, f64), index: usize| low + (high - low) * index as f64 / CELLS as f64;
+        let corner = |column, row| Vector2::new(between(self.x.values, column), between(self.y.values, row));
+        let mut group = Group::new();
+        for level in 1..8 {
+            let angle = self.greatest * f64::from(level) / LEVELS;
+            let mut data = Data::new();
+            for (column, row) in (0..CELLS).flat_map(|column| (0..CELLS).map(move |row| (column, row))) {
+                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| corner(column + i, row + j));
+                if !corners.iter().all(|corner| surface.contains(*corner)) {
+                    continue;
+                }
+                let over = corners.map(|corner| surface.at(corner).0 - angle);
+                let crossings = (0..4).filter_map(|side| {
+                    let (a, b) = (over[side], over[(side + 1) % 4]);
+                    ((a < 0.0) != (b < 0.0)).then(|| corners[side].lerp(&corners[(side + 1) % 4], a / (a - b)))
+                });
+                for (index, crossing) in crossings.enumerate() {
+                    let place = self.at(crossing);
+                    data = if index % 2 == 0 { data.move_to(place) } else { data.line_to(place) };
+                }
+            }
+            let path = Path::new().set("d", data).set("fill", "none").set("stroke", self.colour(angle));
+            group = group.add(path.set("stroke-width", 1));
+        }
+        group
+    }
+}

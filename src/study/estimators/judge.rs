@@ -1,0 +1,121 @@
+//! Tip models on the samples of a run.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::machine::{Program, Senses, TipModelKind, WhiskerScalar};
+use crate::percept::Perception;
+use crate::rig::{Rig, Sensing};
+use crate::run::BindError;
+use crate::scene::Scene;
+use crate::score::{ErrorFigures, Tip};
+use crate::signal::Sample;
+use crate::study::ExecuteError;
+
+use super::row::EstimatorRow;
+use super::tape::Tape;
+
+/// The noise of the sensors, over the estimate of that of the real one.
+const NOISES: [f64; 3] = [0.0, 1.0, 10.0];
+
+/// Runs a policy once in a scene, without noise, and gives what it felt to every tip model, with more and more noise. They are judged by
+/// the points that the run recorded.
+///
+/// # Errors
+/// [`ExecuteError`] when the run cannot begin, or a tip model cannot be had of the rig.
+pub fn judge_all(scene: &Scene, program: Arc<Program>) -> Result<Vec<EstimatorRow>, ExecuteError> {
+    let mut scene = scene.clone();
+    scene.rig.sensing.forces = true;
+    let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
+    let mut tape = Tape::record(&scene, program)?;
+    let mut rows = Vec::with_capacity(NOISES.len() * TipModelKind::ALL.len());
+    for factor in NOISES {
+        let mut rig = scene.rig.clone();
+        make_noisy(&mut rig.sensing, factor);
+        let clean = std::mem::take(&mut tape.ticks);
+        tape.ticks = noisy(&clean, &rig, scene.seed);
+        for kind in TipModelKind::ALL {
+            rows.push(judge(&scene, &rig, &whiskers, &tape, kind, factor)?);
+        }
+        tape.ticks = clean;
+    }
+    Ok(rows)
+}
+
+/// Gives readings so many times the noise and the resolution of the real sensor.
+fn make_noisy(sensing: &mut Sensing, factor: f64) {
+    sensing.make_real();
+    sensing.angle_noise *= factor;
+    sensing.angle_resolution *= factor;
+    sensing.force_noise *= factor;
+}
+
+/// The samples with the noise of a rig's sensors.
+fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut off = |spread: f64| {
+        let normal: f64 = StandardNormal.sample(&mut random);
+        spread * normal
+    };
+    let Sensing { angle_noise, angle_resolution, force_noise, .. } = rig.sensing;
+    let mut ticks = ticks.to_vec();
+    for sample in ticks.iter_mut().flatten() {
+        for reading in &mut sample.whiskers[..rig.whiskers.len()] {
+            let angle = reading.base_angle + off(angle_noise);
+            reading.base_angle =
+                if angle_resolution > 0.0 { (angle / angle_resolution).round() * angle_resolution } else { angle };
+            for force in [&mut reading.shear, &mut reading.axial].into_iter().flatten() {
+                *force += off(force_noise);
+            }
+        }
+    }
+    ticks
+}
+
+fn judge(
+    scene: &Scene,
+    rig: &Rig,
+    whiskers: &[usize],
+    tape: &Tape,
+    kind: TipModelKind,
+    noise: f64,
+) -> Result<EstimatorRow, ExecuteError> {
+    let kinds = vec![kind; whiskers.len()];
+    let mut perception = Perception::new(rig, whiskers, &kinds).map_err(BindError::from)?;
+    let (mut tips, mut asked, mut on_shaft, mut seconds) = (Vec::new(), 0_usize, 0_usize, 0.0);
+    for (index, (samples, tick)) in tape.ticks.iter().zip(&tape.trace.ticks).enumerate() {
+        let start = Instant::now();
+        perception.update(samples);
+        seconds += start.elapsed().as_secs_f64();
+        for (whisker, &in_rig) in whiskers.iter().enumerate() {
+            if tick.tips[whisker].is_none() {
+                continue;
+            }
+            asked += 1;
+            perception.record(whisker);
+            let Some(tip_world) = perception.recorded_tip(whisker) else { continue };
+            let length = rig.whiskers[in_rig].shaft.length;
+            on_shaft += usize::from(perception.touch(whisker).is_some_and(|touch| touch.contact_length < length));
+            let error = scene.truth.surfaces.nearest(tip_world).distance;
+            let spread = perception.whisker(whisker, WhiskerScalar::TipSpread);
+            tips.push(Tip { tick: index, whisker, tip_world, error, spread });
+        }
+    }
+    let figures = ErrorFigures::of(&tips);
+    let share = |count: usize, of: usize| if of > 0 { count as f64 / of as f64 } else { 0.0 };
+    Ok(EstimatorRow {
+        scenario: scene.name.clone(),
+        noise,
+        model: kind.name(),
+        told: share(tips.len(), asked),
+        mean_mm: figures.map(|figures| 1e3 * figures.mean),
+        p95_mm: figures.map(|figures| 1e3 * figures.p95),
+        within_band: figures.map(|figures| figures.within_band),
+        on_shaft: share(on_shaft, tips.len()),
+        tick_us: 1e6 * seconds / tape.trace.ticks.len().max(1) as f64,
+    })
+}

@@ -1,0 +1,88 @@
+//! How one tip model did.
+
+use serde::Serialize;
+
+use crate::machine::TipModelKind;
+use crate::report::{NONE, millimetres, ruled};
+
+/// How one tip model did on the samples of one scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EstimatorRow {
+    /// The scene.
+    pub scenario: String,
+    /// The noise of the sensors, over the estimate of that of the real one.
+    pub noise: f64,
+    /// The tip model's name.
+    pub model: &'static str,
+    /// Of the points that the run had recorded by sliding and without noise, the share that it tells.
+    pub told: f64,
+    /// Mean distance of what it tells from the exact surface (mm), its 95th percentile, and the share of it within its own band.
+    pub mean_mm: Option<f64>,
+    /// See `mean_mm`.
+    pub p95_mm: Option<f64>,
+    /// See `mean_mm`.
+    pub within_band: Option<f64>,
+    /// The share of the points that it tells to be touches of the shaft.
+    pub on_shaft: f64,
+    /// Mean time that perception takes a tick (µs), all whiskers together.
+    pub tick_us: f64,
+}
+
+/// A table with a line for every scene and noise, and means over the scenes below: of every tip model the mean and the 95th percentile
+/// of the error (mm), and behind a stroke the share that it tells, if that is less than 99 %.
+#[must_use]
+pub fn estimators_table(rows: &[EstimatorRow]) -> String {
+    let of = |row: &EstimatorRow| (row.scenario.clone(), row.noise.to_bits());
+    let mut groups: Vec<(String, u64)> = Vec::new();
+    for row in rows {
+        if !groups.contains(&of(row)) {
+            groups.push(of(row));
+        }
+    }
+    let noise = |bits: u64| match f64::from_bits(bits) {
+        0.0 => "none".to_owned(),
+        factor => format!("{factor} ×"),
+    };
+    let models = TipModelKind::ALL.map(TipModelKind::name);
+    let lines = groups.iter().map(|group| {
+        let cells = models
+            .map(|model| rows.iter().find(|row| of(row) == *group && row.model == model).map_or(NONE.to_owned(), cell));
+        [vec![group.0.clone(), noise(group.1)], cells.to_vec()].concat()
+    });
+    let scenes = ruled(["scene", "noise"].into_iter().chain(models), lines, 2);
+
+    let mut noises: Vec<u64> = Vec::new();
+    for (_, noise) in &groups {
+        if !noises.contains(noise) {
+            noises.push(*noise);
+        }
+    }
+    let lines =
+        models.iter().flat_map(|model| noises.iter().map(move |noise| (*model, *noise))).map(|(model, bits)| {
+            let mine: Vec<_> = rows.iter().filter(|row| row.model == model && row.noise.to_bits() == bits).collect();
+            let mean = |figure: &dyn Fn(&EstimatorRow) -> Option<f64>| {
+                let found: Vec<f64> = mine.iter().filter_map(|row| figure(row)).collect();
+                (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
+            };
+            let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
+            let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+            vec![
+                model.to_owned(),
+                noise(bits),
+                shown(mean(&|row| row.mean_mm), &millimetres),
+                shown(mean(&|row| row.p95_mm), &millimetres),
+                shown(mean(&|row| row.within_band), &percent),
+                shown(mean(&|row| Some(row.told)), &percent),
+                shown(mean(&|row| Some(row.on_shaft)), &percent),
+                shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
+            ]
+        });
+    let headings = ["tip model", "noise", "mean mm", "p95 mm", "within band", "told", "on the shaft", "tick µs"];
+    format!("{scenes}\n\nMeans over the scenes:\n{}", ruled(headings, lines, 2))
+}
+
+fn cell(row: &EstimatorRow) -> String {
+    let (Some(mean), Some(p95)) = (row.mean_mm, row.p95_mm) else { return NONE.to_owned() };
+    let told = if row.told < 0.99 { format!(" | {:.0} %", 100.0 * row.told) } else { String::new() };
+    format!("{}, {}{told}", millimetres(mean), millimetres(p95))
+}

@@ -1,0 +1,50 @@
+//! The samples of a run.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::machine::Program;
+use crate::run::{Control, Trace, drive};
+use crate::scene::Scene;
+use crate::scene::WorldKind;
+use crate::signal::{Command, Sample};
+use crate::study::{ExecuteError, build};
+use crate::world::{Fault, World};
+
+/// The samples of a run, and what happened in it.
+pub(super) struct Tape {
+    /// One list a tick, as many as the trace has.
+    pub(super) ticks: Vec<Vec<Sample>>,
+    pub(super) trace: Trace,
+}
+
+impl Tape {
+    /// Runs a policy in a scene.
+    pub(super) fn record(scene: &Scene, program: Arc<Program>) -> Result<Self, ExecuteError> {
+        let control = Control::new(&scene.rig, program)?;
+        let world = build(scene, WorldKind::Mujoco, scene.seed)?;
+        let mut world = Recorder { world, ticks: Vec::new() };
+        let period = 1.0 / scene.rig.sensing.control_rate;
+        let run = drive(&mut world, control, &scene.stop, period, |_| ControlFlow::Continue(()));
+        let trace = run.ok_or(ExecuteError::Interrupted)?.trace;
+        Ok(Self { ticks: world.ticks, trace })
+    }
+}
+
+/// A world that keeps its samples.
+struct Recorder {
+    world: Box<dyn World>,
+    ticks: Vec<Vec<Sample>>,
+}
+
+impl World for Recorder {
+    fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
+        let samples = self.world.advance(command)?;
+        self.ticks.push(samples.to_vec());
+        Ok(samples)
+    }
+
+    fn body_touches(&self) -> bool {
+        self.world.body_touches()
+    }
+}

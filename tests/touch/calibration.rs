@@ -1,0 +1,263 @@
+//! Calibrations: what is fitted to touches in known places, their files, and what perception makes of them.
+
+use proptest::prelude::*;
+use vibrissa::calibration::{AngleSurface, Calibration, ContactSet};
+use vibrissa::diagnostic::{Colour, Source, terminal};
+use vibrissa::geometry::{Point2, Pose, Vector2, unit};
+use vibrissa::machine::{Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa::percept::{Perception, TipTable};
+use vibrissa::rig::{Rig, Whisker};
+use vibrissa::scene::Scene;
+use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa::study::calibrate::{Fitted, fit};
+
+/// A reference whisker with a hinge of this stiffness (N m/rad).
+fn whisker(stiffness: f64) -> Whisker {
+    let mut whisker = Rig::default().whiskers.remove(1);
+    whisker.hinge.stiffness = stiffness;
+    whisker
+}
+
+/// Touches by the tip of such a whisker, on surfaces of many directions, from its mechanics.
+fn sets(stiffness: f64) -> Vec<ContactSet> {
+    let whisker = whisker(stiffness);
+    let table = TipTable::new(&whisker);
+    let places = (130..=190).step_by(4).flat_map(|degrees| (1..=14).map(move |step| (f64::from(degrees), step)));
+    let sets = places.filter_map(|(degrees, step)| {
+        let (normal, base_angle) = (degrees.to_radians(), table.range() * f64::from(step) / 30.0);
+        let tip = table.at(base_angle, normal)?.tip_base;
+        let contact_base = tip - whisker.shaft.radius * unit(normal);
+        Some(ContactSet { contact_base, base_angle, normal: Some(normal), on_shaft: false })
+    });
+    sets.collect()
+}
+
+fn fitted(stiffness: f64, change: impl Fn(ContactSet) -> ContactSet) -> Fitted {
+    fit(&whisker(1.0), &sets(stiffness).into_iter().map(change).collect::<Vec<_>>(), "a test".to_owned())
+}
+
+#[test]
+fn the_hinge_is_found_whether_normals_are_known_or_not() {
+    for stiffness in [0.6, 1.0, 1.7] {
+        for normals in [true, false] {
+            let found = fitted(stiffness, |set| ContactSet { normal: set.normal.filter(|_| normals), ..set });
+            let found = found.calibration.hinge_stiffness.unwrap();
+            assert!((found / stiffness - 1.0).abs() < 1e-4, "{found} for {stiffness}");
+        }
+    }
+}
+
+#[test]
+fn fits_hold_for_sets_that_they_have_not_seen() {
+    let Fitted { held_out, .. } = fitted(1.0, |set| set);
+    let [curve, surface, hinge] = &held_out[..] else { panic!("{held_out:?}") };
+    // A curve in the base angle alone leaves out the direction of the surface, 11 mm/rad.
+    assert!(curve.rms_mm > 0.2 && curve.rms_mm < 2.0, "{curve:?}");
+    assert!(surface.rms_mm < 0.05 && surface.max_mm < 0.5, "{surface:?}");
+    assert!(hinge.rms_mm < 1e-3, "{hinge:?}");
+}
+
+#[test]
+fn sets_of_a_whisker_bent_to_the_right_are_the_mirror_image() {
+    let mirrored = |set: ContactSet| ContactSet {
+        contact_base: Vector2::new(set.contact_base.x, -set.contact_base.y),
+        base_angle: -set.base_angle,
+        normal: set.normal.map(|normal| -normal),
+        on_shaft: set.on_shaft,
+    };
+    assert_eq!(fitted(1.0, |set| set), fitted(1.0, mirrored));
+}
+
+#[test]
+fn touches_of_the_shaft_do_not_count_and_without_sets_nothing_is_fitted() {
+    let Fitted { calibration, held_out } = fitted(1.0, |set| ContactSet { on_shaft: true, ..set });
+    assert_eq!(calibration, Calibration::new("a test".to_owned()));
+    assert!(held_out.is_empty());
+}
+
+proptest! {
+    #[test]
+    fn the_slope_of_a_surface_is_that_of_its_values(index in 0..150_usize) {
+        let sets = sets(1.0);
+        let surface = AngleSurface::fit(&sets).unwrap();
+        let place = sets[index % sets.len()].contact_base;
+        let step = 1e-6;
+        let slope = |along: Vector2| (surface.at(place + step * along).0 - surface.at(place - step * along).0) / (2.0 * step);
+        let (_, gradient) = surface.at(place);
+        for along in [Vector2::x(), Vector2::y()] {
+            prop_assert!((slope(along) - gradient.dot(&along)).abs() < 1e-5 * gradient.norm());
+        }
+    }
+
+    #[test]
+    fn a_surface_holds_near_its_places_and_nowhere_else(index in 0..150_usize, angle in 0.0..6.0_f64, off in 0.0..0.05_f64) {
+        let sets = sets(1.0);
+        let surface = AngleSurface::fit(&sets).unwrap();
+        prop_assert!(surface.reach < 5e-3, "{}", surface.reach);
+        let place = sets[index % sets.len()].contact_base + off * unit(angle);
+        let nearest = sets.iter().map(|set| (set.contact_base - place).norm()).fold(f64::INFINITY, f64::min);
+        prop_assert!(nearest > 0.5 * surface.reach || surface.contains(place));
+        prop_assert!(nearest <= surface.reach || !surface.contains(place));
+    }
+}
+
+#[test]
+fn a_file_gives_back_what_was_written() {
+    let calibration = fitted(1.3, |set| set).calibration;
+    assert_eq!(Calibration::from_yaml(&calibration.to_yaml()).unwrap(), calibration);
+    let quoted = Calibration::new("r0: \"measured\", by # hand".to_owned());
+    assert_eq!(Calibration::from_yaml(&quoted.to_yaml()).unwrap(), quoted);
+}
+
+#[test]
+fn what_is_no_calibration_is_refused_and_the_error_says_why() {
+    let good = fitted(1.0, |set| set).calibration.to_yaml();
+    let start = |key: &str| good.find(key).unwrap();
+    let line = |key: &str| good[start(key)..].lines().next().unwrap().to_owned();
+    let bad = [
+        (String::new(), "no calibration"),
+        ("a text".to_owned(), "no calibration"),
+        (good.replace("vibrissa_calibration: 1", "vibrissa_calibration: 2"), "format 2"),
+        (good.replace("hinge_stiffness", "stiffness"), "no calibration"),
+        (good.replace(&line("hinge_stiffness"), "hinge_stiffness: .nan"), "`hinge_stiffness`"),
+        (good.replace(&line("  range"), "  range: [5e-4, 1e-4]"), "`one_channel`"),
+        (good.replace(&line("  covariance"), "  covariance: [1e-6, 1e-5, 1e-6]"), "`one_channel`"),
+        (good.replace(&line("  scale"), "  scale: 0"), "`recursive`"),
+        (good.replace(&line("  reach"), "  reach: -1"), "`recursive`"),
+    ];
+    for (text, reason) in bad {
+        let error = Calibration::from_yaml(&text).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+#[test]
+fn sets_are_read_as_they_were_written() {
+    let sets = sets(1.0);
+    let read = ContactSet::read_all(ContactSet::write_all(&sets).as_bytes()).unwrap();
+    assert_eq!(read.len(), sets.len());
+    for (read, set) in read.iter().zip(&sets) {
+        assert!(
+            (read.contact_base - set.contact_base).norm() < 1e-7 && (read.base_angle - set.base_angle).abs() < 1e-10
+        );
+        assert!((read.normal.unwrap() - set.normal.unwrap()).abs() < 1e-5);
+    }
+    let few = "base_angle_urad, y_mm, x_mm\n# measured by hand\n-300, -51, 82\n";
+    let contact_base = Vector2::new(0.082, -0.051);
+    let [set] = ContactSet::read_all(few.as_bytes()).unwrap()[..] else { panic!("one set") };
+    assert!((set.contact_base - contact_base).norm() < 1e-12 && set.normal.is_none() && !set.on_shaft);
+}
+
+#[test]
+fn a_line_that_cannot_be_read_is_told() {
+    for (text, reason) in [
+        ("x_mm,y_mm\n1,2\n", "line 1: the column `base_angle_urad` is missing"),
+        ("x_mm,y_mm,base_angle_urad,z_mm\n", "line 1: there is no column `z_mm`"),
+        ("x_mm,y_mm,base_angle_urad\n1,2,3\n1,two,3\n", "line 3: `y_mm` must be a number, and is `two`"),
+        ("x_mm,y_mm,base_angle_urad\n1,2,inf\n", "line 2: `base_angle_urad` must be a number"),
+        ("x_mm,y_mm,base_angle_urad\n1,2\n", "line 2: every line"),
+        ("x_mm,y_mm,base_angle_urad,contact\n1,2,3,edge\n", "line 2: `contact` must be `tip` or `shaft`"),
+    ] {
+        let error = ContactSet::read_all(text.as_bytes()).unwrap_err().to_string();
+        assert!(error.starts_with(reason), "{error}");
+    }
+}
+
+/// What a left whisker that is bent by `base_angle` (rad) is perceived as, by a rig with a calibration.
+fn perceived(kind: TipModelKind, calibration: Option<Calibration>, stiffness: f64, base_angle: f64) -> Perception {
+    let mut rig = Rig::default();
+    rig.whiskers[1].hinge.stiffness = stiffness;
+    rig.whiskers[1].calibration = calibration;
+    let mut perception = Perception::new(&rig, &[1], &[kind]).unwrap();
+    for tick in 0..30 {
+        let samples: [Sample; 10] = std::array::from_fn(|index| {
+            let time = (tick * 10 + index) as f64 / 300.0;
+            let mut whiskers = [Reading::default(); MAX_WHISKERS];
+            whiskers[1].base_angle = base_angle * (4.0 * time).min(1.0);
+            let body = Pose { position: Point2::new(0.0, 0.05 * time), heading: std::f64::consts::FRAC_PI_2 };
+            Sample { time, body, whiskers }
+        });
+        perception.update(&samples);
+        perception.record(0);
+    }
+    perception
+}
+
+#[test]
+fn a_calibrated_hinge_is_perceived_as_if_the_rig_had_it() {
+    let mut calibration = Calibration::new("stiffer than it was made".to_owned());
+    calibration.hinge_stiffness = Some(1.4);
+    for kind in [TipModelKind::OneChannel, TipModelKind::Sliding, TipModelKind::Recursive] {
+        let calibrated = perceived(kind, Some(calibration.clone()), 1.0, 3e-4);
+        let (by_rig, made) = (perceived(kind, None, 1.4, 3e-4), perceived(kind, None, 1.0, 3e-4));
+        let tip = |perception: &Perception| perception.touch(0).unwrap().point_world;
+        // The delay of the hinge is its damping over its stiffness, and the angle does not change any more.
+        assert!((tip(&calibrated) - tip(&by_rig)).norm() < 1e-12, "{kind:?}");
+        assert!((tip(&calibrated) - tip(&made)).norm() > 1e-3, "{kind:?}");
+    }
+}
+
+#[test]
+fn what_was_measured_is_what_one_channel_tells_and_beyond_its_range_it_tells_nothing() {
+    let calibration = fitted(1.0, |set| set).calibration;
+    let curve = calibration.one_channel.clone().unwrap();
+    let told = |base_angle: f64| perceived(TipModelKind::OneChannel, Some(calibration.clone()), 1.0, base_angle);
+    let found = told(3e-4);
+    let tip_base = found.whisker_vector(0, WhiskerVector::TipBase);
+    assert!((tip_base - curve.at(3e-4)).norm() < 2e-6, "{tip_base} {}", curve.at(3e-4));
+    let [xx, _, yy] = curve.covariance;
+    assert!((found.whisker(0, WhiskerScalar::TipSpread) / (xx + yy).sqrt() - 1.0).abs() < 1e-9);
+    for base_angle in [1.01 * curve.range[1], 0.99 * curve.range[0]] {
+        let beyond = told(base_angle);
+        assert_eq!((beyond.touch(0), beyond.recorded_tip(0)), (None, None));
+        assert!(beyond.whisker(0, WhiskerScalar::TipSpread).is_infinite());
+        // Something to steer by there is all the same: the end of what was measured.
+        let end = curve.at(base_angle.clamp(curve.range[0], curve.range[1]));
+        assert!((beyond.whisker_vector(0, WhiskerVector::TipBase) - end).norm() < 2e-4);
+    }
+}
+
+const SCENARIO: &str = "name: calibrated
+rig:
+  whiskers: {r0: {}, l0: {calibration: l0.yaml}}
+objects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]
+start: {position: [0 mm, 72 mm], heading: 90 deg}
+stop: {time: 120 s}
+";
+
+#[test]
+fn a_rig_loads_the_calibration_of_a_whisker_and_says_what_is_wrong_with_it() {
+    let calibration = fitted(1.1, |set| set).calibration;
+    let source = Source::new("calibrated.yaml", SCENARIO);
+    let text = calibration.to_yaml();
+    let scene = Scene::from_yaml_with(&source, &mut |path| {
+        assert_eq!(path, "l0.yaml");
+        Ok(text.clone().into_bytes())
+    });
+    let whiskers = scene.unwrap().rig.whiskers;
+    assert_eq!((&whiskers[0].calibration, &whiskers[1].calibration), (&None, &Some(calibration)));
+    for (bytes, reason) in [
+        (Err("there is none".to_owned()), "there is none"),
+        (Ok(vec![0xff]), "not UTF-8"),
+        (Ok(b"vibrissa_calibration: 7\nabout: x\n".to_vec()), "format 7"),
+    ] {
+        let faults = Scene::from_yaml_with(&source, &mut |_| bytes.clone()).unwrap_err();
+        let shown = terminal(&source, &faults, Colour::Plain);
+        assert!(shown.contains(reason) && shown.contains("3:40"), "{shown}");
+    }
+}
+
+#[cfg(feature = "sim")]
+#[test]
+fn a_stage_in_the_simulated_world_finds_the_hinge_that_is_there() {
+    let mut rig = Rig::default();
+    rig.whiskers[0].hinge.stiffness = 1.25;
+    let sets = vibrissa::study::calibrate::simulated_sets(&rig, 0, 0).unwrap();
+    assert!((150..=180).contains(&sets.len()), "{}", sets.len());
+    let Fitted { calibration, held_out } = fit(&whisker(1.0), &sets, String::new());
+    let stiffness = calibration.hinge_stiffness.unwrap();
+    assert!((stiffness / 1.25 - 1.0).abs() < 0.01, "{stiffness}");
+    for model in &held_out[1..] {
+        assert!(model.rms_mm < 0.1, "{model:?}");
+    }
+}
