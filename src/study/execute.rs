@@ -77,18 +77,40 @@ fn build(_: &Scene, kind: WorldKind, _: u64) -> Result<Box<dyn crate::world::Wor
     Err(ExecuteError::NoWorld(kind))
 }
 
+impl WorldKind {
+    /// Checks that this build has the world.
+    ///
+    /// # Errors
+    /// It was built without.
+    pub fn check(self) -> Result<(), ExecuteError> {
+        #[cfg(feature = "sim")]
+        return Ok(());
+        #[cfg(not(feature = "sim"))]
+        return Err(ExecuteError::NoWorld(self));
+    }
+}
+
+/// The versions of this program and of the simulator.
+#[must_use]
+pub fn engine_version() -> String {
+    format!("{} with {}", env!("CARGO_PKG_VERSION"), simulator())
+}
+
+fn simulator() -> &'static str {
+    #[cfg(feature = "sim")]
+    return crate::world::engine_version();
+    #[cfg(not(feature = "sim"))]
+    return "none";
+}
+
 /// A hash of everything but scenario and policy that a run depends on: this program's version, the simulator's, and the
 /// model that it is given.
 #[must_use]
 pub fn engine_hash(scene: &Scene) -> [u8; 32] {
-    #[cfg(feature = "sim")]
-    let engine = crate::world::engine_version();
-    #[cfg(not(feature = "sim"))]
-    let engine = "none";
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update([0]);
-    hash.update(engine);
+    hash.update(simulator());
     hash.update([0]);
     hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
     hash.finalize().into()
