@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::scene::{Scene, WorldKind};
+use crate::study::sweep::Shard;
 use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
@@ -31,6 +32,13 @@ pub(super) enum Command {
     Compare(CompareArguments),
     /// Run scenes that are drawn by chance from families, and say how many complete
     Families(FamiliesArguments),
+    /// Do the runs of a sweep, each in a process that it may end, and go on with them after a kill
+    Sweep(SweepArguments),
+    /// Join the results of a sweep's shards
+    Merge(MergeArguments),
+    /// Do runs of a sweep that standard input asks for
+    #[command(hide = true)]
+    Worker(WorkerArguments),
     /// Check policies, and say what they consist of
     Check(CheckArguments),
     /// Compile a policy into a file that runs without its text
@@ -207,6 +215,52 @@ pub(super) struct FamiliesArguments {
     /// How many runs to do at a time; as many as there are processors unless given
     #[arg(short, long, value_name = "J")]
     pub(super) jobs: Option<NonZeroUsize>,
+}
+
+const SWEEP_STATUS: &str = "Exit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; \
+                            2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = SWEEP_STATUS)]
+pub(super) struct SweepArguments {
+    /// Sweep: scenes, policies, and what varies
+    #[arg(value_name = "FILE")]
+    pub(super) file: PathBuf,
+    /// Do only the K-th of N parts; which part a run belongs to depends on its key alone
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
+    pub(super) shard: Shard,
+    /// How many runs to do at a time; as many as there are processors unless given
+    #[arg(short, long, value_name = "J")]
+    pub(super) jobs: Option<NonZeroUsize>,
+    /// Write results into this directory, or go on with those that are there; out/NAME unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: how many runs ended how, by scenes, settings and policy
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+const MERGE_STATUS: &str = "Exit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = MERGE_STATUS)]
+pub(super) struct MergeArguments {
+    /// Files with results of shards, or a directory with them
+    #[arg(value_name = "DIR|FILE", required = true)]
+    pub(super) paths: Vec<PathBuf>,
+    /// Write the results into this file; results.jsonl beside the first unless given
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON: how many runs ended how, by scenes, settings and policy
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct WorkerArguments {
+    /// Sweep
+    #[arg(value_name = "FILE")]
+    pub(super) file: PathBuf,
 }
 
 #[derive(Debug, Args)]

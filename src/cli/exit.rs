@@ -13,6 +13,7 @@ use crate::study::ExecuteError;
 use crate::study::calibrate::FEWEST_SETS;
 #[cfg(feature = "sim")]
 use crate::study::calibrate::StageError;
+use crate::study::sweep::{ResultsError, StartError};
 
 use super::output;
 
@@ -95,6 +96,14 @@ pub(super) enum Failure {
     Set(#[from] SetError),
     #[error("{}: {cause}", scenario.display())]
     Execute { scenario: PathBuf, cause: ExecuteError },
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    #[error(transparent)]
+    Start(#[from] StartError),
+    #[error("there are no results of a sweep in {}; `vibrissa sweep FILE --out {}` writes some", directory.display(), directory.display())]
+    NoResults { directory: PathBuf },
+    #[error("the process of a run answered what is no result ({0}); this is a fault of the program, please report it")]
+    Answer(serde_json::Error),
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]
@@ -132,7 +141,7 @@ impl Failure {
 
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Json(_) | Self::NoDraw(_) => Exit::Internal,
+            Self::Json(_) | Self::NoDraw(_) | Self::Answer(_) => Exit::Internal,
             _ => Exit::Unusable,
         }
     }

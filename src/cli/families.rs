@@ -136,5 +136,5 @@ fn reason(violation: &Violation, reason: Option<&str>) -> String {
 fn tallies(runs: &[FamilyRun]) -> Vec<FamilyTally> {
     let speeds = || SPEEDS.into_iter().map(Some).chain([None]);
     let tallies = FAMILIES.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(family.name, speed, runs)));
-    tallies.filter(|tally| tally.runs > 0).collect()
+    tallies.filter(|tally| tally.tally.runs > 0).collect()
 }

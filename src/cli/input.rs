@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::calibration::ContactSet;
 use crate::diagnostic::{Diagnostic, Source, suggest};
-use crate::machine::{ARTIFACT_LIMIT, Artifact};
+use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
@@ -27,7 +27,8 @@ pub(super) struct Loaded<T> {
     pub(super) hash: Sha256,
 }
 
-fn read(path: &Path) -> Result<Source, Failure> {
+/// Reads a text.
+pub(super) fn read(path: &Path) -> Result<Source, Failure> {
     let text = File::open(path).and_then(read_text).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
 }
@@ -67,13 +68,23 @@ pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
 
 /// The same. `each_file` that it refers to is told, be it there or not.
 pub(super) fn scenario_with_files(path: &Path, mut each_file: impl FnMut(PathBuf)) -> Result<Loaded<Scene>, Failure> {
-    let folder = path.parent().unwrap_or(Path::new(""));
     read_scenario(read(path)?, |name| {
-        let path = folder.join(name);
-        let bytes = regular(&path, |file| read_bytes(file, outline::SIZE_LIMIT));
+        let (path, bytes) = outline_file(path, name);
         each_file(path);
         bytes
     })
+}
+
+/// The bytes of the file that the scenario at `scenario` calls `name`, and where it is.
+pub(super) fn outline_file(scenario: &Path, name: &str) -> (PathBuf, Result<Vec<u8>, String>) {
+    let path = beside(scenario, name);
+    let bytes = regular(&path, |file| read_bytes(file, outline::SIZE_LIMIT));
+    (path, bytes)
+}
+
+/// The path of a file that the file at `path` names relative to itself.
+pub(super) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// A scenario that is part of the program.
@@ -188,6 +199,20 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
         PolicyFile::Text(source) => compiled(with_libraries(&source)),
+    }
+}
+
+/// The same, and the machine alone: what the compiler warns of takes most of its time.
+pub(super) fn program(path: &Path) -> Result<Loaded<Program>, Failure> {
+    let Loaded { value, hash } = policy_file(path)?;
+    let source = match value {
+        PolicyFile::Machine(artifact) => return Ok(Loaded { value: artifact.program, hash }),
+        PolicyFile::Text(source) => with_libraries(&source),
+    };
+    let hash = Sha256::new().chain_update(&source.text);
+    match policy::compile(&source) {
+        Ok(value) => Ok(Loaded { value, hash }),
+        Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
     }
 }
 

@@ -16,11 +16,15 @@ mod graph;
 mod input;
 mod job;
 mod lsp;
+mod merge;
 mod mjcf;
 mod output;
+mod plan;
 mod run;
+mod sweep;
 mod test;
 mod watch;
+mod worker;
 
 pub use arguments::Arguments;
 pub use exit::Exit;
@@ -37,6 +41,9 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Families(arguments) => families::families(arguments),
+        Command::Sweep(arguments) => sweep::sweep(arguments),
+        Command::Merge(arguments) => merge::merge(arguments),
+        Command::Worker(arguments) => worker::worker(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Graph(arguments) => graph::graph(arguments),

@@ -27,7 +27,6 @@ pub enum ExecuteError {
     #[error(transparent)]
     QuasiStatic(#[from] QuasiStaticError),
     /// The program was built without the world.
-    #[cfg(not(feature = "sim"))]
     #[error("this build has no world `{0}`; build it with the feature `sim`, or run in the world `quasistatic`")]
     NoWorld(WorldKind),
 }
@@ -61,15 +60,35 @@ pub(super) fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn
     }
 }
 
+/// Checks that this build has the world.
+///
+/// # Errors
+/// [`ExecuteError::NoWorld`]: it was built without.
+pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
+    let has_mujoco = cfg!(feature = "sim");
+    if kind == WorldKind::Mujoco && !has_mujoco { Err(ExecuteError::NoWorld(kind)) } else { Ok(()) }
+}
+
+/// The versions of this program and of its simulator.
+#[must_use]
+pub fn engine_version() -> String {
+    format!("{} with {}", env!("CARGO_PKG_VERSION"), simulator())
+}
+
+/// The version of MuJoCo, if this build has it.
+fn simulator() -> &'static str {
+    #[cfg(feature = "sim")]
+    return crate::world::engine_version();
+    #[cfg(not(feature = "sim"))]
+    return "none";
+}
+
 /// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
 /// the model that it is given.
 #[must_use]
 pub fn engine_hash(scene: &Scene, world: WorldKind) -> [u8; 32] {
     let engine = match world {
-        #[cfg(feature = "sim")]
-        WorldKind::Mujoco => crate::world::engine_version(),
-        #[cfg(not(feature = "sim"))]
-        WorldKind::Mujoco => "none",
+        WorldKind::Mujoco => simulator(),
         WorldKind::QuasiStatic => world.name(),
     };
     let mut hash = Sha256::new();

@@ -1,5 +1,5 @@
 //! Policies over scenarios: a run in full, from a scene and a program to its trace; many runs at once; the bench; families of
-//! scenes; policies against each other.
+//! scenes; policies against each other; sweeps.
 
 pub mod bench;
 pub mod calibrate;
@@ -9,8 +9,11 @@ mod execute;
 pub mod families;
 mod judge;
 mod parallel;
+pub mod sweep;
+mod tally;
 
 use execute::build;
-pub use execute::{ExecuteError, engine_hash, execute};
+pub use execute::{ExecuteError, check_world, engine_hash, engine_version, execute};
 pub use judge::violations;
-pub use parallel::{in_parallel, processors};
+pub use parallel::{in_parallel, processors, stream_in_parallel};
+pub use tally::{Ending, Figures, Tally};

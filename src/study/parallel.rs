@@ -1,8 +1,9 @@
 //! Work on several processors at once.
 
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::channel;
+use std::sync::mpsc::sync_channel;
 use std::thread::{available_parallelism, scope};
 
 /// How many threads make sense on this machine.
@@ -19,27 +20,56 @@ pub fn in_parallel<T: Sync, R: Send>(
     work: impl Fn(&T) -> R + Sync,
     mut done: impl FnMut(&R),
 ) -> Vec<R> {
+    let mut results = Vec::with_capacity(tasks.len());
+    stream_in_parallel(
+        tasks,
+        threads,
+        || (),
+        |(), task| work(task),
+        |index, result| {
+            done(&result);
+            results.push((index, result));
+            ControlFlow::Continue(())
+        },
+    );
+    results.sort_by_key(|&(index, _)| index);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// The same without keeping what comes of the tasks: `done` gets it, with the index of its task, and may break the work off, which
+/// then ends with the tasks that have begun. Tasks begin in their order. Each thread does its tasks with a `tool` of its own.
+pub fn stream_in_parallel<T: Sync, S, R: Send>(
+    tasks: &[T],
+    threads: NonZeroUsize,
+    tool: impl Fn() -> S + Sync,
+    work: impl Fn(&mut S, &T) -> R + Sync,
+    mut done: impl FnMut(usize, R) -> ControlFlow<()>,
+) {
     let next = AtomicUsize::new(0);
-    let (sender, receiver) = channel();
-    let mut results: Vec<(usize, R)> = scope(|scope| {
+    // A result at a time for each thread: who cannot keep up with them is not buried under them.
+    let (sender, receiver) = sync_channel(threads.get());
+    scope(|scope| {
         for _ in 0..threads.get().min(tasks.len()) {
-            let (sender, next, work) = (sender.clone(), &next, &work);
+            let (sender, next, tool, work) = (sender.clone(), &next, &tool, &work);
             scope.spawn(move || {
+                let mut tool = tool();
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(task) = tasks.get(index) else { break };
-                    // When nobody listens any more the program is about to end.
-                    if sender.send((index, work(task))).is_err() {
+                    // When nobody listens any more the work has been broken off.
+                    if sender.send((index, work(&mut tool, task))).is_err() {
                         break;
                     }
                 }
             });
         }
         drop(sender);
-        receiver.iter().inspect(|(_, result)| done(result)).collect()
+        for (index, result) in receiver {
+            if done(index, result).is_break() {
+                break;
+            }
+        }
     });
-    results.sort_by_key(|&(index, _)| index);
-    results.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]
@@ -56,5 +86,29 @@ mod tests {
             assert_eq!(heard, 200);
         }
         assert_eq!(in_parallel(&[], NonZeroUsize::MIN, |task: &u64| *task, |_| ()), [0_u64; 0]);
+    }
+
+    #[test]
+    fn work_that_is_broken_off_ends_with_the_tasks_that_have_begun() {
+        let tasks: Vec<u64> = (0..1000).collect();
+        let begun = AtomicUsize::new(0);
+        let work = |done: &mut u64, task: &u64| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            *done += 1;
+            (*done, *task)
+        };
+        let mut heard = Vec::new();
+        stream_in_parallel(
+            &tasks,
+            NonZeroUsize::MIN,
+            || 0,
+            work,
+            |index, (done, task)| {
+                heard.push((index, done, task));
+                if heard.len() < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        assert_eq!(heard, [(0, 1, 0), (1, 2, 1), (2, 3, 2), (3, 4, 3), (4, 5, 4)]);
+        assert!(begun.into_inner() < 10);
     }
 }

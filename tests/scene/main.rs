@@ -13,3 +13,4 @@ mod seams;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
 mod solids;
+mod sweeps;

@@ -40,10 +40,19 @@ impl Family {
     /// # Errors
     /// [`NoDraw`] when what was drawn is no scene, which would be a fault of the family.
     pub fn draw(&self, seed: u64, trial: u64) -> Result<Draw, NoDraw> {
+        self.draw_at(seed, trial, None)
+    }
+
+    /// The same scene for a run at a `speed` (m/s), or at the one that is drawn.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    pub fn draw_at(&self, seed: u64, trial: u64, speed: Option<f64>) -> Result<Draw, NoDraw> {
         let seed = scene_seed(self.name, seed, trial);
         let mut dice = Dice::new(seed);
         let layout = (self.lay)(&mut dice);
-        let speed = SPEEDS[dice.count(0, 2) as usize];
+        // The last number that is drawn, so that the scene is the same at every speed.
+        let speed = speed.unwrap_or_else(|| SPEEDS[dice.count(0, 2) as usize]);
         let name = format!("{}-{trial}", self.name);
         drawn(&layout, &name, seed, speed).ok_or(NoDraw { family: self.name, trial })
     }

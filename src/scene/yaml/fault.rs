@@ -1,4 +1,4 @@
-//! What the YAML parser refuses, as diagnostics; and the codes of all faults of a scenario.
+//! What the YAML parser refuses, as diagnostics; and the codes of all faults of scenarios and sweeps.
 
 use super::node::{Node, Placed, span_of};
 use crate::diagnostic::{Diagnostic, Source, Span};
@@ -49,16 +49,21 @@ pub(super) const FILE: &str = "S0401";
 pub(super) const OUTLINE: &str = "S0402";
 /// This build cannot read what a file holds.
 pub(super) const NOT_BUILT: &str = "S0403";
+/// A sweep would do the same run twice.
+pub(super) const REPEATED: &str = "S0501";
+/// A policy does not take what a sweep gives it.
+pub(super) const UNFIT: &str = "S0502";
 
 /// A scenario has a few dozen nodes; one that traces a shape has some thousands.
 const MAX_NODES: usize = 50_000;
 const MAX_BYTES: usize = 1 << 20;
 
-/// Parses a text into its tree. With a duplicate key the tree holds its first value, and comes with the fault.
-pub(super) fn parse(source: &Source) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
+/// Parses a text, which is a `what`, into its tree. With a duplicate key the tree holds its first value, and comes with the fault.
+pub(super) fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
     if source.text.len() > MAX_BYTES {
-        let fault = Diagnostic::error(TOO_LARGE, "the scenario is larger than 1 MiB", Span::default(), "of this file");
-        return Err(vec![fault.hint("a scenario is a page of text: is this the right file?")]);
+        let message = format!("the {what} is larger than 1 MiB");
+        let fault = Diagnostic::error(TOO_LARGE, message, Span::default(), "of this file");
+        return Err(vec![fault.hint(format!("a {what} is a page of text: is this the right file?"))]);
     }
     let parse = |duplicate_keys| {
         let options = serde_yaml::options! {
@@ -72,7 +77,7 @@ pub(super) fn parse(source: &Source) -> Result<(Placed<Node>, Vec<Diagnostic>), 
     match parse(DuplicateKeyPolicy::Error) {
         Ok(tree) => Ok((tree, Vec::new())),
         Err(error) => {
-            let faults = vec![diagnose(source, &error)];
+            let faults = vec![diagnose(source, what, &error)];
             let is_duplicate = matches!(error, Error::DuplicateMappingKey { .. });
             let tree = if is_duplicate { parse(DuplicateKeyPolicy::FirstWins).ok() } else { None };
             tree.map_or(Err(faults.clone()), |tree| Ok((tree, faults)))
@@ -80,7 +85,7 @@ pub(super) fn parse(source: &Source) -> Result<(Placed<Node>, Vec<Diagnostic>), 
     }
 }
 
-fn diagnose(source: &Source, error: &Error) -> Diagnostic {
+fn diagnose(source: &Source, what: &str, error: &Error) -> Diagnostic {
     let span = error.location().map_or(Span::default(), |location| place(source, location));
     let cause = if let Error::AliasError { error, .. } = error { error } else { error };
     match cause {
@@ -90,7 +95,8 @@ fn diagnose(source: &Source, error: &Error) -> Diagnostic {
                 .hint("a key or a name stands once in its mapping: take one out, or rename it")
         }
         Error::MultipleDocuments { .. } => {
-            Diagnostic::error(DOCUMENTS, "a file holds one scenario", span, "a second document begins here")
+            let message = format!("a file holds one {what}");
+            Diagnostic::error(DOCUMENTS, message, span, "a second document begins here")
                 .hint("put it into a file of its own, or take the line `---` out")
         }
         Error::Budget { .. }
@@ -99,11 +105,11 @@ fn diagnose(source: &Source, error: &Error) -> Diagnostic {
         | Error::AliasExpansionLimitExceeded { .. }
         | Error::AliasReplayStackDepthExceeded { .. } => Diagnostic::error(
             TOO_LARGE,
-            "the scenario is too large or too deeply nested",
+            format!("the {what} is too large or too deeply nested"),
             span,
             "the limit is passed here",
         )
-        .hint(format!("a scenario has at most {MAX_NODES} values, those that aliases repeat included")),
+        .hint(format!("a {what} has at most {MAX_NODES} values, those that aliases repeat included")),
         Error::RecursiveReferencesRequireWeakTypes { .. } => {
             Diagnostic::error(SYNTAX, "an alias stands inside what it stands for", span, "this goes round for ever")
                 .hint("write the value out")

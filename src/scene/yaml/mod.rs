@@ -3,6 +3,7 @@
 //! The parser gives a tree in which every node knows its place; reading walks the tree, and puts what is wrong on a list
 //! instead of stopping at it. Checks that take several values together come last and run on what could be read.
 
+mod change;
 mod expect;
 mod fault;
 mod fields;
@@ -19,8 +20,12 @@ mod rig;
 mod scene;
 mod start;
 mod stop;
+mod sweep;
 mod timing;
 mod tunnel;
 mod whisker;
 
+pub(super) use change::Change;
+pub(super) use change::read as read_changed;
 pub(super) use scene::read;
+pub(super) use sweep::{read as read_sweep, unfit, unreadable};

@@ -46,6 +46,28 @@ impl Node {
     }
 }
 
+impl Placed<Node> {
+    /// The same with all places `by` bytes farther on.
+    pub(super) fn moved(mut self, by: usize) -> Self {
+        self.move_on(by);
+        self
+    }
+
+    fn move_on(&mut self, by: usize) {
+        self.span = Span::new(self.span.start + by, self.span.end + by);
+        match &mut self.value {
+            Node::List(items) => items.iter_mut().for_each(|item| item.move_on(by)),
+            Node::Mapping(entries) => {
+                for Entry { key, value } in entries {
+                    key.span = Span::new(key.span.start + by, key.span.end + by);
+                    value.move_on(by);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
 /// The bytes of a parser's location; empty at the start of the text if it does not know them.
 pub(super) fn span_of(location: Location) -> Span {
     let byte = |index: Option<u64>| index.and_then(|index| usize::try_from(index).ok()).unwrap_or(0);

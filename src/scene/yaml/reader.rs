@@ -43,10 +43,10 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// The faults, in the order of the text.
-    pub(super) fn into_faults(mut self) -> Vec<Diagnostic> {
+    /// What has been read, or the faults, in the order of the text.
+    pub(super) fn finish<T>(mut self, read: Option<T>) -> Result<T, Vec<Diagnostic>> {
         self.faults.sort_by_key(|fault| fault.primary.span.start);
-        self.faults
+        read.filter(|_| self.faults.is_empty()).ok_or(self.faults)
     }
 
     /// Reports a value of the wrong type.

@@ -5,35 +5,40 @@ use super::node::{Entry, Node, Placed};
 use super::objects::Objects;
 use super::reader::Reader;
 use super::{expect, fault, object, rig, start, stop};
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::rig::Rig;
 use crate::scene::{Files, Scene, WorldKind};
 use std::path::PathBuf;
 
+const NAME_HINT: &str = "results are filed under this name; the `description` takes any text";
+
 /// Reads a scenario. The list of faults is never empty, and in the order of the text.
 pub(in crate::scene) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
-    let (tree, faults) = fault::parse(source)?;
+    let (tree, faults) = fault::parse(source, "scenario")?;
     let mut reader = Reader::new(source, files, faults);
     let scene = read_scene(&mut reader, &tree);
-    let faults = reader.into_faults();
-    match scene {
-        Some(scene) if faults.is_empty() => Ok(scene),
-        _ => Err(faults),
+    reader.finish(scene)
+}
+
+/// The place at which a text is pointed at that has `tree` as its root; `None` if there is nothing in it, which is told with what
+/// to write.
+pub(super) fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
+    match &tree.value {
+        Node::Mapping(entries) => Some(entries.first().map_or(tree.span, |first| first.key.span)),
+        Node::Null => {
+            let fault = Diagnostic::error(fault::EMPTY, format!("the {what} is empty"), tree.span, "nothing here");
+            reader.report(fault.hint(hint));
+            None
+        }
+        _ => Some(tree.span),
     }
 }
 
-fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
-    let place = match &tree.value {
-        Node::Mapping(entries) => entries.first().map_or(tree.span, |first| first.key.span),
-        Node::Null => {
-            let fault = Diagnostic::error(fault::EMPTY, "the scenario is empty", tree.span, "nothing here");
-            reader.report(fault.hint("write at least `name`, `objects`, `start` and `stop`; see scenarios/disk.yaml"));
-            return None;
-        }
-        _ => tree.span,
-    };
+pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
+    let hint = "write at least `name`, `objects`, `start` and `stop`; see scenarios/disk.yaml";
+    let place = root_place(reader, tree, "scenario", hint)?;
     let mut fields = Fields::of(reader, tree, "a scenario", place)?;
-    let name = fields.required("name", "disk").and_then(|entry| name(reader, entry));
+    let name = fields.required("name", "disk").and_then(|entry| name(reader, entry, "a scenario", NAME_HINT));
     let description = match fields.entry("description") {
         Some(entry) => reader.text(&entry.value).map(|text| text.value),
         None => Some(String::new()),
@@ -88,14 +93,15 @@ fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     })
 }
 
-fn name(reader: &mut Reader<'_>, entry: &Entry) -> Option<String> {
+/// Reads the name of `what`, which is to be a file's name.
+pub(super) fn name(reader: &mut Reader<'_>, entry: &Entry, what: &str, hint: &'static str) -> Option<String> {
     let name = reader.text(&entry.value)?;
     let is_fit = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');
     if name.value.is_empty() || name.value.len() > 64 || !name.value.chars().all(is_fit) {
-        let message = format!("a scenario cannot be called `{}`", name.value);
+        let message = format!("{what} cannot be called `{}`", name.value);
         let label = "must be 1 to 64 letters, digits, _ and -";
         let fault = Diagnostic::error(fault::NAME, message, name.span, label);
-        reader.report(fault.hint("results are filed under this name; the `description` takes any text"));
+        reader.report(fault.hint(hint));
         return None;
     }
     Some(name.value)

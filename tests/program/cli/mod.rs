@@ -8,4 +8,6 @@ mod fmt;
 mod graph;
 mod program;
 mod run;
+#[cfg(feature = "sim")]
+mod sweep;
 mod test;

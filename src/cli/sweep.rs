@@ -1,0 +1,102 @@
+//! `vibrissa sweep`
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::scene::Sweep;
+use crate::study::sweep::{
+    Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
+};
+use crate::study::{processors, stream_in_parallel};
+
+use super::arguments::SweepArguments;
+use super::exit::{Exit, Failure};
+use super::output;
+use super::plan::Plan;
+use super::run::make_directory;
+
+pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
+    let plan = Plan::read(&arguments.file)?;
+    plan.tell_warnings()?;
+    plan.check()?;
+    let sweep = &plan.sweep;
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
+    make_directory(Some(&directory))?;
+    let path = directory.join(arguments.shard.file_name());
+    let header = plan.header(arguments.shard);
+    let (mut results, mut done) = Results::open(&path, &header, sweep)?;
+    let resumed = done.len();
+    let runs = sweep.runs().filter(|run| arguments.shard.has(&run.key()));
+    let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
+    let bar = bar(resumed, left.len());
+    let fingerprint = header.fingerprint();
+    let start = || worker(&arguments.file, &fingerprint);
+    let mut failure = None;
+    stream_in_parallel(
+        &left,
+        arguments.jobs.unwrap_or_else(processors),
+        || None,
+        |slot, index| answer(slot, start, &index.to_string()),
+        |task, answer| {
+            let index = left[task];
+            let added = line(sweep, index, answer).and_then(|line| {
+                let (key, figures) = read_line(&line).map_err(Failure::Answer)?;
+                results.add(&line)?;
+                done.insert(index, figures);
+                bar.set_message(key);
+                bar.inc(1);
+                Ok(())
+            });
+            failure = added.err();
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    );
+    bar.finish_and_clear();
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    let summary = SweepSummary::new(sweep, &done, resumed);
+    tell(&summary, &path, arguments.json)?;
+    Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
+}
+
+/// A process for runs: this program once more, so that what ends it ends no other run.
+fn worker(sweep: &Path, fingerprint: &str) -> Result<Worker, StartError> {
+    let mut command = Command::new(std::env::current_exe()?);
+    Worker::start(command.arg("worker").arg(sweep), fingerprint)
+}
+
+/// The line of the run with this index.
+fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result<String, Failure> {
+    Ok(match (answer?, sweep.run(index)) {
+        (Answer::Crash(reason), Some(run)) => {
+            output::message(format_args!("{}: crashed: {reason}", run.key()));
+            serde_json::to_string(&SweepLine::crashed(&run, reason))?
+        }
+        (Answer::Line(line) | Answer::Crash(line), _) => line,
+    })
+}
+
+fn bar(resumed: usize, left: usize) -> ProgressBar {
+    let bar = ProgressBar::new((resumed + left) as u64).with_position(resumed as u64);
+    // What was there before took no time, and is not to count for the rate.
+    bar.reset_eta();
+    if let Ok(style) =
+        ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {per_sec}, {elapsed}, {eta} left; {msg}")
+    {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Prints what became of the runs whose results are at `path`.
+pub(super) fn tell(summary: &SweepSummary, path: &Path, json: bool) -> Result<(), Failure> {
+    if json {
+        return output::json(summary);
+    }
+    output::result(summary_table(&summary.groups))?;
+    output::result(format_args!("results: {}", PathBuf::from(path).display()))
+}

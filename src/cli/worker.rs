@@ -1,0 +1,54 @@
+//! `vibrissa worker`: the process in which runs of a sweep happen.
+
+use std::io::stdin;
+use std::sync::mpsc::channel;
+
+use crate::diagnostic::{Colour, terminal};
+use crate::scene::SweepRun;
+use crate::study::sweep::{Shard, SweepLine};
+
+use super::arguments::WorkerArguments;
+use super::batch::finished;
+use super::exit::{Exit, Failure};
+use super::output;
+use super::plan::Plan;
+
+/// Greets with the fingerprint of the sweep, and answers every index of a run with the run's line.
+pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
+    let plan = Plan::read(&arguments.file)?;
+    output::result(plan.header(Shard::WHOLE).fingerprint())?;
+    let (sender, requests) = channel();
+    std::thread::spawn(move || {
+        for request in stdin().lines().map_while(Result::ok) {
+            if sender.send(request).is_err() {
+                break;
+            }
+        }
+        // Whoever asks is gone, also in the middle of a run: nobody waits for its result.
+        std::process::exit(0);
+    });
+    for request in requests {
+        let Some(run) = request.parse().ok().and_then(|index| plan.sweep.run(index)) else {
+            return Ok(Exit::Unusable);
+        };
+        output::result(serde_json::to_string(&line(&plan, &run))?)?;
+    }
+    Ok(Exit::Done)
+}
+
+fn line(plan: &Plan, run: &SweepRun<'_>) -> SweepLine {
+    let finished = plan.job(run).and_then(|job| Ok((finished(&job, |_| false)?, job)));
+    match finished {
+        Ok((finished, job)) => {
+            SweepLine::ran(run, job.scene.description, finished.violations.is_empty(), finished.result)
+        }
+        Err(failure) => SweepLine::refused(run, reason(&failure)),
+    }
+}
+
+fn reason(failure: &Failure) -> String {
+    match failure {
+        Failure::Faults { source_text, faults } => terminal(source_text, faults, Colour::Plain),
+        other => other.to_string(),
+    }
+}

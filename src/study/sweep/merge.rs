@@ -1,0 +1,115 @@
+//! The results of a sweep's shards as one.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use super::header::Header;
+use super::line::read_line;
+use super::results::{ResultsError, indices, read};
+use super::shard::Shard;
+use crate::diagnostic::Source;
+use crate::scene::Sweep;
+use crate::study::Figures;
+
+/// The results of all parts of a sweep.
+#[derive(Debug)]
+pub struct Merged {
+    /// What they are results of, with the part that the first file has.
+    pub header: Header,
+    /// The sweep.
+    pub sweep: Sweep,
+    /// The lines of the runs, by index.
+    pub lines: BTreeMap<u64, String>,
+    /// What is counted of them.
+    pub figures: BTreeMap<u64, Figures>,
+}
+
+/// A run without a result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Missing {
+    /// Its key.
+    pub key: String,
+    /// The part of the sweep that it belongs to.
+    pub shard: Shard,
+}
+
+/// Joins files of results; `None` if there are none.
+///
+/// # Errors
+/// [`ResultsError`] when they are not results of one and the same sweep, or a run has two.
+pub fn merge(paths: &[PathBuf]) -> Result<Option<Merged>, ResultsError> {
+    let mut merged: Option<Merged> = None;
+    let mut owners = BTreeMap::new();
+    for path in paths {
+        let mut file = File::open(path).map_err(ResultsError::file(path))?;
+        let mut found = Vec::new();
+        let is_same = |header: &Header| {
+            let difference = merged.as_ref().and_then(|merged| header.difference(&merged.header));
+            difference.map_or(Ok(()), |difference| Err(ResultsError::Other { path: path.clone(), difference }))
+        };
+        let (header, _) = read(path, &mut file, is_same, |number, line| {
+            let wrong = |cause: serde_json::Error| ResultsError::Line {
+                path: path.clone(),
+                line: number,
+                cause: cause.to_string(),
+            };
+            let (key, figures) = read_line(line).map_err(wrong)?;
+            found.push((number, key, figures, line.trim_end().to_owned()));
+            Ok(())
+        })?;
+        let no_header = || ResultsError::NoResults { path: path.clone(), cause: "it is empty".to_owned() };
+        let header = header.ok_or_else(no_header)?;
+        let merged = match &mut merged {
+            Some(merged) => merged,
+            none => none.insert(Merged::new(path, header)?),
+        };
+        let indices = indices(&merged.sweep);
+        for (line, key, figures, text) in found {
+            let Some(&index) = indices.get(&key) else {
+                let cause = format!("there is no run `{key}` in the sweep");
+                return Err(ResultsError::Line { path: path.clone(), line, cause });
+            };
+            if let Some(first) = owners.insert(index, path) {
+                return Err(ResultsError::Twice { first: first.clone(), second: path.clone(), key });
+            }
+            merged.lines.insert(index, text);
+            merged.figures.insert(index, figures);
+        }
+    }
+    Ok(merged)
+}
+
+impl Merged {
+    fn new(path: &Path, header: Header) -> Result<Self, ResultsError> {
+        let source = Source::new(path.display().to_string(), &*header.text);
+        let sweep = Sweep::from_yaml(&source).map_err(|_| ResultsError::NoResults {
+            path: path.to_owned(),
+            cause: "this version of the program cannot read the sweep that it holds".to_owned(),
+        })?;
+        Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
+    }
+
+    /// The runs that have no result.
+    pub fn missing(&self) -> impl Iterator<Item = Missing> {
+        let missing = self.sweep.runs().filter(|run| !self.lines.contains_key(&run.index));
+        missing.map(|run| {
+            let key = run.key();
+            Missing { shard: self.header.shard.of_run(&key), key }
+        })
+    }
+
+    /// The results as a file has them, in the order of the runs.
+    ///
+    /// # Errors
+    /// The header cannot be written as JSON, which would be a fault of the program.
+    pub fn text(&self) -> serde_json::Result<String> {
+        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE))?;
+        for line in self.lines.values() {
+            text.push('\n');
+            text += line;
+        }
+        text.push('\n');
+        Ok(text)
+    }
+}

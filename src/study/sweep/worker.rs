@@ -1,0 +1,180 @@
+//! Processes in which runs happen: what ends one costs no other run.
+
+use std::io::{self, BufRead, BufReader, Write};
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::thread::JoinHandle;
+
+/// How many of the last lines that a process wrote to standard error tell why it ended.
+const LAST_LINES: usize = 3;
+
+/// How often a run is begun whose process ends: what a machine was short of for a moment, it may have the second time.
+const ATTEMPTS: usize = 2;
+
+/// A process that answers every line on its standard input with a line on its standard output.
+#[derive(Debug)]
+pub struct Worker {
+    child: Child,
+    /// `None` when it has been closed.
+    requests: Option<ChildStdin>,
+    answers: BufReader<ChildStdout>,
+    /// Collects the last lines of standard error.
+    errors: Option<JoinHandle<Vec<String>>>,
+}
+
+/// Why a worker cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// Its process cannot be started.
+    #[error("a process for runs cannot be started: {0}")]
+    Process(#[from] io::Error),
+    /// Its process ended.
+    #[error("a process for runs ended before its first: {0}")]
+    Ended(String),
+    /// It would do other runs.
+    #[error(
+        "the sweep, or a file that it names, has changed since it began; go on with it as it was, or choose another place with --out"
+    )]
+    Changed,
+}
+
+/// What a worker gives for a request.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// The line that it answered.
+    Line(String),
+    /// Its process ended, and so did the next one's, for this reason.
+    Crash(String),
+}
+
+impl Worker {
+    /// Starts `command`, whose first line must be the `greeting`.
+    ///
+    /// # Errors
+    /// [`StartError`] when it does not start, or says something else.
+    pub fn start(command: &mut Command, greeting: &str) -> Result<Self, StartError> {
+        let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn()?;
+        let missing = || io::Error::other("it has no standard streams");
+        let requests = child.stdin.take();
+        let answers = BufReader::new(child.stdout.take().ok_or_else(missing)?);
+        let errors = child.stderr.take().ok_or_else(missing)?;
+        let errors = Some(std::thread::spawn(move || last_lines(errors)));
+        let mut worker = Self { child, requests, answers, errors };
+        match worker.line() {
+            Ok(line) if line == greeting => Ok(worker),
+            Ok(_) => Err(StartError::Changed),
+            Err(_) => Err(StartError::Ended(worker.end())),
+        }
+    }
+
+    fn ask(&mut self, request: &str) -> io::Result<String> {
+        let requests = self.requests.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        requests.write_all(format!("{request}\n").as_bytes())?;
+        self.line()
+    }
+
+    fn line(&mut self) -> io::Result<String> {
+        let mut line = String::new();
+        self.answers.read_line(&mut line)?;
+        // A line without an end is the last of a process that ended while it wrote it.
+        line.strip_suffix('\n').map(str::to_owned).ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
+    }
+
+    /// Waits for the process, whose output has ended, and says why it did.
+    fn end(&mut self) -> String {
+        self.requests = None;
+        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let errors = self.errors.take().and_then(|errors| errors.join().ok()).unwrap_or_default();
+        if errors.is_empty() { status } else { format!("{status}: {}", errors.join(" | ")) }
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        // A worker ends when its input does.
+        self.end();
+    }
+}
+
+fn last_lines(errors: ChildStderr) -> Vec<String> {
+    let mut last = Vec::new();
+    let mut errors = BufReader::new(errors);
+    let mut line = Vec::new();
+    while errors.read_until(b'\n', &mut line).is_ok_and(|bytes| bytes > 0) {
+        let text = String::from_utf8_lossy(&line).trim().chars().take(400).collect::<String>();
+        line.clear();
+        if !text.is_empty() {
+            last.push(text);
+        }
+        if last.len() > LAST_LINES {
+            last.remove(0);
+        }
+    }
+    last
+}
+
+/// Has a request answered by the worker in `slot`, which gets a new one where there is none or it ends. A request at which two
+/// workers end is given up.
+///
+/// # Errors
+/// [`StartError`] when there is no other worker to be had.
+pub fn answer(
+    slot: &mut Option<Worker>,
+    start: impl Fn() -> Result<Worker, StartError>,
+    request: &str,
+) -> Result<Answer, StartError> {
+    let mut reason = String::new();
+    for _ in 0..ATTEMPTS {
+        let worker = match slot {
+            Some(worker) => worker,
+            None => slot.insert(start()?),
+        };
+        match worker.ask(request) {
+            Ok(line) => return Ok(Answer::Line(line)),
+            Err(_) => reason = slot.take().map_or(reason, |mut worker| worker.end()),
+        }
+    }
+    Ok(Answer::Crash(format!("its process ended {ATTEMPTS} times, at last with {reason}")))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+
+    /// A worker that doubles numbers; it dies of 13, and of 7 if it has not the file `mark` to say that it has done so before.
+    fn start(mark: &str) -> Result<Worker, StartError> {
+        let script = format!(
+            "echo ready; while read n; do
+               if [ $n = 13 ]; then echo out of luck >&2; kill -9 $$; fi
+               if [ $n = 7 ] && [ ! -e {mark} ]; then touch {mark}; exit 5; fi
+               echo $((2 * n))
+             done"
+        );
+        Worker::start(Command::new("sh").args(["-c", &script]), "ready")
+    }
+
+    #[test]
+    fn a_worker_that_ends_costs_its_request_alone_and_that_only_the_second_time() {
+        let mark = std::env::temp_dir().join(format!("vibrissa-worker-{}", std::process::id()));
+        let mark_text = mark.display().to_string();
+        let mut slot = None;
+        let mut ask = |request: &str| answer(&mut slot, || start(&mark_text), request).unwrap();
+        let line = |text: &str| Answer::Line(text.to_owned());
+        assert_eq!(ask("4"), line("8"));
+        assert_eq!(ask("7"), line("14"));
+        let Answer::Crash(reason) = ask("13") else { panic!("13 was answered") };
+        assert!(reason.contains("SIGKILL") && reason.ends_with("out of luck"), "{reason}");
+        assert_eq!(ask("21"), line("42"));
+        std::fs::remove_file(mark).unwrap();
+    }
+
+    #[test]
+    fn a_worker_that_greets_otherwise_or_not_at_all_is_not_used() {
+        let start = |script: &str| Worker::start(Command::new("sh").args(["-c", script]), "ready");
+        assert!(matches!(start("echo steady; cat"), Err(StartError::Changed)));
+        let Err(StartError::Ended(reason)) = start("echo no such sweep >&2; exit 2") else { panic!("it has begun") };
+        assert!(reason.contains('2') && reason.ends_with("no such sweep"), "{reason}");
+        assert!(matches!(Worker::start(&mut Command::new("/no/such"), "ready"), Err(StartError::Process(_))));
+    }
+}

@@ -1,0 +1,140 @@
+//! What became of many runs.
+
+use serde::{Deserialize, Serialize};
+
+use crate::report::{NONE, RunResult, millimetres};
+use crate::scene::Outcome;
+
+/// How a run of many ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ending {
+    /// As it should.
+    Completed,
+    /// It was not there in time.
+    Timeout,
+    /// It failed.
+    Failed,
+    /// It can no longer be trusted.
+    Diverged,
+    /// It ended the process that it ran in.
+    Crashed,
+    /// It could not begin.
+    Refused,
+}
+
+impl From<Outcome> for Ending {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Completed => Self::Completed,
+            Outcome::Timeout => Self::Timeout,
+            Outcome::Failed => Self::Failed,
+            Outcome::Diverged => Self::Diverged,
+        }
+    }
+}
+
+/// What is counted of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figures {
+    /// How it ended.
+    pub ending: Ending,
+    /// Whether it was as its scenario expects.
+    pub passed: bool,
+    /// Whether the body touched something.
+    pub collided: bool,
+    /// Mean of its errors (mm).
+    pub error_mean_mm: Option<f64>,
+    /// Their 95th percentile (mm).
+    pub error_p95_mm: Option<f64>,
+}
+
+impl Figures {
+    /// Those of a run that took place, and `passed` or not.
+    #[must_use]
+    pub fn new(result: &RunResult, passed: bool) -> Self {
+        Self {
+            ending: result.outcome.into(),
+            passed,
+            collided: result.collisions.count > 0,
+            error_mean_mm: result.error_mm.mean,
+            error_p95_mm: result.error_mm.p95,
+        }
+    }
+}
+
+/// What became of some runs.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Tally {
+    /// How many runs there were.
+    pub runs: usize,
+    /// How many completed.
+    pub completed: usize,
+    /// How many completed as their scenarios expect; those of families without a contact of the body.
+    pub clean: usize,
+    /// How many were not there in time.
+    pub timeout: usize,
+    /// How many failed.
+    pub failed: usize,
+    /// How many can no longer be trusted.
+    pub diverged: usize,
+    /// How many ended the process that they ran in.
+    pub crashed: usize,
+    /// How many could not begin.
+    pub refused: usize,
+    /// In how many the body touched something.
+    pub collided: usize,
+    /// Mean of the runs' mean errors, those that completed (mm).
+    pub error_mean_mm: Option<f64>,
+    /// Mean of their 95th percentiles (mm).
+    pub error_p95_mm: Option<f64>,
+}
+
+impl Tally {
+    pub(super) const HEADINGS: [&str; 9] =
+        ["runs", "completed", "and clean", "timeout", "failed", "diverged", "collided", "error mm", "p95"];
+
+    /// Counts some runs.
+    #[must_use]
+    pub fn new(runs: impl IntoIterator<Item = Figures>) -> Self {
+        let runs: Vec<_> = runs.into_iter().collect();
+        let count = |counts: &dyn Fn(&Figures) -> bool| runs.iter().filter(|run| counts(run)).count();
+        let ended = |ending| count(&|run| run.ending == ending);
+        let completed = || runs.iter().filter(|run| run.ending == Ending::Completed);
+        Self {
+            runs: runs.len(),
+            completed: ended(Ending::Completed),
+            clean: count(&|run| run.passed),
+            timeout: ended(Ending::Timeout),
+            failed: ended(Ending::Failed),
+            diverged: ended(Ending::Diverged),
+            crashed: ended(Ending::Crashed),
+            refused: ended(Ending::Refused),
+            collided: count(&|run| run.collided),
+            error_mean_mm: mean(completed().filter_map(|run| run.error_mean_mm)),
+            error_p95_mm: mean(completed().filter_map(|run| run.error_p95_mm)),
+        }
+    }
+
+    /// What stands under the headings.
+    pub(super) fn cells(&self) -> [String; 9] {
+        let share = |count: usize| format!("{:.1} %", 100.0 * count as f64 / self.runs as f64);
+        let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
+        [
+            self.runs.to_string(),
+            share(self.completed),
+            share(self.clean),
+            self.timeout.to_string(),
+            self.failed.to_string(),
+            self.diverged.to_string(),
+            self.collided.to_string(),
+            figure(self.error_mean_mm),
+            figure(self.error_p95_mm),
+        ]
+    }
+}
+
+fn mean(figures: impl Iterator<Item = f64>) -> Option<f64> {
+    let figures: Vec<f64> = figures.collect();
+    (!figures.is_empty()).then(|| figures.iter().sum::<f64>() / figures.len() as f64)
+}

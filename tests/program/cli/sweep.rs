@@ -1,0 +1,242 @@
+//! `vibrissa sweep` and `vibrissa merge`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::program::{ROOT, directory, stderr, stdout, vibrissa};
+
+/// Runs in the directory that take some tenths of a second each, six for every policy and two settings.
+fn sweep_in(directory: &Path) -> String {
+    let text = format!(
+        "name: small\npolicies: [{ROOT}/policies/vibrissa.fsm, {ROOT}/policies/thesis.fsm]\nscenes:\n  \
+         - {{scenario: {ROOT}/scenarios/disk.yaml, trials: 4}}\n  - {{family: convex-corner, trials: 2}}\nvary:\n  \
+         policy: {{speed: [4 cm/s, 5 cm/s]}}\n  \
+         scenario: {{stop: [{{time: 8 s}}], rig.sensing.angle_noise: [0.5 urad]}}\n"
+    );
+    let path = directory.join("small.yaml").display().to_string();
+    fs::write(&path, text).unwrap();
+    path
+}
+
+const RUNS: usize = 24;
+
+fn sweep(arguments: &[&str]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.arg("sweep").args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+/// The lines of a file of results, without the times that runs took.
+fn lines(path: &Path) -> Vec<String> {
+    let text = fs::read_to_string(path).unwrap();
+    let line = |line: &str| {
+        let mut result: Value = serde_json::from_str(line).unwrap();
+        for time in ["wall_s", "realtime", "tick_us"] {
+            result.as_object_mut().unwrap().remove(time);
+        }
+        result.to_string()
+    };
+    text.lines().map(line).collect()
+}
+
+/// The same as a set, after looking that none is there twice.
+fn set(path: &Path) -> BTreeSet<String> {
+    let lines = lines(path);
+    let set: BTreeSet<_> = lines.iter().cloned().collect();
+    assert_eq!(set.len(), lines.len());
+    set
+}
+
+fn wait_for(what: &str, mut holds: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no {what} in two minutes");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn count(path: &Path) -> usize {
+    fs::read(path).map_or(0, |bytes| bytes.iter().filter(|&&byte| byte == b'\n').count())
+}
+
+/// The processes that a process has started.
+#[cfg(target_os = "linux")]
+fn children(parent: u32) -> Vec<u32> {
+    let processes = fs::read_dir("/proc").unwrap().flatten();
+    let processes = processes.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
+    let parent_of = |process: u32| {
+        let status = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+        status.rsplit_once(") ")?.1.split(' ').nth(1)?.parse::<u32>().ok()
+    };
+    processes.filter(|&process| parent_of(process) == Some(parent)).collect()
+}
+
+#[test]
+fn a_sweep_that_was_killed_is_gone_on_with_and_gives_what_it_would_have_given() {
+    let directory = directory("sweep-killed");
+    let file = sweep_in(&directory);
+    let [whole, killed] = ["whole", "killed"].map(|name| directory.join(name));
+    let [whole_out, killed_out] = [&whole, &killed].map(|path| path.display().to_string());
+    let output = vibrissa(&["sweep", &file, "--out", &whole_out, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let summary: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(summary["groups"].as_array().unwrap().len(), 8);
+
+    let results = killed.join("results.jsonl");
+    for done in [3, 9] {
+        let mut sweep = sweep(&[&file, "--jobs", "2", "--out", &killed_out]);
+        wait_for("results", || count(&results) > done);
+        // SIGKILL: it has no chance to say good-bye.
+        sweep.kill().unwrap();
+        sweep.wait().unwrap();
+        // What a kill in the middle of writing leaves.
+        let mut torn = fs::read(&results).unwrap();
+        torn.extend(br#"{"run":"0123456789abcdef","key":"scen"#);
+        fs::write(&results, torn).unwrap();
+    }
+    let output = vibrissa(&["sweep", &file, "--out", &killed_out, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let summary: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(summary["resumed"].as_u64().unwrap() >= 9);
+    let results = whole.join("results.jsonl");
+    assert_eq!(lines(&results).len(), RUNS + 1);
+    assert_eq!(set(&killed.join("results.jsonl")), set(&results));
+
+    for (change, told) in [("text", "another text of the sweep"), ("shard", "the shard 1/1")] {
+        let mut arguments = vec!["sweep", &file, "--out", &whole_out];
+        if change == "text" {
+            fs::write(&file, fs::read_to_string(&file).unwrap() + "# changed\n").unwrap();
+        } else {
+            sweep_in(&directory);
+            fs::rename(&results, whole.join("shard-1-of-2.jsonl")).unwrap();
+            arguments.extend(["--shard", "1/2"]);
+        }
+        let output = vibrissa(&arguments);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn shards_are_merged_in_order_and_what_is_missing_or_twice_is_told() {
+    let directory = directory("sweep-shards");
+    let file = sweep_in(&directory);
+    let out = |name: &str| directory.join(name).display().to_string();
+    for shard in ["1/3", "2/3", "3/3"] {
+        let output = vibrissa(&["sweep", &file, "--out", &out("shards"), "--shard", shard]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    assert_eq!(vibrissa(&["sweep", &file, "--out", &out("whole"), "--jobs", "1"]).status.code(), Some(0));
+    let output = vibrissa(&["merge", &out("shards")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // One run at a time is in order by itself.
+    let shards = directory.join("shards");
+    assert_eq!(lines(&shards.join("results.jsonl")), lines(&directory.join("whole/results.jsonl")));
+    // The result is one that a sweep goes on with.
+    let output = vibrissa(&["sweep", &file, "--out", &out("shards"), "--json"]);
+    let summary: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(summary["resumed"], RUNS);
+
+    fs::remove_file(shards.join("results.jsonl")).unwrap();
+    let second = shards.join("shard-2-of-3.jsonl");
+    let text = fs::read_to_string(&second).unwrap();
+    let (kept, last) = text.trim_end().rsplit_once('\n').unwrap();
+    fs::write(&second, kept.to_owned() + "\n").unwrap();
+    let output = vibrissa(&["merge", &out("shards")]);
+    assert_eq!(output.status.code(), Some(1));
+    let key = serde_json::from_str::<Value>(last).unwrap()["key"].as_str().unwrap().to_owned();
+    let told = stderr(&output);
+    assert!(told.contains(&format!("missing: {key} (shard 2/3)")) && told.contains("1 run is missing"), "{told}");
+    assert!(!shards.join("results.jsonl").exists());
+
+    let output = vibrissa(&["merge", &second.display().to_string(), &second.display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("both have the run"), "{}", stderr(&output));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_process_for_runs_that_is_killed_costs_nothing_and_none_outlives_the_sweep() {
+    let directory = directory("sweep-workers");
+    let file = sweep_in(&directory);
+    let out = directory.join("out");
+    let results = out.join("results.jsonl");
+    let mut sweep = sweep(&[&file, "--jobs", "1", "--out", &out.display().to_string()]);
+    for done in [1, 2] {
+        wait_for("results", || count(&results) > done);
+        for worker in children(sweep.id()) {
+            Command::new("kill").args(["-KILL", &worker.to_string()]).status().unwrap();
+        }
+    }
+    wait_for("results", || count(&results) > 5);
+    let workers = children(sweep.id());
+    assert_eq!(workers.len(), 1);
+    sweep.kill().unwrap();
+    sweep.wait().unwrap();
+    let stat = |worker: &u32| fs::read_to_string(format!("/proc/{worker}/stat")).unwrap_or_default();
+    // One that has ended may be waiting for somebody to ask how.
+    let is_gone = |worker: &u32| stat(worker).is_empty() || stat(worker).contains(") Z ");
+    wait_for("end of the worker", || workers.iter().all(is_gone));
+    let is_completed = |line: &String| line.contains(r#""outcome":"completed""#);
+    assert!(lines(&results).iter().skip(1).all(is_completed));
+}
+
+#[test]
+fn faults_of_a_sweep_and_of_what_it_names_are_told_with_their_place() {
+    let directory = directory("sweep-faults");
+    let file = directory.join("bad.yaml");
+    let told = |text: &str| {
+        fs::write(&file, text).unwrap();
+        let output = vibrissa(&["sweep", &file.display().to_string(), "--out", &directory.display().to_string()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(count(&directory.join("results.jsonl")), 0);
+        stderr(&output)
+    };
+    let head = format!("name: bad\npolicies: [{ROOT}/policies/vibrissa.fsm]\n");
+    let disk = format!("scenes: [{{scenario: {ROOT}/scenarios/disk.yaml}}]\n");
+    for (text, code, place) in [
+        ("name: bad\npolicies: [none.fsm]\nscenes: [{family: polygon}]\n".to_owned(), "S0401", "bad.yaml:2:12"),
+        (format!("{head}scenes: [{{scenario: none.yaml}}]\n"), "S0401", "bad.yaml:3:21"),
+        (format!("{head}{disk}vary: {{policy: {{sped: [2 cm/s]}}}}\n"), "S0502", "bad.yaml:4:24"),
+        (format!("{head}{disk}vary: {{policy: {{speed: [5 cm/s, 2 deg]}}}}\n"), "S0502", "bad.yaml:4:33"),
+        (format!("{head}{disk}vary: {{scenario: {{rig.physics.step: [1.5 ms]}}}}\n"), "S0303", "bad.yaml:4:38"),
+        (format!("{head}{disk}vary: {{scenario: {{rig.physic.step: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:23"),
+        (format!("{head}{disk}vary: {{scenario: {{stop.time.x: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:29"),
+        (format!("{head}{disk}vary: {{scenario: {{stop.time: [1]}}}}\n"), "S0201", "bad.yaml:4:31"),
+    ] {
+        let told = told(&text);
+        assert!(told.contains(&format!("error[{code}]")) && told.contains(place), "{code} at {place}, {text}\n{told}");
+    }
+}
+
+#[test]
+fn results_that_are_something_else_are_left_alone() {
+    let directory = directory("sweep-other");
+    let file = sweep_in(&directory);
+    let results: PathBuf = directory.join("results.jsonl");
+    for text in ["letters to a friend", "letters\nto a friend\n", "{}\n"] {
+        fs::write(&results, text).unwrap();
+        let output = vibrissa(&["sweep", &file, "--out", &directory.display().to_string()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("does not begin as results of a sweep do"), "{}", stderr(&output));
+        assert_eq!(fs::read_to_string(&results).unwrap(), text);
+    }
+    let empty = directory.join("empty");
+    fs::create_dir(&empty).unwrap();
+    let output = vibrissa(&["merge", &empty.display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("there are no results of a sweep"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_sweep_as_an_array_of_slurm_jobs_gives_what_it_gives_without() {
+    let script = Path::new(ROOT).join("deploy/slurm/test.sh");
+    let output = Command::new(script).arg(env!("CARGO_BIN_EXE_vibrissa")).output().unwrap();
+    // It says so where Slurm is not installed, and ends well.
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    print!("{}", stdout(&output));
+}

@@ -1,0 +1,109 @@
+//! Sweeps: their runs, and what a malformed one is answered with.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::snapshots::snapshots;
+use proptest::prelude::*;
+use vibrissa::diagnostic::{Colour, Source, terminal};
+use vibrissa::scene::{ScenesOf, Sweep, SweepRun};
+use vibrissa::study::sweep::Shard;
+
+const CORNERS: &str = include_str!("../../sweeps/corners.yaml");
+const FRICTION: &str = include_str!("../../sweeps/friction.yaml");
+
+fn sweep(text: &str) -> Sweep {
+    let source = Source::new("sweep.yaml", text);
+    Sweep::from_yaml(&source).map_err(|faults| terminal(&source, &faults, Colour::Plain)).unwrap()
+}
+
+#[test]
+fn every_malformed_sweep_is_answered_as_reviewed() {
+    snapshots("sweeps").bind(|| {
+        insta::glob!("../fixtures/sweeps/bad", "*.yaml", |path| {
+            let name = path.file_name().unwrap().to_string_lossy();
+            let source = Source::new(name, std::fs::read_to_string(path).unwrap());
+            let faults = Sweep::from_yaml(&source).unwrap_err();
+            insta::assert_snapshot!("bad", terminal(&source, &faults, Colour::Plain));
+        });
+    });
+}
+
+#[test]
+fn a_value_that_a_policy_does_not_take_is_told_at_its_place() {
+    let source = Source::new("sweep.yaml", FRICTION);
+    let sweep = Sweep::from_yaml(&source).unwrap();
+    let run = sweep.samples().next().unwrap();
+    let (_, _, place) = run.parameters().next().unwrap();
+    let faults =
+        [run.unfit(Some(place), "the policy has no parameter `speed`"), run.unfit(None, "there is no whisker `r1`")];
+    snapshots("sweeps").bind(|| insta::assert_snapshot!("unfit", terminal(&source, &faults, Colour::Plain)));
+}
+
+#[test]
+fn the_sweep_of_corners_is_a_thousand_scenes_under_two_policies() {
+    let sweep = sweep(CORNERS);
+    let runs: Vec<_> = sweep.runs().collect();
+    assert_eq!(runs.len(), 2000);
+    assert!(
+        runs.iter().all(|run| matches!(run.scenes().of, ScenesOf::Family(family) if family.name == "convex-corner"))
+    );
+    let keys: BTreeSet<_> = runs.iter().map(SweepRun::key).collect();
+    assert_eq!(keys.len(), 2000);
+    assert!(keys.contains("family=convex-corner, trial=999, policy=thesis"));
+    assert_eq!(sweep.samples().count(), 2);
+}
+
+#[test]
+fn runs_are_all_combinations_and_samples_have_every_value_once() {
+    let sweep = sweep(FRICTION);
+    let keys: BTreeSet<_> = sweep.runs().map(|run| run.key()).collect();
+    assert_eq!(keys.len(), 30 * 4);
+    let mut values: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
+    for (name, value) in sweep.samples().flat_map(|run| run.settings().collect::<Vec<_>>()) {
+        values.entry(name).or_default().insert(value);
+    }
+    assert_eq!(values["speed"].len() + values["rig.physics.friction"].len(), 4);
+    // Three kinds of scenes as the first values have them, with another speed, and with another friction.
+    assert_eq!(sweep.samples().count(), 9);
+    assert!(sweep.samples().all(|run| run.trial == 0));
+    for (index, run) in sweep.runs().enumerate() {
+        assert_eq!((run.index, sweep.run(run.index).unwrap().key()), (index as u64, run.key()));
+    }
+    assert!(sweep.run(120).is_none() && sweep.run(u64::MAX).is_none());
+}
+
+proptest! {
+    #[test]
+    fn what_is_added_to_a_sweep_changes_no_run_that_was_there(
+        trials in 1_u64..20, more in 0_u64..20, speeds in 1_usize..4, faster in 0_usize..3, of in 1_u64..9,
+    ) {
+        let text = |trials: u64, speeds: usize, policies: &str| {
+            let speeds: Vec<_> = (1..=speeds).map(|speed| format!("{speed} cm/s")).collect();
+            format!("name: x\npolicies: [{policies}]\nscenes: [{{family: polygon, trials: {trials}}}, {{scenario: a.yaml}}]\n\
+                     vary: {{policy: {{speed: [{}]}}}}\n", speeds.join(", "))
+        };
+        let (few, many) = (sweep(&text(trials, speeds, "b.fsm")), sweep(&text(trials + more, speeds + faster, "a.fsm, b.fsm")));
+        let keys = |sweep: &Sweep| sweep.runs().map(|run| run.key()).collect::<BTreeSet<_>>();
+        prop_assert!(keys(&few).is_subset(&keys(&many)));
+        let shards: Vec<Shard> = (1..=of).map(|number| format!("{number}/{of}").parse().unwrap()).collect();
+        for key in keys(&many) {
+            prop_assert_eq!(shards.iter().filter(|shard| shard.has(&key)).count(), 1);
+        }
+    }
+
+    #[test]
+    fn any_mutation_of_a_good_sweep_is_answered(
+        start in 0..FRICTION.len(), length in 0_usize..12, insert in "[-a-z0-9:{}\\[\\]'\"&*%. \n\u{b5}]{0,6}",
+    ) {
+        let end = (start + length).min(FRICTION.len());
+        let source = Source::new("sweep.yaml", format!("{}{insert}{}", &FRICTION[..start], &FRICTION[end..]));
+        if let Err(faults) = Sweep::from_yaml(&source) {
+            prop_assert!(!faults.is_empty());
+            for fault in &faults {
+                prop_assert!(!fault.hints.is_empty(), "no advice: {:?}", fault);
+                let span = fault.primary.span;
+                prop_assert!(source.text.get(span.start..span.end).is_some(), "not in the text: {:?}", fault);
+            }
+        }
+    }
+}
