@@ -22,7 +22,7 @@ mod way;
 
 pub(crate) use activity::TIME_SLACK;
 pub(crate) use evaluate::compute;
-pub(crate) use operands::{Effect, Place, Role};
+pub(crate) use operands::{Effect, Operands, Place, Role};
 
 pub use action::{Action, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};

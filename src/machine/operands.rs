@@ -3,7 +3,7 @@
 
 use super::op::{Op, Register};
 
-/// What one operation does with the registers and with the order of the code.
+/// What one operation does with the registers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Operands {
     /// Where the result and what is remembered go.
@@ -12,8 +12,14 @@ pub(crate) struct Operands {
     pub(crate) reads: [Place; 3],
     /// Where the index of a whisker is read.
     pub(crate) whisker: Option<Register>,
-    /// Where a jump leads.
-    pub(crate) target: Option<u32>,
+}
+
+impl Operands {
+    /// Where anything is read: numbers, what is remembered, the index of a whisker.
+    pub(crate) fn all_reads(&self) -> [Place; 4] {
+        let [a, b, c] = self.reads;
+        [a, b, c, self.whisker.map_or_else(Place::default, number)]
+    }
 }
 
 /// Neighbouring registers; none, by default.
@@ -90,9 +96,9 @@ impl Op {
         }
     }
 
-    /// What the operation does with the registers and with the order of the code.
+    /// What the operation does with the registers.
     pub(crate) fn operands(mut self) -> Operands {
-        let mut operands = Operands { target: self.target_mut().map(|target| *target), ..Operands::default() };
+        let mut operands = Operands::default();
         let mut reads = 0;
         self.visit(|role, register| match role {
             Role::Write(width) => operands.writes[0] = Place { first: *register, width },
@@ -110,6 +116,11 @@ impl Op {
     }
 
     /// Where a jump leads.
+    pub(crate) fn target(mut self) -> Option<u32> {
+        self.target_mut().copied()
+    }
+
+    /// Where a jump leads, to be changed.
     pub(crate) fn target_mut(&mut self) -> Option<&mut u32> {
         match self {
             Self::JumpUnless { target, .. }

@@ -280,7 +280,7 @@ impl Program {
             }
             free = free.max(end);
             for at in start..end {
-                if let Some(target) = self.code[at as usize].operands().target
+                if let Some(target) = self.code[at as usize].target()
                     && !(at < target && target <= end)
                 {
                     return Err(Unsound::Jump { at, target });

@@ -177,6 +177,10 @@ impl UnitError {
 /// assert_eq!(unit.to_si(50.0), 0.05);
 /// ```
 pub fn parse_unit(text: &str) -> Result<Unit, UnitError> {
+    // Most are, and need not be taken apart.
+    if let Some(unit) = simple(text) {
+        return Ok(unit);
+    }
     let mut unit = Unit::new(Dimension::NUMBER, 1.0, 1.0);
     let mut multiply = |factor: Option<Unit>| {
         unit =
@@ -207,6 +211,11 @@ pub fn parse_unit(text: &str) -> Result<Unit, UnitError> {
     Ok(unit)
 }
 
+/// The simple unit with this symbol.
+fn simple(symbol: &str) -> Option<Unit> {
+    SIMPLE.iter().find(|(known, _)| *known == symbol).map(|&(_, unit)| unit)
+}
+
 /// The words of a text with the byte offset of each, counted from `offset`.
 fn words(text: &str, offset: usize) -> impl Iterator<Item = (&str, usize)> {
     text.split_inclusive(char::is_whitespace)
@@ -222,11 +231,11 @@ fn words(text: &str, offset: usize) -> impl Iterator<Item = (&str, usize)> {
 fn parse_power(text: &str, start: usize) -> Result<Unit, UnitError> {
     let (name, exponent) = text.split_once('^').map_or((text, None), |(name, exponent)| (name, Some(exponent)));
     let spelt = name.replace(['\u{b5}', '\u{3bc}'], "u");
-    let Some((_, unit)) = SIMPLE.iter().find(|(symbol, _)| *symbol == spelt) else {
+    let Some(unit) = simple(&spelt) else {
         let suggestion = suggest(&spelt, simple_units());
         return Err(UnitError::Unknown { name: name.to_owned(), range: start..start + name.len(), suggestion });
     };
-    let Some(exponent) = exponent else { return Ok(*unit) };
+    let Some(exponent) = exponent else { return Ok(unit) };
     let range = start + name.len() + 1..start + text.len();
     let power = exponent.parse().ok().filter(|power| (-9..=9).contains(power)).ok_or(UnitError::Exponent { range })?;
     unit.powi(power).ok_or(UnitError::TooLarge { range: start..start + text.len() })

@@ -1,28 +1,26 @@
 //! What nothing reads is not computed.
 
-use crate::machine::{Effect, Op, Place};
+use crate::machine::{Effect, Operands};
 
 use super::draft::Draft;
 
-/// Strikes out what nothing reads. Gives how often each register is read by what is left.
-pub(super) fn remove(draft: &mut Draft) -> Vec<u32> {
+/// Strikes out what nothing reads; `operands` are those of every operation. Gives how often each register is read by what is left.
+pub(super) fn remove(draft: &mut Draft, operands: &[Operands]) -> Vec<u32> {
     let mut reads = vec![0_u32; draft.registers()];
     for register in draft.read_by_guards() {
         reads[usize::from(register)] += 1;
     }
-    let operands = |op: &Op| {
-        let operands = op.operands();
-        operands.reads.into_iter().flat_map(Place::registers).chain(operands.whisker.map(usize::from))
-    };
-    for register in draft.ops.iter().flat_map(operands) {
-        reads[register] += 1;
+    for place in operands.iter().flat_map(Operands::all_reads) {
+        reads[place.registers()].iter_mut().for_each(|count| *count += 1);
     }
     // From behind, so that what only such an operation reads is found too.
-    for (op, is_kept) in draft.ops.iter().zip(&mut draft.is_kept).rev() {
-        let mut written = op.operands().writes.into_iter().flat_map(Place::registers);
-        if op.effect() != Effect::Acts && written.all(|register| reads[register] == 0) {
+    for ((op, operands), is_kept) in draft.ops.iter().zip(operands).zip(&mut draft.is_kept).rev() {
+        let is_unread = || operands.writes.iter().all(|place| reads[place.registers()].iter().all(|&count| count == 0));
+        if op.effect() != Effect::Acts && is_unread() {
             *is_kept = false;
-            operands(op).for_each(|register| reads[register] -= 1);
+            for place in operands.all_reads() {
+                reads[place.registers()].iter_mut().for_each(|count| *count -= 1);
+            }
         }
     }
     reads

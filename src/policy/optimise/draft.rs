@@ -43,7 +43,7 @@ impl Draft {
     /// For every operation, whether a jump leads there.
     pub(super) fn targets(&self) -> Vec<bool> {
         let mut is_target = vec![false; self.ops.len() + 1];
-        for target in self.ops.iter().filter_map(|op| op.operands().target) {
+        for target in self.ops.iter().filter_map(|op| op.target()) {
             is_target[target as usize] = true;
         }
         is_target

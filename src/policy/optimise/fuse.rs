@@ -12,17 +12,17 @@ pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
     let is_target = draft.targets();
     for run in draft.runs.clone() {
         let kept: Vec<usize> = run.filter(|&index| draft.is_kept[index]).collect();
-        let mut ahead = kept.as_slice();
-        while let [first, rest @ ..] = ahead {
-            let reached = |last: usize| is_target[first + 1..=last].contains(&true);
-            let together = 1 + rest.iter().take(MOST - 1).take_while(|&&last| !reached(last)).count();
-            let ops: Vec<Op> = ahead[..together].iter().map(|&index| draft.ops[index]).collect();
-            let (count, op) = fused(&ops, reads).unwrap_or((1, draft.ops[*first]));
-            for &index in &ahead[..count - 1] {
+        let ops: Vec<Op> = kept.iter().map(|&index| draft.ops[index]).collect();
+        let mut next = 0;
+        while next < kept.len() {
+            let reached = |last: usize| is_target[kept[next] + 1..=last].contains(&true);
+            let together = 1 + kept[next + 1..].iter().take(MOST - 1).take_while(|&&last| !reached(last)).count();
+            let (count, op) = fused(&ops[next..next + together], reads).unwrap_or((1, ops[next]));
+            for &index in &kept[next..next + count - 1] {
                 draft.is_kept[index] = false;
             }
-            draft.ops[ahead[count - 1]] = op;
-            ahead = &ahead[count..];
+            next += count;
+            draft.ops[kept[next - 1]] = op;
         }
     }
 }

@@ -14,7 +14,7 @@ mod invariant;
 mod jumps;
 mod reuse;
 
-use crate::machine::Program;
+use crate::machine::{Operands, Program};
 
 use draft::Draft;
 
@@ -22,8 +22,9 @@ use draft::Draft;
 pub(super) fn optimise(program: Program) -> Program {
     let mut draft = Draft::new(program);
     reuse::reuse(&mut draft);
-    let reads = dead::remove(&mut draft);
-    invariant::hoist(&mut draft);
+    let operands: Vec<Operands> = draft.ops.iter().map(|op| op.operands()).collect();
+    let reads = dead::remove(&mut draft, &operands);
+    invariant::hoist(&mut draft, &operands);
     fuse::fuse(&mut draft, &reads);
     jumps::shorten(&mut draft);
     draft.finish()

@@ -1,6 +1,6 @@
 //! What is known is not computed or asked for again, and copies are read where they come from.
 
-use crate::machine::{Effect, Op, Place, Register, Role};
+use crate::machine::{Effect, Op, Operands, Place, Register, Role};
 
 use super::draft::Draft;
 
@@ -12,7 +12,7 @@ struct Known {
     number: usize,
     /// The operation with its result in register 0.
     op: Op,
-    to: Register,
+    operands: Operands,
     /// The one before it that comes of the same register, counted from 1.
     before: usize,
 }
@@ -46,7 +46,7 @@ pub(super) fn reuse(draft: &mut Draft) {
     // For every operation, the first of the jumps that lead there.
     let mut jumps = vec![usize::MAX; draft.ops.len() + 1];
     for (index, op) in draft.ops.iter().enumerate().rev() {
-        if let Some(target) = op.operands().target {
+        if let Some(target) = op.target() {
             jumps[target as usize] = index;
         }
     }
@@ -58,8 +58,7 @@ pub(super) fn reuse(draft: &mut Draft) {
                 walk.forget_after(jumps[index] + 1);
             }
             let op = walk.with_sources(draft.ops[index]);
-            draft.ops[index] = walk.again(op).unwrap_or(op);
-            walk.note(index + 1, draft.ops[index]);
+            draft.ops[index] = walk.step(index + 1, op);
         }
     }
 }
@@ -68,7 +67,7 @@ impl Walk {
     /// Forgets what was done behind an operation.
     fn forget_after(&mut self, number: usize) {
         while let Some(known) = self.known.pop_if(|known| known.number > number) {
-            let first = self.first(known.op);
+            let first = self.first(&known.operands);
             self.last[first] = known.before;
         }
         while let Some((_, to)) = self.copied.pop_if(|(copied, _)| *copied > number) {
@@ -77,8 +76,7 @@ impl Walk {
     }
 
     /// The register that an operation reads first, or the number of registers for one that reads none.
-    fn first(&self, op: Op) -> usize {
-        let operands = op.operands();
+    fn first(&self, operands: &Operands) -> usize {
         let read = operands.whisker.map(usize::from).or_else(|| operands.reads[0].registers().next());
         read.unwrap_or(self.sources.len())
     }
@@ -104,44 +102,49 @@ impl Walk {
         (self.written[usize::from(from)] < self.written[usize::from(register)]).then_some(from)
     }
 
-    /// A copy that gives the same as an operation, if that has been done before and nothing has changed.
-    fn again(&self, op: Op) -> Option<Op> {
-        let (op, to) = placeless(op)?;
-        let known = |at: usize| self.known.get(at.checked_sub(1)?);
-        let alike = std::iter::successors(known(self.last[self.first(op)]), |&alike| known(alike.before));
-        let a = alike.take(LOOKS).find(|known| known.op == op && self.holds(known))?.to;
-        Some(if width(op) == 2 { Op::CopyVector { to, a } } else { Op::Copy { to, a } })
-    }
-
-    /// Whether an operation would give again what it gave.
-    fn holds(&self, known: &Known) -> bool {
-        let operands = known.op.operands();
-        let first = usize::from(known.to);
-        let results = &self.written[first..first + usize::from(width(known.op))];
-        let mut read = operands.reads.into_iter().flat_map(Place::registers).chain(operands.whisker.map(usize::from));
-        results.iter().all(|&written| written == known.number)
-            && read.all(|register| self.written[register] < known.number)
-            && (known.op.effect() != Effect::Feels || self.recorded < known.number)
-    }
-
-    /// Takes note of an operation.
-    fn note(&mut self, number: usize, op: Op) {
-        for register in op.operands().writes.into_iter().flat_map(Place::registers) {
-            self.written[register] = number;
-            self.sources[register] = None;
+    /// Goes on behind an operation. Gives what takes its place: a copy, if the same has been done before.
+    fn step(&mut self, number: usize, op: Op) -> Op {
+        let operands = op.operands();
+        let result = operands.writes[0];
+        let placeless = placeless(op);
+        let op = match placeless.and_then(|placeless| self.again(placeless, &operands)) {
+            Some(a) if result.width == 2 => Op::CopyVector { to: result.first, a },
+            Some(a) => Op::Copy { to: result.first, a },
+            None => op,
+        };
+        for place in operands.writes {
+            self.written[place.registers()].fill(number);
+            self.sources[place.registers()].fill(None);
         }
         match op {
             Op::Copy { to, a } => self.copy(number, to, a),
             Op::CopyVector { to, a } => [0, 1].into_iter().for_each(|axis| self.copy(number, to + axis, a + axis)),
             Op::Record { .. } => self.recorded = number,
             _ => {
-                if let Some((op, to)) = placeless(op) {
-                    let first = self.first(op);
-                    self.known.push(Known { number, op, to, before: self.last[first] });
+                if let Some(op) = placeless {
+                    let first = self.first(&operands);
+                    self.known.push(Known { number, op, operands, before: self.last[first] });
                     self.last[first] = self.known.len();
                 }
             }
         }
+        op
+    }
+
+    /// Where the result of an operation is already, if that has been done before and nothing has changed.
+    fn again(&self, placeless: Op, operands: &Operands) -> Option<Register> {
+        let known = |at: usize| self.known.get(at.checked_sub(1)?);
+        let alike = std::iter::successors(known(self.last[self.first(operands)]), |&alike| known(alike.before));
+        let same = alike.take(LOOKS).find(|known| known.op == placeless && self.holds(known))?;
+        Some(same.operands.writes[0].first)
+    }
+
+    /// Whether an operation would give again what it gave.
+    fn holds(&self, known: &Known) -> bool {
+        let written = |place: &Place| self.written[place.registers()].iter();
+        known.operands.writes.iter().flat_map(written).all(|&written| written == known.number)
+            && known.operands.all_reads().iter().flat_map(written).all(|&written| written < known.number)
+            && (known.op.effect() != Effect::Feels || self.recorded < known.number)
     }
 
     fn copy(&mut self, number: usize, to: Register, from: Register) {
@@ -150,21 +153,15 @@ impl Walk {
     }
 }
 
-/// An operation with its result in register 0, and where the result goes; `None` for one that does more than to give a result.
-fn placeless(mut op: Op) -> Option<(Op, Register)> {
-    if op.effect() == Effect::Acts {
+/// An operation with its result in register 0; `None` for a copy, and for one that does more than to give a result.
+fn placeless(mut op: Op) -> Option<Op> {
+    if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::Acts {
         return None;
     }
-    let mut to = 0;
     op.visit(|role, register| {
         if let Role::Write(_) = role {
-            to = std::mem::take(register);
+            *register = 0;
         }
     });
-    Some((op, to))
-}
-
-/// How many numbers an operation gives.
-fn width(op: Op) -> u16 {
-    op.operands().writes[0].width
+    Some(op)
 }
