@@ -15,6 +15,8 @@ pub(super) struct File {
     /// What the file is called behind `machine` or `library`.
     pub(super) name: Name,
     pub(super) is_library: bool,
+    /// Whether it is a module of the standard library.
+    pub(super) is_standard: bool,
     pub(super) uses: Vec<Use>,
     pub(super) whiskers: Vec<Name>,
     /// For each whisker, the tip model behind `by`.

@@ -1,14 +1,15 @@
 //! The grammar at work: from text to pest's pairs, and from its errors to diagnostics.
 
-use std::cell::OnceCell;
+use std::borrow::Cow;
 use std::collections::HashSet;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use pest::Parser;
 use pest::iterators::Pairs;
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
+use super::pair::{self, Found};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
 
@@ -34,29 +35,29 @@ mod derived {
 
 pub(super) use derived::Rule;
 
-thread_local! {
-    /// The pairs of the standard library's modules. They are the same in every compilation, and a third of all that is parsed.
-    static STANDARD: [OnceCell<Pairs<'static, Rule>>; MODULES.len()] = const { [const { OnceCell::new() }; MODULES.len()] };
+/// What is found in the standard library's modules. It is the same in every compilation, and a third of all that is parsed.
+static STANDARD: [OnceLock<Vec<Found>>; MODULES.len()] = [const { OnceLock::new() }; MODULES.len()];
+
+/// What is found in a module of the standard library, if this is the text of one.
+fn standard(source: &Source) -> Option<&'static [Found]> {
+    let (_, found) = MODULES.iter().zip(&STANDARD).find(|((_, text), _)| *text == source.text)?;
+    if found.get().is_none() {
+        // Another thread may have been faster, with the same result.
+        let _ = found.set(pair::all(parse(source).ok()?));
+    }
+    found.get().map(Vec::as_slice)
 }
 
-/// The pairs of a module of the standard library, if this is the text of one.
-fn standard(text: &str) -> Option<Pairs<'static, Rule>> {
-    let (module, (_, text)) = MODULES.iter().enumerate().find(|(_, (_, module))| *module == text)?;
-    STANDARD.with(|parsed| {
-        let parsed = parsed.get(module)?;
-        if let Some(pairs) = parsed.get() {
-            return Some(pairs.clone());
-        }
-        let pairs = derived::FsmParser::parse(Rule::file, text).ok()?;
-        Some(parsed.get_or_init(|| pairs).clone())
-    })
+/// All that is found in a whole file; borrowed if it is one of the standard library.
+pub(super) fn found(source: &Source) -> Result<Cow<'static, [Found]>, Box<Diagnostic>> {
+    match standard(source) {
+        Some(found) => Ok(Cow::Borrowed(found)),
+        None => Ok(Cow::Owned(pair::all(parse(source)?))),
+    }
 }
 
 /// Parses a whole file.
 pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
-    if let Some(pairs) = standard(&source.text) {
-        return Ok(pairs);
-    }
     if source.text.len() > LENGTH_LIMIT {
         let label = format!("the text goes on for {} bytes", source.text.len());
         let place = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);

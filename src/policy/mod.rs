@@ -1,9 +1,9 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) and `parse` make the syntax tree of `ast`, `recover` as much of it as
-//! can be had of a text with faults; `lower` checks names,
-//! types and units and writes the machine's code; `analysis` looks at both for what is probably not meant; `format` lays texts
-//! out. `description` reads what comments say of items. `builtins` is the one table of what the language offers, `docs/language.md`
+//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) finds what stands in a text, which `pair` lays out flat and `parse` makes
+//! the syntax tree of `ast` of; `recover` has as much of it as can be had of a text with faults; `lower` checks names, types and units
+//! and writes the machine's code; `optimise` shortens that; `analysis` looks at both for what is probably not meant; `format` lays
+//! texts out. `description` reads what comments say of items. `builtins` is the one table of what the language offers, `docs/language.md`
 //! its description for users.
 
 mod analysis;

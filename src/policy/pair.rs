@@ -1,4 +1,4 @@
-//! Pest's pairs with places that count from the beginning of all texts, not of their own file.
+//! What the grammar has found in a text, laid out flat: pest's own pairs count references, and end behind blanks.
 
 use pest::Token;
 
@@ -6,39 +6,99 @@ use crate::diagnostic::Span;
 
 use super::grammar::Rule;
 
-/// What the grammar has found for one of its rules.
-#[derive(Debug, Clone)]
+/// What the grammar has found for one of its rules. In a list of these, what it holds comes directly behind it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Found {
+    rule: Rule,
+    /// Where it stands in its text.
+    span: Span,
+    /// How many of the list it holds.
+    inner: usize,
+}
+
+/// Everything that carries something; words and signs that only mark a place do not.
+///
+/// The blanks and comments behind its last part, which pest counts in, do not belong to what is found; the quote at the end of a
+/// text, which is no part, does.
+pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
+    let tokens = pairs.tokens();
+    let mut all: Vec<Found> = Vec::with_capacity(tokens.len() / 2);
+    // Those that have begun and not ended yet.
+    let mut begun = Vec::new();
+    let (mut end, mut has_parts) = (0, false);
+    for token in tokens {
+        match token {
+            Token::Start { rule, pos } => {
+                begun.push(all.len());
+                all.push(Found { rule, span: Span::new(pos.pos(), pos.pos()), inner: 0 });
+                has_parts = false;
+            }
+            Token::End { rule, pos } => {
+                if !has_parts || rule == Rule::text {
+                    end = pos.pos();
+                }
+                has_parts = true;
+                let Some(index) = begun.pop() else { continue };
+                if is_marker(rule) {
+                    all.truncate(index);
+                } else {
+                    let inner = all.len() - index - 1;
+                    all[index] = Found { rule, span: Span::new(all[index].span.start, end), inner };
+                }
+            }
+        }
+    }
+    all
+}
+
+/// One of what the grammar has found, in its text.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Pair<'i> {
-    pair: pest::iterators::Pair<'i, Rule>,
-    /// Where the file begins.
+    found: &'i Found,
+    /// What it holds.
+    inner: &'i [Found],
+    text: &'i str,
+    /// Where the text begins among all texts.
     start: usize,
 }
 
 impl<'i> Pair<'i> {
-    pub(super) fn as_rule(&self) -> Rule {
-        self.pair.as_rule()
+    pub(super) fn as_rule(self) -> Rule {
+        self.found.rule
     }
 
-    pub(super) fn as_str(&self) -> &'i str {
-        self.pair.as_str()
+    pub(super) fn as_str(self) -> &'i str {
+        self.text.get(self.found.span.start..self.found.span.end).unwrap_or_default()
+    }
+
+    /// Where it stands among all texts.
+    pub(super) fn place(self) -> Span {
+        Span::new(self.start + self.found.span.start, self.start + self.found.span.end)
     }
 
     pub(super) fn into_inner(self) -> Pairs<'i> {
-        Pairs { pairs: self.pair.into_inner(), start: self.start }
+        Pairs::new(self.inner, self.text, self.start)
     }
 }
 
-/// Pairs in the order of the text.
+/// What the grammar has found side by side, in the order of the text.
 #[derive(Debug, Clone)]
 pub(super) struct Pairs<'i> {
-    pairs: pest::iterators::Pairs<'i, Rule>,
+    /// The rest of it, with all that it holds.
+    rest: &'i [Found],
+    text: &'i str,
     start: usize,
 }
 
 impl<'i> Pairs<'i> {
-    /// The pairs of a file that begins at `start`.
-    pub(super) fn new(pairs: pest::iterators::Pairs<'i, Rule>, start: usize) -> Self {
-        Self { pairs, start }
+    /// All that was found in a text that begins at `start`.
+    pub(super) fn new(all: &'i [Found], text: &'i str, start: usize) -> Self {
+        Self { rest: all, text, start }
+    }
+
+    /// The rule of the next.
+    pub(super) fn rule(&self) -> Option<Rule> {
+        Some(self.rest.first()?.rule)
     }
 }
 
@@ -46,22 +106,62 @@ impl<'i> Iterator for Pairs<'i> {
     type Item = Pair<'i>;
 
     fn next(&mut self) -> Option<Pair<'i>> {
-        Some(Pair { pair: self.pairs.next()?, start: self.start })
+        let (found, behind) = self.rest.split_first()?;
+        let (inner, rest) = behind.split_at_checked(found.inner)?;
+        self.rest = rest;
+        Some(Pair { found, inner, text: self.text, start: self.start })
     }
 }
 
-/// Where a pair stands. The blanks and comments behind its last part, which pest counts in, do not belong to it; the quote at
-/// the end of a text, which is no part, does.
-pub(super) fn place(pair: &Pair<'_>) -> Span {
-    let span = pair.pair.as_span();
-    let mut end = span.end();
-    // From behind: the ends of the pair, of its last part, of the last part of that.
-    for token in pair.pair.clone().tokens().rev() {
-        let Token::End { rule, pos } = token else { break };
-        end = pos.pos();
-        if rule == Rule::text {
-            break;
-        }
-    }
-    Span::new(pair.start + span.start(), pair.start + end)
+/// Whether a pair is a word or a sign that only marks a place.
+fn is_marker(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::kw_machine
+            | Rule::kw_library
+            | Rule::kw_use
+            | Rule::kw_by
+            | Rule::kw_param
+            | Rule::kw_initial
+            | Rule::kw_let
+            | Rule::kw_law
+            | Rule::kw_state
+            | Rule::kw_always
+            | Rule::kw_failsafe
+            | Rule::kw_when
+            | Rule::kw_after
+            | Rule::kw_for
+            | Rule::kw_in
+            | Rule::kw_of
+            | Rule::kw_if
+            | Rule::kw_else
+            | Rule::kw_do
+            | Rule::kw_record
+            | Rule::kw_mark
+            | Rule::kw_steer
+            | Rule::kw_along
+            | Rule::kw_at
+            | Rule::kw_facing
+            | Rule::kw_turning
+            | Rule::kw_hold
+            | Rule::kw_stop
+            | Rule::kw_var
+            | Rule::kw_set
+            | Rule::kw_entry
+            | Rule::kw_exit
+            | Rule::kw_test
+            | Rule::kw_expect
+            | Rule::open
+            | Rule::close
+            | Rule::open_brace
+            | Rule::close_brace
+            | Rule::bar
+            | Rule::comma
+            | Rule::colon
+            | Rule::dot
+            | Rule::dots
+            | Rule::equals
+            | Rule::arrow
+            | Rule::EOI
+    )
 }

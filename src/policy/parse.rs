@@ -8,6 +8,8 @@ mod reader;
 mod state;
 mod test;
 
+use std::borrow::Cow;
+
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
@@ -15,7 +17,7 @@ use super::ast::{
     TypeName, Use,
 };
 use super::grammar::{self, Rule};
-use super::pair::{Pair, Pairs, place};
+use super::pair::{Pair, Pairs};
 use expression::{binary, climb};
 use reader::{Reader, values};
 use state::{state, target};
@@ -25,10 +27,11 @@ type Parsed<T> = Result<T, Box<Diagnostic>>;
 
 /// Parses the text of one file. Its places count from `start`.
 pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
-    let pairs = grammar::parse(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
+    let found = grammar::found(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
     let mut file = File {
         name: Name { text: String::new(), span: Span::new(start, start) },
         is_library: false,
+        is_standard: matches!(found, Cow::Borrowed(_)),
         uses: Vec::new(),
         whiskers: Vec::new(),
         tip_models: Vec::new(),
@@ -41,7 +44,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         tests: Vec::new(),
         failsafes: Vec::new(),
     };
-    for item in Pairs::new(pairs, start).flat_map(Pair::into_inner) {
+    for item in Pairs::new(&found, &source.text, start).flat_map(Pair::into_inner) {
         let rule = item.as_rule();
         let mut reader = Reader::new(item);
         match rule {
@@ -79,7 +82,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
 
 fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
     let from = reader.next()?;
-    let span = place(&from);
+    let span = from.place();
     let is_text = from.as_rule() == Rule::text;
     let mut parts = Reader::new(from);
     let from = if is_text {
@@ -103,7 +106,7 @@ fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
 }
 
 fn bound(pair: Pair<'_>) -> Parsed<Bound> {
-    let span = place(&pair);
+    let span = pair.place();
     let mut reader = Reader::new(pair);
     let negative = reader.has(Rule::minus);
     if negative {
@@ -113,10 +116,10 @@ fn bound(pair: Pair<'_>) -> Parsed<Bound> {
 }
 
 fn quantity(pair: Pair<'_>) -> Parsed<Quantity> {
-    let span = place(&pair);
+    let span = pair.place();
     let mut reader = Reader::new(pair);
     let number = reader.take(Rule::number)?.as_str().to_owned();
-    let unit = if reader.has(Rule::unit) { Some(named(&reader.take(Rule::unit)?)) } else { None };
+    let unit = if reader.has(Rule::unit) { Some(named(reader.take(Rule::unit)?)) } else { None };
     Ok(Quantity { number, unit, span })
 }
 
@@ -130,7 +133,7 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
         let mut argument = Reader::new(list.take(Rule::argument)?);
         let name = argument.name()?;
         let mut type_name = Reader::new(argument.take(Rule::type_name)?);
-        let base = named(&type_name.next()?);
+        let base = named(type_name.next()?);
         let of = if type_name.has(Rule::name) { Some(type_name.name()?) } else { None };
         let mut factors = Vec::new();
         while let Some((operator, _)) = type_name.peek().map(Pair::as_str).and_then(binary) {
@@ -145,7 +148,7 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
 /// What stands between two quotes.
 fn text(reader: &mut Reader<'_>) -> Parsed<Name> {
     let mut text = Reader::new(reader.take(Rule::text)?);
-    Ok(named(&text.take(Rule::text_inner)?))
+    Ok(named(text.take(Rule::text_inner)?))
 }
 
 fn transition(pair: Pair<'_>) -> Parsed<Transition> {
@@ -171,7 +174,7 @@ fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {
 
 fn statement(pair: Pair<'_>) -> Parsed<Statement> {
     let rule = pair.as_rule();
-    let span = place(&pair);
+    let span = pair.place();
     let mut reader = Reader::new(pair);
     Ok(match rule {
         Rule::binding => Statement::Let { name: reader.name()?, value: reader.expression()? },
@@ -204,8 +207,8 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
     })
 }
 
-fn named(pair: &Pair<'_>) -> Name {
-    Name { text: pair.as_str().to_owned(), span: place(pair) }
+fn named(pair: Pair<'_>) -> Name {
+    Name { text: pair.as_str().to_owned(), span: pair.place() }
 }
 
 fn internal(span: Span) -> Box<Diagnostic> {

@@ -24,3 +24,18 @@ pub(super) fn module_with(name: &str) -> Option<&'static str> {
     };
     MODULES.iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Source;
+    use crate::policy::{Checked, check};
+
+    #[test]
+    fn no_module_has_a_fault_since_compiling_what_uses_it_does_not_look_for_one() {
+        for (module, text) in MODULES {
+            let checked = check(&Source::new(module, text));
+            assert!(matches!(checked, Ok(Checked::Library { .. })), "{module}: {checked:?}");
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The code and the registers of a program in the making.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
 
@@ -11,7 +11,7 @@ pub(super) struct Code {
     /// What registers hold at the start of a run.
     pub(super) image: Vec<f64>,
     /// Registers of constants, by their bits.
-    constants: HashMap<u64, Register>,
+    constants: BTreeMap<u64, Register>,
     /// Whether the program outgrew its limits, from when on nothing more is written.
     pub(super) full: bool,
 }
@@ -25,7 +25,7 @@ pub(super) struct Mark {
 
 impl Code {
     pub(super) fn new() -> Self {
-        Self { ops: Vec::new(), image: Vec::new(), constants: HashMap::new(), full: false }
+        Self { ops: Vec::new(), image: Vec::new(), constants: BTreeMap::new(), full: false }
     }
 
     /// How much there is, to [`rewind`](Self::rewind) to.

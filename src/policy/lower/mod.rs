@@ -79,12 +79,13 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
 /// The types of the names in all files, as far as their faults let them be known.
 pub(super) fn types(files: &Files) -> Types {
     let mut compiler = Compiler::new();
+    compiler.types = Some(Types::new());
     if files.main.is_library {
         structure::items(&mut compiler, files);
     } else {
         structure::machine(&mut compiler, files);
     }
-    compiler.types
+    compiler.types.unwrap_or_default()
 }
 
 /// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
@@ -110,8 +111,8 @@ struct Compiler<'f> {
     files: Vec<Names<'f>>,
     /// The number of the file that is being written.
     here: usize,
-    /// What is known of the types of names.
-    types: Types,
+    /// What is known of the types of names, if that is asked for.
+    types: Option<Types>,
     states: HashMap<&'f str, StateEntry>,
     hierarchy: Hierarchy<'f>,
     /// Where laws and derived values are named whose own check failed.
@@ -143,7 +144,7 @@ impl<'f> Compiler<'f> {
             diagnostics: Vec::new(),
             files: Vec::new(),
             here: 0,
-            types: Types::new(),
+            types: None,
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
             broken: HashSet::new(),
@@ -190,6 +191,13 @@ impl<'f> Compiler<'f> {
         let result = walk(self);
         self.depth -= 1;
         result
+    }
+
+    /// Takes note of the type of what `name` stands for, if it is known.
+    fn note_type(&mut self, name: &Name, value: Option<Value>) {
+        if let Some(types) = &mut self.types {
+            types.extend(value.map(|value| (name.span, value.r#type)));
+        }
     }
 
     /// A scope in which `arguments` stand for values that are not known yet.

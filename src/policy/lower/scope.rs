@@ -57,7 +57,7 @@ impl<'f> Compiler<'f> {
             Some(before) => self.report(taken(name, before)),
             None => {}
         }
-        self.types.extend(meaning.map(|value| (name.span, value.r#type)));
+        self.note_type(name, meaning);
         scope.insert(name, meaning);
     }
 

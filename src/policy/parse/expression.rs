@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Binary, Expression, Kind};
 use crate::policy::grammar::Rule;
-use crate::policy::pair::{Pair, place};
+use crate::policy::pair::Pair;
 
 use super::{Parsed, Reader, internal, named, quantity, values};
 
@@ -50,7 +50,7 @@ pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
 
 fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
     let pair = reader.next()?;
-    let span = place(&pair);
+    let span = pair.place();
     match pair.as_rule() {
         Rule::minus => {
             let inner = climb(reader, PREFIX_POWER)?;
@@ -78,11 +78,11 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
 
 fn access(pair: Pair<'_>) -> Parsed<Expression> {
     let mut reader = Reader::new(pair);
-    let name = named(&reader.next()?);
+    let name = named(reader.next()?);
     let mut span = name.span;
     let values = if reader.has(Rule::values) {
         let pair = reader.next()?;
-        span = span.to(place(&pair));
+        span = span.to(pair.place());
         Some(values(pair)?)
     } else {
         None

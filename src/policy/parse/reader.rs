@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::policy::ast::{Expression, Name};
 use crate::policy::grammar::Rule;
-use crate::policy::pair::{Pair, Pairs, place};
+use crate::policy::pair::{Pair, Pairs};
 
 use super::{Parsed, climb, internal, named};
 
@@ -11,29 +11,26 @@ use super::{Parsed, climb, internal, named};
 pub(super) struct Reader<'i> {
     /// The pair itself.
     whole: Pair<'i>,
-    /// The next of those in it.
-    next: Option<Pair<'i>>,
-    /// Those behind the next.
-    pairs: Pairs<'i>,
+    /// The rest of those in it.
+    rest: Pairs<'i>,
 }
 
 impl<'i> Reader<'i> {
     pub(super) fn new(pair: Pair<'i>) -> Self {
-        let mut pairs = pair.clone().into_inner();
-        Self { whole: pair, next: meaningful(&mut pairs), pairs }
+        Self { whole: pair, rest: pair.into_inner() }
     }
 
     /// Where the pair stands.
     pub(super) fn span(&self) -> Span {
-        place(&self.whole)
+        self.whole.place()
     }
 
-    pub(super) fn peek(&self) -> Option<&Pair<'i>> {
-        self.next.as_ref()
+    pub(super) fn peek(&self) -> Option<Pair<'i>> {
+        self.rest.clone().next()
     }
 
     pub(super) fn has(&self, rule: Rule) -> bool {
-        self.peek().is_some_and(|pair| pair.as_rule() == rule)
+        self.rest.rule() == Some(rule)
     }
 
     pub(super) fn next(&mut self) -> Parsed<Pair<'i>> {
@@ -42,18 +39,16 @@ impl<'i> Reader<'i> {
 
     /// The next pair, until there is none.
     pub(super) fn rest(&mut self) -> Option<Pair<'i>> {
-        let pair = self.next.take()?;
-        self.next = meaningful(&mut self.pairs);
-        Some(pair)
+        self.rest.next()
     }
 
     pub(super) fn take(&mut self, rule: Rule) -> Parsed<Pair<'i>> {
         let pair = self.next()?;
-        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(place(&pair))) }
+        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(pair.place())) }
     }
 
     pub(super) fn name(&mut self) -> Parsed<Name> {
-        Ok(named(&self.take(Rule::name)?))
+        Ok(named(self.take(Rule::name)?))
     }
 
     /// All names that come next.
@@ -81,62 +76,4 @@ pub(super) fn values(pair: Pair<'_>) -> Parsed<Vec<Expression>> {
         values.push(reader.expression()?);
     }
     Ok(values)
-}
-
-/// The next pair that carries something; words and signs that only mark a place do not.
-fn meaningful<'i>(pairs: &mut Pairs<'i>) -> Option<Pair<'i>> {
-    pairs.find(|pair| !is_marker(pair.as_rule()))
-}
-
-/// Whether a pair is a word or a sign that only marks a place.
-fn is_marker(rule: Rule) -> bool {
-    matches!(
-        rule,
-        Rule::kw_machine
-            | Rule::kw_library
-            | Rule::kw_use
-            | Rule::kw_by
-            | Rule::kw_param
-            | Rule::kw_initial
-            | Rule::kw_let
-            | Rule::kw_law
-            | Rule::kw_state
-            | Rule::kw_always
-            | Rule::kw_failsafe
-            | Rule::kw_when
-            | Rule::kw_after
-            | Rule::kw_for
-            | Rule::kw_in
-            | Rule::kw_of
-            | Rule::kw_if
-            | Rule::kw_else
-            | Rule::kw_do
-            | Rule::kw_record
-            | Rule::kw_mark
-            | Rule::kw_steer
-            | Rule::kw_along
-            | Rule::kw_at
-            | Rule::kw_facing
-            | Rule::kw_turning
-            | Rule::kw_hold
-            | Rule::kw_stop
-            | Rule::kw_var
-            | Rule::kw_set
-            | Rule::kw_entry
-            | Rule::kw_exit
-            | Rule::kw_test
-            | Rule::kw_expect
-            | Rule::open
-            | Rule::close
-            | Rule::open_brace
-            | Rule::close_brace
-            | Rule::bar
-            | Rule::comma
-            | Rule::colon
-            | Rule::dot
-            | Rule::dots
-            | Rule::equals
-            | Rule::arrow
-            | Rule::EOI
-    )
 }
