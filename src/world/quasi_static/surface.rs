@@ -19,6 +19,9 @@ pub(super) struct Surfaces {
 #[derive(Debug, Clone)]
 pub(super) struct Facet {
     form: Form,
+    /// How far (m) it counts on beyond its start and its end: beyond a corner that points inwards, where what comes along the one
+    /// side meets the other.
+    beyond: [f64; 2],
     ends: [Point2; 2],
     bounds: BoundingBox,
     /// The piece after this one.
@@ -86,6 +89,8 @@ pub(super) struct Foot {
 
 /// How far (m) a facet reaches beyond a smooth joint, so that there is no crack between it and the next.
 const OVERLAP: f64 = 1e-8;
+/// How far (m) it does at most beyond a corner that points inwards: more than a whisker moves in a sample.
+const BEYOND: f64 = 5e-3;
 
 impl Surfaces {
     pub(super) fn new(solids: &[Solid]) -> Self {
@@ -107,11 +112,23 @@ impl Surfaces {
                 };
                 facets.push(Facet {
                     form: Form::of(piece),
+                    beyond: [OVERLAP; 2],
                     ends: [piece.start(), piece.end()],
                     bounds: piece.bounding_box(),
                     next: first + following,
                     joint,
                 });
+            }
+        }
+        for index in 0..facets.len() {
+            let next = facets[index].next;
+            if facets[index].joint == Joint::Concave {
+                // No farther than the other side stands out over this one.
+                let [own, others] = [&facets[index], &facets[next]].map(|facet| facet.ends[1] - facet.ends[0]);
+                let folded = own.dot(&others) / (own.norm() * others.norm()).max(f64::MIN_POSITIVE);
+                let share = 0.5 * folded.max(0.0);
+                facets[index].beyond[1] = (share * others.norm()).clamp(OVERLAP, BEYOND);
+                facets[next].beyond[0] = (share * own.norm()).clamp(OVERLAP, BEYOND);
             }
         }
         let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.bounds };
@@ -145,7 +162,7 @@ impl Facet {
                 let from_start = point - start;
                 let along = from_start.dot(&tangent);
                 let normal = -perpendicular(tangent);
-                let beside = along >= -OVERLAP && along <= length + OVERLAP;
+                let beside = along >= -self.beyond[0] && along <= length + self.beyond[1];
                 beside.then(|| Foot { normal, height: from_start.dot(&normal), curvature: 0.0 })
             }
             Form::Round { centre, radius, sense, .. } => {
@@ -171,9 +188,9 @@ impl Facet {
     /// Whether an arc comes past the direction `outward` from its centre; a straight facet has no centre.
     pub(super) fn spans(&self, outward: Vector2) -> bool {
         let Form::Round { radius, sense, from, to, extent, .. } = self.form else { return false };
-        // By how much (m) the ray is beyond the start and before the end.
-        let slack = -OVERLAP * outward.norm() / radius;
-        let (after, before) = (sense * from.perp(&outward) >= slack, sense * outward.perp(&to) >= slack);
+        // By how much (m) the ray is behind the start and before the end.
+        let [start, end] = self.beyond.map(|beyond| -beyond * outward.norm() / radius);
+        let (after, before) = (sense * from.perp(&outward) >= start, sense * outward.perp(&to) >= end);
         match extent {
             Extent::UpToHalf => after && before,
             Extent::MoreThanHalf => after || before,
