@@ -55,7 +55,7 @@ fn the_disk_is_felt_all_the_way_round() {
         "coverage": rounded(score.coverage, 3),
         "hausdorff_mm": rounded(score.hausdorff.unwrap() * 1e3, 1),
     });
-    insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false }, {
+    insta::with_settings!({ snapshot_path => "../../snapshots", prepend_module_to_snapshot => false }, {
         insta::assert_json_snapshot!("disk", figures);
     });
 }

@@ -65,8 +65,8 @@ const CHECKS: [Check; 10] = [
         // mujoco-rs's build script would stop at a directory that does not exist.
         &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent"), SAME_CASES],
         "tests of the core, without MuJoCo",
-        // The other test programs would do here just what they do below, and are linted without MuJoCo too.
-        &["test", "--package", "vibrissa", "--no-default-features", "--lib", "--test", "program"],
+        // All other tests would do here just what they do below, and are linted without MuJoCo too.
+        &["test", "--package", "vibrissa", "--no-default-features", "--test", "program"],
     ),
     Check { title: "set-up", work: Work::Setup },
     check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
