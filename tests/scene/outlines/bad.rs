@@ -4,14 +4,11 @@ use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::scene::Scene;
 
 use super::folder;
+use crate::snapshots::snapshots;
 
 #[test]
 fn every_bad_file_is_answered_as_reviewed() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../../snapshots/outlines");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
+    snapshots("outlines").bind(|| {
         insta::glob!("../../fixtures/outlines/bad", "*.yaml", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
