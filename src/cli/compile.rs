@@ -3,7 +3,7 @@
 use super::arguments::CompileArguments;
 use super::exit::{Exit, Failure};
 use super::input::Policy;
-use super::{input, output};
+use super::{file, input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let (policy, out) = (&arguments.policy, &arguments.out);
@@ -15,12 +15,10 @@ pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
         artifact.program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
     }
     let bytes = artifact.to_bytes().map_err(Failure::artifact(policy))?;
-    if let (Ok(from), Ok(to)) = (policy.canonicalize(), out.canonicalize())
-        && from == to
-    {
+    if file::is_same(policy, out) {
         return Err(Failure::OntoItself { path: out.clone() });
     }
-    std::fs::write(out, &bytes).map_err(Failure::write(out))?;
+    file::write(out, &bytes)?;
     let (machine, size) = (&artifact.program.name, bytes.len());
     output::result(format_args!("{}: machine {machine}, {size} bytes", out.display()))?;
     Ok(Exit::Done)

@@ -4,7 +4,7 @@ use crate::report::{chart_dot, chart_mermaid, chart_svg};
 
 use super::arguments::{ChartFormat, GraphArguments};
 use super::exit::{Exit, Failure};
-use super::{input, output};
+use super::{file, input, output};
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
     let chart = input::chart(&arguments.policy)?;
@@ -17,7 +17,7 @@ pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
     };
     let text = text.trim_end();
     match &arguments.out {
-        Some(path) => std::fs::write(path, format!("{text}\n")).map_err(Failure::write(path))?,
+        Some(path) => file::write(path, format!("{text}\n"))?,
         None => output::result(text)?,
     }
     Ok(Exit::Done)

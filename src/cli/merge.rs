@@ -30,6 +30,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
         return Ok(Exit::Unexpected);
     }
     let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
+    merged.check_place(&path)?;
     file::write(&path, merged.text()?)?;
     tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.json)?;
     Ok(Exit::Done)

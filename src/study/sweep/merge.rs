@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::header::Header;
 use super::line::read_line;
-use super::results::{ResultsError, indices, read};
+use super::results::{ResultsError, check_place, indices, read};
 use super::shard::Shard;
 use crate::diagnostic::Source;
 use crate::scene::Sweep;
@@ -88,6 +88,14 @@ impl Merged {
             cause: "this version of the program cannot read the sweep that it holds".to_owned(),
         })?;
         Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
+    }
+
+    /// Checks that the results may be written to `path`.
+    ///
+    /// # Errors
+    /// [`ResultsError`] when something else is there: a part of the sweep, or what another run of it is still writing.
+    pub fn check_place(&self, path: &Path) -> Result<(), ResultsError> {
+        check_place(path, &self.header.of_shard(Shard::WHOLE))
     }
 
     /// The runs that have no result.

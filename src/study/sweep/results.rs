@@ -95,11 +95,7 @@ impl Results {
     pub fn open(path: &Path, header: &Header, sweep: &Sweep) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let failed = ResultsError::file(path);
         let file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(&failed)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(ResultsError::Busy { path: path.to_owned() }),
-            Err(TryLockError::Error(cause)) => return Err(failed(cause)),
-        }
+        lock(path, &file)?;
         let mut results = Self { path: path.to_owned(), file };
         let indices = indices(sweep);
         let mut there = BTreeMap::new();
@@ -131,6 +127,27 @@ impl Results {
         let line = format!("{}\n", line.trim_end());
         self.file.write_all(line.as_bytes()).map_err(ResultsError::file(&self.path))
     }
+}
+
+/// Checks that results of what `header` tells may stand at `path`: that there is nothing, or what are results of the same, to which
+/// nobody writes.
+pub(super) fn check_place(path: &Path, header: &Header) -> Result<(), ResultsError> {
+    match File::open(path) {
+        Ok(mut file) => {
+            lock(path, &file)?;
+            read(path, &mut file, |found| check(path, found, header), |_, _| Ok(())).map(|_| ())
+        }
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(cause) => Err(ResultsError::file(path)(cause)),
+    }
+}
+
+/// Keeps others from writing to a file of results as long as it is open.
+fn lock(path: &Path, file: &File) -> Result<(), ResultsError> {
+    file.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => ResultsError::Busy { path: path.to_owned() },
+        TryLockError::Error(cause) => ResultsError::file(path)(cause),
+    })
 }
 
 fn check(path: &Path, found: &Header, header: &Header) -> Result<(), ResultsError> {
