@@ -72,6 +72,27 @@ fn runs_are_all_combinations_and_samples_have_every_value_once() {
     assert!(sweep.run(120).is_none() && sweep.run(u64::MAX).is_none());
 }
 
+#[test]
+fn runs_have_keys_of_their_own_whatever_files_are_called() {
+    let sweep = sweep(
+        "name: x\npolicies: [a.fsm]\nscenes: [{scenario: disk.yaml, seed: 1, trials: 2}, \
+         {scenario: \"disk, seed=1.yaml\", trials: 2}, {scenario: \"disk, seed=1, trial=1.yaml\"}]\n",
+    );
+    let keys: BTreeSet<_> = sweep.runs().map(|run| run.key()).collect();
+    assert_eq!(keys.len(), 5, "{keys:?}");
+}
+
+#[test]
+fn a_list_of_many_values_is_gone_through_as_fast_as_many_trials() {
+    let values: Vec<_> = (0..20_000).map(|value| value.to_string()).collect();
+    let text = format!(
+        "name: x\npolicies: [a.fsm]\nscenes: [{{scenario: b.yaml}}]\nvary: {{scenario: {{stop.time: [{}]}}}}\n",
+        values.join(", ")
+    );
+    let keys: BTreeSet<_> = sweep(&text).runs().map(|run| run.key()).collect();
+    assert_eq!(keys.len(), 20_000);
+}
+
 proptest! {
     #[test]
     fn what_is_added_to_a_sweep_changes_no_run_that_was_there(

@@ -32,19 +32,23 @@ pub(in crate::scene) struct ParameterValue {
 
 impl Axis {
     pub(super) fn len(&self) -> usize {
-        match &self.values {
-            AxisValues::Parameter(values) => values.len(),
-            AxisValues::Scenario(changes) => changes.len(),
-        }
+        self.values.len()
     }
 }
 
 impl AxisValues {
-    /// The values as they stand in keys.
-    pub(in crate::scene) fn texts(&self) -> Vec<String> {
+    pub(in crate::scene) fn len(&self) -> usize {
         match self {
-            Self::Parameter(values) => values.iter().map(|value| value.text.clone()).collect(),
-            Self::Scenario(changes) => changes.iter().map(Change::text).collect(),
+            Self::Parameter(values) => values.len(),
+            Self::Scenario(changes) => changes.len(),
+        }
+    }
+
+    /// A value (by its index, below their number) as it stands in keys.
+    pub(in crate::scene) fn text(&self, value: usize) -> String {
+        match self {
+            Self::Parameter(values) => values[value].text.clone(),
+            Self::Scenario(changes) => changes[value].text(),
         }
     }
 }

@@ -63,7 +63,7 @@ impl<'s> SweepRun<'s> {
     #[must_use]
     pub fn key(&self) -> String {
         let scenes = self.scenes();
-        let mut key = format!("{}={}", scenes.kind_word(), scenes.name());
+        let mut key = format!("{}={}", scenes.kind_word(), yaml::quoted(scenes.name()));
         // Writing to a string cannot fail.
         if let Some(seed) = scenes.seed {
             let _ = write!(key, ", seed={seed}");
@@ -72,12 +72,12 @@ impl<'s> SweepRun<'s> {
         for (name, value) in self.settings() {
             let _ = write!(key, ", {name}={value}");
         }
-        key + ", policy=" + &self.policy().name
+        key + ", policy=" + &yaml::quoted(&self.policy().name)
     }
 
     /// What varies, with the values of this run as they are written.
     pub fn settings(&self) -> impl Iterator<Item = (&'s str, String)> {
-        self.choices().map(|(axis, value)| (axis.name.as_str(), axis.values.texts().swap_remove(value)))
+        self.choices().map(|(axis, value)| (axis.name.as_str(), axis.values.text(value)))
     }
 
     /// The parameters of its policy that are set, with their places in the sweep.

@@ -77,9 +77,8 @@ pub(in crate::scene) fn read(
     scene.map_err(|faults| (Box::new(both), faults))
 }
 
-/// A value on one line. Words that could be taken for something else stand in quotes.
+/// A value on one line.
 fn flow(node: &Node) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || " ._-+/^%".contains(letter);
     match node {
         Node::List(items) => {
             format!("[{}]", items.iter().map(|item| flow(&item.value)).collect::<Vec<_>>().join(", "))
@@ -88,7 +87,13 @@ fn flow(node: &Node) -> String {
             let entries = entries.iter().map(|Entry { key, value }| format!("{}: {}", key.value, flow(&value.value)));
             format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
         }
-        Node::Text(text) if !text.chars().all(is_plain) => format!("{text:?}"),
+        Node::Text(text) => quoted(text),
         scalar => written(scalar),
     }
+}
+
+/// A text in quotes, if it could be taken for something else than one word.
+pub(in crate::scene) fn quoted(text: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || " ._-+/^%".contains(letter);
+    if text.chars().all(is_plain) { text.to_owned() } else { format!("{text:?}") }
 }

@@ -53,6 +53,8 @@ pub(super) const NOT_BUILT: &str = "S0403";
 pub(super) const REPEATED: &str = "S0501";
 /// A policy does not take what a sweep gives it.
 pub(super) const UNFIT: &str = "S0502";
+/// What a sweep varies is settled by something else in it.
+pub(super) const ENTANGLED: &str = "S0503";
 
 /// A scenario has a few dozen nodes; one that traces a shape has some thousands.
 const MAX_NODES: usize = 50_000;

@@ -25,7 +25,6 @@ mod timing;
 mod tunnel;
 mod whisker;
 
-pub(super) use change::Change;
-pub(super) use change::read as read_changed;
+pub(super) use change::{Change, quoted, read as read_changed};
 pub(super) use scene::read;
 pub(super) use sweep::{read as read_sweep, unfit, unreadable};

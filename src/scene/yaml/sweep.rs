@@ -157,9 +157,50 @@ fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
     let mut fields = Fields::of(reader, &entry.value, "what varies", entry.key.span)?;
     let (policy, scenario) = (fields.entry("policy"), fields.entry("scenario"));
     fields.finish(reader);
+    check_names(reader, policy, scenario);
     let mut axes = named(reader, policy, "speed: [2 cm/s, 5 cm/s]", parameters);
     axes.extend(named(reader, scenario, "rig.physics.friction: [0, 0.1]", changes));
     axes.into_iter().collect()
+}
+
+/// Keys of a scenario that a sweep itself gives, and how.
+const GIVEN: [(&str, &str); 2] = [
+    ("policy", "list the policies in the sweep's own `policies`"),
+    ("seed", "give the scenes `trials`, each of which has noise of its own, and a `seed` to begin with"),
+];
+
+/// Checks that what varies can do so by itself: else results would stand under values that their runs did not have.
+fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option<&Entry>) {
+    let names = |entry: Option<&'_ Entry>| match entry.map(|entry| &entry.value.value) {
+        Some(Node::Mapping(entries)) => entries.iter().map(|entry| entry.key.clone()).collect(),
+        _ => Vec::new(),
+    };
+    let (parameters, keys): (Vec<Placed<String>>, Vec<Placed<String>>) = (names(policy), names(scenario));
+    let places: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
+    for Placed { value, span } in &parameters {
+        if let Some(&other) = places.get(value.as_str()) {
+            let message = format!("two things called `{value}` vary");
+            let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "a parameter of the policies");
+            let fault = fault.note(other, "a key of the scenarios of the same name");
+            reader.report(fault.hint("make two sweeps of it, or rename the parameter"));
+        }
+    }
+    for Placed { value, span } in &keys {
+        if let Some((_, hint)) = GIVEN.iter().find(|(given, _)| given == value) {
+            let message = format!("`{value}` of a scenario cannot vary");
+            let label = "a sweep gives it to every run";
+            reader.report(Diagnostic::error(fault::ENTANGLED, message, *span, label).hint(*hint));
+        }
+        for (end, _) in value.match_indices('.') {
+            let above = &value[..end];
+            if let Some(&place) = places.get(above) {
+                let message = format!("`{above}` and `{value}` cannot both vary");
+                let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "this key");
+                let fault = fault.note(place, "is in this one, which has values, too");
+                reader.report(fault.hint(format!("vary `{above}` as a whole, or the keys in it one by one")));
+            }
+        }
+    }
 }
 
 /// What varies, each by its name, with values that `read` reads.
@@ -178,7 +219,8 @@ fn named(
         let items = some(reader, entry, "a list of values", VALUES)?;
         let values = read(reader, &entry.key, items)?;
         let mut seen = BTreeMap::new();
-        for (text, item) in values.texts().into_iter().zip(items) {
+        for (index, item) in items.iter().enumerate().take(values.len()) {
+            let text = values.text(index);
             check_new(reader, &mut seen, text.clone(), reader.extent(item), &text);
         }
         Some(Axis { name: entry.key.value.clone(), values })
