@@ -88,7 +88,7 @@ fn settings(files: &[&PathBuf], arguments: &CompareArguments) -> Result<Vec<Sett
     }
     let mut settings = Vec::new();
     for (path, Loaded { value: scene, hash }) in scenarios {
-        let differs = is_jittered || scene.rig.sensing.angle_noise > 0.0;
+        let differs = is_jittered || scene.rig.sensing.is_noisy();
         if !differs && arguments.seeds > 1 {
             output::message(format_args!(
                 "{}: without noise or --jitter all seeds are the same run, so it is done once",

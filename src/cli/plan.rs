@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::Program;
 use crate::run::Control;
-use crate::scene::{FileReference, Scene, ScenesOf, Sweep, SweepRun};
+use crate::scene::{FileReference, ScenesOf, Sweep, SweepRun};
 use crate::study::sweep::{Header, Shard};
 use crate::study::{check_world, engine_version};
 use crate::units::Dimension;
@@ -26,6 +26,8 @@ pub(super) struct Plan {
     policies: Vec<Loaded<Program>>,
     /// The texts of its scenarios, in the order of the sweep's scenes.
     scenarios: Vec<Option<Source>>,
+    /// The files that scenarios name, by their paths, or why one cannot be read.
+    files: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
     inputs: BTreeMap<String, String>,
 }
 
@@ -38,8 +40,8 @@ impl Plan {
             Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
         };
         let mut inputs = BTreeMap::from([("the program".to_owned(), engine_version())]);
-        let mut hashed = |kind: &str, file: &FileReference, hash: Sha256| {
-            inputs.insert(format!("{kind} {}", file.path.display()), input::short(&hash.finalize()));
+        let mut hashed = |kind: &str, path: &Path, hash: Sha256| {
+            inputs.insert(format!("{kind} {}", path.display()), input::short(&hash.finalize()));
         };
         let in_sweep = |file: &FileReference, failure| match failure {
             Failure::Read { cause, .. } => at(&source, file.unreadable(&cause.to_string())),
@@ -48,7 +50,7 @@ impl Plan {
         let mut policies = Vec::new();
         for file in sweep.policies() {
             let policy = input::program(&input::beside(path, &file.path)).map_err(|failure| in_sweep(file, failure))?;
-            hashed("policy", file, policy.hash.clone());
+            hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
         let mut scenarios = Vec::new();
@@ -57,12 +59,36 @@ impl Plan {
                 scenarios.push(None);
                 continue;
             };
-            let path = input::beside(path, &file.path);
-            let text = input::read(&path).map_err(|failure| in_sweep(file, failure))?;
-            hashed("scenario", file, input::scenario(&path)?.hash);
+            let text = input::read(&input::beside(path, &file.path)).map_err(|failure| in_sweep(file, failure))?;
+            hashed("scenario", &file.path, Sha256::new_with_prefix(&text.text));
             scenarios.push(Some(text));
         }
-        Ok(Self { path: path.to_owned(), source, sweep, policies, scenarios, inputs })
+        let files = BTreeMap::new();
+        let mut plan = Self { path: path.to_owned(), source, sweep, policies, scenarios, files, inputs };
+        plan.read_files();
+        Ok(plan)
+    }
+
+    /// Reads the files that scenes and values name. They are kept, so that all runs have the same.
+    fn read_files(&mut self) {
+        let mut files = BTreeMap::new();
+        for run in self.sweep.samples().filter(|run| run.policy == 0) {
+            let Ok((path, text, _)) = self.scenario(&run) else { continue };
+            // What is wrong with it is told when its run is prepared.
+            let _ = run.scene(&text, &self.source, &mut |name| {
+                let (path, bytes) = input::outline_file(&path, name);
+                files.insert(path, bytes.clone());
+                bytes
+            });
+        }
+        for (path, bytes) in &files {
+            let version = match bytes {
+                Ok(bytes) => input::short(&Sha256::digest(bytes)),
+                Err(reason) => reason.clone(),
+            };
+            self.inputs.insert(format!("file {}", path.display()), version);
+        }
+        self.files = files;
     }
 
     /// What the results of a part of it depend on.
@@ -85,7 +111,7 @@ impl Plan {
         for run in self.sweep.samples() {
             let job = self.job(&run)?;
             check_world(job.world).map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?;
-            let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && job.scene.rig.sensing.angle_noise <= 0.0;
+            let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !job.scene.rig.sensing.is_noisy();
             if is_same && run.scenes().trials > 1 && told.insert(run.scenes) {
                 let name = run.scenes().name();
                 output::message(format_args!("{name}: without noise all trials are the same run"));
@@ -107,22 +133,22 @@ impl Plan {
             set.map_err(|cause| at(&self.source, run.unfit(Some(place), &cause.to_string())))?;
             settings.push((name, quantity.value_si));
         }
-        let (path, text) = match (&run.scenes().of, &self.scenarios[run.scenes]) {
-            (ScenesOf::Family(family), _) => {
-                let given = settings.iter().find(|(name, _)| *name == "speed").map(|&(_, speed)| speed);
-                let draw = family.draw_at(run.scenes().family_seed(), run.trial, given)?;
-                if given.is_none() {
-                    self.set_speed(run, &mut program, draw.speed)?;
-                    settings.push(("speed", draw.speed));
-                }
-                (PathBuf::from(&draw.scene.name), Source::new(draw.scene.name, draw.text))
-            }
-            (ScenesOf::Scenario(_), Some(text)) => (PathBuf::from(&text.name), text.clone()),
-            (ScenesOf::Scenario(file), None) => return Err(at(&self.source, file.unreadable("it has not been read"))),
-        };
-        let scene = self.scene(run, &path, &text)?;
+        let (place, text, drawn_speed) = self.scenario(run)?;
+        if let Some(speed) = drawn_speed {
+            let set = program.set("speed", speed, Dimension::SPEED);
+            set.map_err(|cause| at(&self.source, run.unfit(None, &cause.to_string())))?;
+            settings.push(("speed", speed));
+        }
+        let mut scenario_hash = Sha256::new_with_prefix(&text.text);
+        let scene = run.scene(&text, &self.source, &mut |name| {
+            let bytes = self.file(&place, name)?;
+            scenario_hash.update([0]);
+            scenario_hash.update(&bytes);
+            Ok(bytes)
+        });
+        let scene = scene.map_err(|(source_text, faults)| Failure::Faults { source_text, faults })?;
         let changes = run.settings().map(|(name, value)| format!("\0{name}={value}"));
-        let scenario_hash = changes.fold(Sha256::new_with_prefix(&text.text), Sha256::chain_update);
+        let scenario_hash = changes.fold(scenario_hash, Sha256::chain_update);
         let policy_hash = with_settings(policy.hash.clone(), settings.into_iter());
         let hashes = (scenario_hash.finalize(), policy_hash.finalize());
         let seed = match &run.scenes().of {
@@ -130,18 +156,35 @@ impl Plan {
             ScenesOf::Scenario(_) => run.scenes().seed.unwrap_or(scene.seed).wrapping_add(run.trial),
         };
         let world = scene.world.unwrap_or_default();
-        Ok(Job::with(&path, scene, program, world, seed, hashes))
+        Ok(Job::with(Path::new(&text.name), scene, program, world, seed, hashes))
     }
 
-    /// Sets the speed that a family has drawn.
-    fn set_speed(&self, run: &SweepRun<'_>, program: &mut Program, speed: f64) -> Result<(), Failure> {
-        let set = program.set("speed", speed, Dimension::SPEED);
-        set.map_err(|cause| at(&self.source, run.unfit(None, &cause.to_string())))
+    /// The text of a run's scenario, the file that what it names is beside, and the speed (m/s), if a family has drawn one.
+    fn scenario(&self, run: &SweepRun<'_>) -> Result<(PathBuf, Source, Option<f64>), Failure> {
+        let scenes = run.scenes();
+        match (&scenes.of, &self.scenarios[run.scenes]) {
+            (ScenesOf::Family(family), _) => {
+                let given = run.parameters().find(|(name, ..)| *name == "speed");
+                let speed = given.map(|(_, speed, _)| speed.value_si);
+                let draw = family.draw_at(scenes.family_seed(), run.trial, speed);
+                let draw = draw.map_err(|fault| match given {
+                    Some((.., place)) => {
+                        at(&self.source, run.unfit(Some(place), "the family has no scene at this speed"))
+                    }
+                    None => fault.into(),
+                })?;
+                let drawn_speed = speed.is_none().then_some(draw.speed);
+                Ok((self.path.clone(), Source::new(draw.scene.name, draw.text), drawn_speed))
+            }
+            (ScenesOf::Scenario(_), Some(text)) => Ok((PathBuf::from(&text.name), text.clone(), None)),
+            (ScenesOf::Scenario(file), None) => Err(at(&self.source, file.unreadable("it has not been read"))),
+        }
     }
 
-    fn scene(&self, run: &SweepRun<'_>, path: &Path, text: &Source) -> Result<Scene, Failure> {
-        let scene = run.scene(text, &self.source, &mut |name| input::outline_file(path, name).1);
-        scene.map_err(|(source_text, faults)| Failure::Faults { source_text, faults })
+    /// The bytes of the file that a scenario at `scenario` calls `name`, as it was when the sweep was read.
+    fn file(&self, scenario: &Path, name: &str) -> Result<Vec<u8>, String> {
+        let kept = self.files.get(&input::beside(scenario, name));
+        kept.cloned().unwrap_or_else(|| input::outline_file(scenario, name).1)
     }
 }
 

@@ -35,6 +35,12 @@ const REAL_RESOLUTION: f64 = 0.034e-6;
 const REAL_FORCE_NOISE: f64 = 2e-6;
 
 impl Sensing {
+    /// Whether readings have noise.
+    #[must_use]
+    pub fn is_noisy(&self) -> bool {
+        self.angle_noise > 0.0 || (self.forces && self.force_noise > 0.0)
+    }
+
     /// Gives the readings the noise and the resolution of the real sensor.
     pub fn make_real(&mut self) {
         (self.angle_noise, self.angle_resolution) = (REAL_NOISE, REAL_RESOLUTION);

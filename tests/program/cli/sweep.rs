@@ -198,6 +198,10 @@ fn faults_of_a_sweep_and_of_what_it_names_are_told_with_their_place() {
     };
     let head = format!("name: bad\npolicies: [{ROOT}/policies/vibrissa.fsm]\n");
     let disk = format!("scenes: [{{scenario: {ROOT}/scenarios/disk.yaml}}]\n");
+    let policy = "machine a  whisker r0  param speed = 5 cm/s in 0 .. 9 cm/s  initial A\n\
+                  state A { steer r0 along vector(1, 0) at speed turning 0 deg/s }\n";
+    fs::write(directory.join("slow.fsm"), policy).unwrap();
+    let slow = "name: bad\npolicies: [slow.fsm]\nscenes: [{family: polygon}]\nvary: {policy: {speed: [0 cm/s]}}\n";
     for (text, code, place) in [
         ("name: bad\npolicies: [none.fsm]\nscenes: [{family: polygon}]\n".to_owned(), "S0401", "bad.yaml:2:12"),
         (format!("{head}scenes: [{{scenario: none.yaml}}]\n"), "S0401", "bad.yaml:3:21"),
@@ -207,9 +211,95 @@ fn faults_of_a_sweep_and_of_what_it_names_are_told_with_their_place() {
         (format!("{head}{disk}vary: {{scenario: {{rig.physic.step: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:23"),
         (format!("{head}{disk}vary: {{scenario: {{stop.time.x: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:29"),
         (format!("{head}{disk}vary: {{scenario: {{stop.time: [1]}}}}\n"), "S0201", "bad.yaml:4:31"),
+        (slow.to_owned(), "S0502", "bad.yaml:4:25"),
     ] {
         let told = told(&text);
         assert!(told.contains(&format!("error[{code}]")) && told.contains(place), "{code} at {place}, {text}\n{told}");
+    }
+}
+
+#[test]
+fn the_world_can_vary_and_is_that_of_the_result() {
+    let directory = directory("sweep-worlds");
+    let worlds: &[&str] = if cfg!(feature = "sim") { &["mujoco", "quasistatic"] } else { &["quasistatic"] };
+    let file = directory.join("worlds.yaml");
+    let text = format!(
+        "name: worlds\npolicies: [{ROOT}/policies/vibrissa.fsm]\n\
+         scenes: [{{scenario: {ROOT}/scenarios/disk.yaml}}, {{family: convex-corner}}]\n\
+         vary: {{scenario: {{stop: [{{time: 1 s}}], world: [{}]}}}}\n",
+        worlds.join(", ")
+    );
+    fs::write(&file, text).unwrap();
+    let output = vibrissa(&["sweep", &file.display().to_string(), "--out", &directory.display().to_string()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(directory.join("results.jsonl")).unwrap();
+    let results: Vec<Value> = text.lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(results.len(), 2 * worlds.len());
+    for result in &results {
+        assert_eq!(result["world"], result["settings"]["world"], "{result}");
+        assert_eq!(result["outcome"], "completed");
+    }
+}
+
+#[test]
+fn results_stand_for_the_files_that_values_name_too() {
+    let directory = directory("sweep-files");
+    let calibration = |stiffness: &str| {
+        let text = format!("vibrissa_calibration: 1\nabout: a test\nhinge_stiffness: {stiffness}\n");
+        fs::write(directory.join("r0.yaml"), text).unwrap();
+    };
+    calibration("1.1");
+    let file = directory.join("files.yaml");
+    let text = format!(
+        "name: files\npolicies: [{ROOT}/policies/vibrissa.fsm]\nscenes: [{{family: convex-corner}}]\n\
+         vary: {{scenario: {{stop: [{{time: 1 s}}], rig.whiskers: [{{r0: {{calibration: r0.yaml}}, l0: {{}}}}]}}}}\n"
+    );
+    fs::write(&file, text).unwrap();
+    // Wherever it is started: a value's file is beside the sweep.
+    let sweep = || vibrissa(&["sweep", &file.display().to_string(), "--out", &directory.display().to_string()]);
+    let output = sweep();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(sweep().status.code(), Some(0));
+    calibration("1.2");
+    let output = sweep();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("another version of file") && stderr(&output).contains("r0.yaml"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn merged_results_take_the_place_of_nothing_else() {
+    let directory = directory("merge-place");
+    let file = directory.join("one.yaml");
+    let text = format!(
+        "name: one\npolicies: [{ROOT}/policies/vibrissa.fsm]\nscenes: [{{family: convex-corner}}]\n\
+         vary: {{scenario: {{stop: [{{time: 1 s}}]}}}}\n"
+    );
+    fs::write(&file, text).unwrap();
+    let out = directory.display().to_string();
+    for shard in ["1/2", "2/2"] {
+        let output = vibrissa(&["sweep", &file.display().to_string(), "--out", &out, "--shard", shard]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    let shard = directory.join("shard-1-of-2.jsonl").display().to_string();
+    let others = directory.join("results.jsonl");
+    fs::write(&others, "letters to a friend\n").unwrap();
+    for (arguments, reason) in [
+        (&["merge", &out][..], "does not begin as results of a sweep do"),
+        (&["merge", &out, "--out", &shard], "holds results of the shard 1/2"),
+    ] {
+        let output = vibrissa(arguments);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(&others).unwrap(), "letters to a friend\n");
+    fs::remove_file(&others).unwrap();
+    // Again and again.
+    for _ in 0..2 {
+        assert_eq!(vibrissa(&["merge", &out]).status.code(), Some(0));
     }
 }
 
