@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::contact_set::ContactSet;
+use super::contact_set::{ContactSet, MOST};
 use super::least_squares;
 use crate::geometry::Vector2;
 
@@ -32,11 +32,8 @@ pub struct AngleSurface {
     pub places: Vec<[f64; 2]>,
 }
 
-/// The most places that a surface holds near.
-const MOST_PLACES: usize = 10_000;
-
 impl AngleSurface {
-    /// The polynomial that comes nearest to sets of touches by the tip. `None` if they are too few.
+    /// The polynomial that comes nearest to sets of touches by the tip. `None` if they are too few, or all near one line.
     #[must_use]
     pub fn fit(sets: &[ContactSet]) -> Option<Self> {
         let places: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
@@ -113,6 +110,6 @@ impl AngleSurface {
             && positive(self.reach)
             && self.spread.is_finite()
             && self.spread >= 0.0
-            && self.places.len() <= MOST_PLACES
+            && (1..=MOST).contains(&self.places.len())
     }
 }

@@ -25,7 +25,7 @@ pub struct ContactCurve {
 }
 
 impl ContactCurve {
-    /// The curve that comes nearest to sets, each with a weight. `None` if they are too few.
+    /// The curve that comes nearest to sets, each with a weight. `None` if they are too few, or of too few base angles.
     #[must_use]
     pub fn fit(sets: &[(ContactSet, f64)]) -> Option<Self> {
         let angles = || sets.iter().map(|(set, _)| set.base_angle);

@@ -1,5 +1,6 @@
 //! One touch in a known place.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -31,8 +32,13 @@ pub struct SetsError {
 /// The columns of a file of sets: those that must be there, and those that may.
 const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
 const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
-/// The most sets of a file.
-const MOST: usize = 100_000;
+/// The most sets of a file: what is fitted to them takes time by their square.
+pub(super) const MOST: usize = 10_000;
+/// How far from the base a place may be (mm), and the greatest base angle (µrad): no hinge turns by more than half a turn.
+const FARTHEST: f64 = 1e4;
+const GREATEST_ANGLE: f64 = 1e6 * PI;
+/// The greatest direction (degrees), either way.
+const FULL_TURN: f64 = 360.0;
 
 impl ContactSet {
     /// The set as one of a bend to the left: itself or its mirror image, with a normal from 0 to 2π.
@@ -65,13 +71,17 @@ impl ContactSet {
         if let Some(name) = NEEDED.iter().find(|name| !header.iter().any(|found| found == **name)) {
             return Err(at_top(format!("the column `{name}` is missing")));
         }
+        let mut seen = BTreeSet::new();
+        if let Some(name) = header.iter().find(|name| !seen.insert(*name)) {
+            return Err(at_top(format!("the column `{name}` is there twice; take one out")));
+        }
         let column = |name: &str| header.iter().position(|found| found == name);
         let mut sets = Vec::new();
         for record in reader.records() {
             let record = record.map_err(|error| refusal(&error))?;
             let line = record.position().map_or(0, csv::Position::line);
             if sets.len() == MOST {
-                return Err(SetsError { line, reason: format!("there are more than {MOST} sets") });
+                return Err(SetsError { line, reason: format!("there are more than {MOST} sets; leave some out") });
             }
             sets.push(Self::read(&record, &column).map_err(|reason| SetsError { line, reason })?);
         }
@@ -80,18 +90,24 @@ impl ContactSet {
 
     fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
         let field = |name: &str| column(name).and_then(|index| record.get(index)).unwrap_or_default().to_owned();
-        let number = |name: &str| {
-            let number: Option<f64> = field(name).parse().ok().filter(|number: &f64| number.is_finite());
-            number.ok_or_else(|| format!("`{name}` must be a number, and is `{}`", field(name)))
+        let number = |name: &str, most: f64| {
+            let number: Option<f64> = field(name).parse().ok().filter(|number: &f64| number.abs() <= most);
+            number.ok_or_else(|| {
+                format!("`{name}` must be a number from -{most:.0} to {most:.0}, and is `{}`", field(name))
+            })
         };
-        let normal = if field("normal_deg").is_empty() { None } else { Some(number("normal_deg")?.to_radians()) };
+        let normal = match field("normal_deg").as_str() {
+            "" => None,
+            _ => Some(number("normal_deg", FULL_TURN)?.to_radians()),
+        };
         let on_shaft = match field("contact").as_str() {
             "" | "tip" => false,
             "shaft" => true,
             other => return Err(format!("`contact` must be `tip` or `shaft`, and is `{other}`")),
         };
-        let contact_base = Vector2::new(number("x_mm")?, number("y_mm")?) * 1e-3;
-        Ok(Self { contact_base, base_angle: number("base_angle_urad")? * 1e-6, normal, on_shaft })
+        let contact_base = Vector2::new(number("x_mm", FARTHEST)?, number("y_mm", FARTHEST)?) * 1e-3;
+        let base_angle = number("base_angle_urad", GREATEST_ANGLE)? * 1e-6;
+        Ok(Self { contact_base, base_angle, normal, on_shaft })
     }
 
     /// Sets as such a text.

@@ -49,6 +49,13 @@ pub enum CalibrationError {
 /// The format that is written and read.
 const FORMAT: u32 = 1;
 
+/// What files of all formats have.
+#[derive(Deserialize)]
+struct Heading {
+    #[serde(rename = "vibrissa_calibration")]
+    format: u32,
+}
+
 impl Calibration {
     /// A calibration that tells nothing yet.
     #[must_use]
@@ -61,7 +68,14 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`] when it is none that can be used.
     pub fn from_yaml(text: &str) -> Result<Self, CalibrationError> {
-        let read: Self = serde_yaml::from_str(text).map_err(|error| CalibrationError::Syntax(error.to_string()))?;
+        let read: Self = match serde_yaml::from_str(text) {
+            Ok(read) => read,
+            // What another format has besides is not known here.
+            Err(error) => match serde_yaml::from_str(text) {
+                Ok(Heading { format: found }) if found != FORMAT => return Err(CalibrationError::Format { found }),
+                _ => return Err(CalibrationError::Syntax(error.to_string())),
+            },
+        };
         if read.format != FORMAT {
             return Err(CalibrationError::Format { found: read.format });
         }
@@ -83,8 +97,10 @@ impl Calibration {
     pub fn to_yaml(&self) -> String {
         let mut text = format!(
             "# A whisker's calibration, in metres, radians and newtons; a rig loads it by `calibration: FILE`.\n\
-             vibrissa_calibration: {}\nabout: {:?}\n",
-            self.format, self.about
+             vibrissa_calibration: {}\nabout: {}\n",
+            self.format,
+            // What is in quotes in JSON is so in YAML.
+            serde_json::Value::from(self.about.as_str())
         );
         // Writing to a string cannot fail.
         if let Some(stiffness) = self.hinge_stiffness {

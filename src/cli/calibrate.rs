@@ -37,6 +37,12 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     };
     let whisker = &rig.whiskers[index];
     make_directory(arguments.out.as_deref())?;
+    if let (Some(sets), Some(directory)) = (&arguments.sets, &arguments.out) {
+        let copy = directory.join(SETS);
+        if file::is_same(sets, &copy) {
+            return Err(Failure::OntoItself { path: copy });
+        }
+    }
     let (sets, about) = match &arguments.sets {
         Some(path) => (input::contact_sets(path)?, format!("{}, measured: {}", whisker.name, path.display())),
         None => (simulated(&rig, index, arguments)?, format!("{}, simulated: a stage before a rod", whisker.name)),
@@ -49,6 +55,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     if let Some(directory) = &arguments.out {
         write(directory, whisker, &sets, &fitted)?;
     }
+    tell_missing(&fitted);
     if arguments.json {
         let held_out = &fitted.held_out;
         output::json(&Report { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
@@ -62,14 +69,31 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     Ok(Exit::Done)
 }
 
-/// The name of a calibration's file.
+/// Tells what could not be fitted, and what that wants.
+fn tell_missing(Fitted { calibration, .. }: &Fitted) {
+    let missing = [
+        (
+            calibration.one_channel.is_none(),
+            "one_channel",
+            "touches of many base angles, on surfaces nearly parallel to the heading",
+        ),
+        (calibration.recursive.is_none(), "recursive", "touches that lie spread over the plane"),
+        (calibration.hinge_stiffness.is_none(), "the base hinge", "a rig whose hinge is within a factor of five of it"),
+    ];
+    for (_, what, wanted) in missing.iter().filter(|(is_missing, ..)| *is_missing) {
+        output::message(format_args!("{what} is not fitted: it wants {wanted}"));
+    }
+}
+
+/// The names of a calibration's file, and of that of the sets.
 const FILE: &str = "calibration.yaml";
+const SETS: &str = "sets.csv";
 
 /// Writes the calibration, the sets that it rests on, and a picture of both.
 fn write(directory: &Path, whisker: &Whisker, sets: &[ContactSet], fitted: &Fitted) -> Result<(), Failure> {
     let calibration = &fitted.calibration;
     file::write(&directory.join(FILE), calibration.to_yaml())?;
-    file::write(&directory.join("sets.csv"), ContactSet::write_all(sets))?;
+    file::write(&directory.join(SETS), ContactSet::write_all(sets))?;
     let title = format!("Deflection profile of {}", calibration.about);
     let picture = profile_picture(&title, whisker.shaft.length, sets, calibration);
     file::write(&directory.join("profile.svg"), picture)

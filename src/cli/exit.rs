@@ -10,7 +10,7 @@ use crate::report::ChartTooLarge;
 use crate::rig::UnknownWhisker;
 use crate::scene::family::{FAMILIES, NoDraw};
 use crate::study::ExecuteError;
-use crate::study::calibrate::FEWEST_SETS;
+use crate::study::calibrate::FEWEST_PLACES;
 #[cfg(feature = "sim")]
 use crate::study::calibrate::StageError;
 use crate::study::sweep::{ResultsError, StartError};
@@ -69,7 +69,7 @@ pub(super) enum Failure {
     #[error("{}: {cause}", path.display())]
     Sets { path: PathBuf, cause: SetsError },
     #[error(
-        "there are {count} touches by the tip, which are too few: give {FEWEST_SETS} or more, spread over the places where it touches"
+        "{count} touches by the tip are too few, or in too few places: give {FEWEST_PLACES} places or more, spread over the plane where it touches"
     )]
     TooFewSets { count: usize },
     #[cfg(feature = "sim")]

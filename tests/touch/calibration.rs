@@ -38,7 +38,7 @@ fn fitted(stiffness: f64, change: impl Fn(ContactSet) -> ContactSet) -> Fitted {
 
 #[test]
 fn the_hinge_is_found_whether_normals_are_known_or_not() {
-    for stiffness in [0.6, 1.0, 1.7] {
+    for stiffness in [0.25, 0.6, 1.0, 1.7, 4.0] {
         for normals in [true, false] {
             let found = fitted(stiffness, |set| ContactSet { normal: set.normal.filter(|_| normals), ..set });
             let found = found.calibration.hinge_stiffness.unwrap();
@@ -105,8 +105,47 @@ proptest! {
 fn a_file_gives_back_what_was_written() {
     let calibration = fitted(1.3, |set| set).calibration;
     assert_eq!(Calibration::from_yaml(&calibration.to_yaml()).unwrap(), calibration);
-    let quoted = Calibration::new("r0: \"measured\", by # hand".to_owned());
-    assert_eq!(Calibration::from_yaml(&quoted.to_yaml()).unwrap(), quoted);
+}
+
+proptest! {
+    #[test]
+    fn a_file_gives_back_whatever_it_is_about(about in any::<String>()) {
+        let calibration = Calibration::new(about);
+        prop_assert_eq!(Calibration::from_yaml(&calibration.to_yaml()).unwrap(), calibration);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn touches_in_too_few_places_or_on_one_line_are_not_fitted_to(
+        places in 1..45_usize, turn in 0.0..6.0_f64, off in 0.0..1e-9_f64,
+    ) {
+        let sets = sets(1.0);
+        let again: Vec<_> = (0..200).map(|index| sets[index % places]).collect();
+        prop_assert_eq!(fit(&whisker(1.0), &again, String::new()).held_out, []);
+        let on_line = |index: usize| Vector2::new(0.08, 0.04) + 1e-4 * index as f64 * unit(turn) + off * unit(index as f64);
+        let line: Vec<_> = (0..60).map(|index| ContactSet { contact_base: on_line(index), ..sets[index] }).collect();
+        prop_assert_eq!(AngleSurface::fit(&line), None);
+    }
+}
+
+#[test]
+fn touches_of_one_base_angle_give_no_curve() {
+    let Fitted { calibration, .. } = fitted(1.0, |set| ContactSet { base_angle: 3e-4, ..set });
+    assert_eq!(calibration.one_channel, None);
+}
+
+#[test]
+fn a_hinge_beyond_all_that_are_tried_is_not_taken_for_the_nearest_that_is() {
+    for factor in [8.0, 0.12] {
+        // As if the sensor's scale were off.
+        let Fitted { calibration, held_out } =
+            fitted(1.0, |set| ContactSet { base_angle: set.base_angle / factor, ..set });
+        assert_eq!(calibration.hinge_stiffness, None, "{factor}");
+        assert!(held_out.iter().all(|model| !model.model.contains("sliding")), "{held_out:?}");
+    }
 }
 
 #[test]
@@ -118,12 +157,14 @@ fn what_is_no_calibration_is_refused_and_the_error_says_why() {
         (String::new(), "no calibration"),
         ("a text".to_owned(), "no calibration"),
         (good.replace("vibrissa_calibration: 1", "vibrissa_calibration: 2"), "format 2"),
+        (good.replace("vibrissa_calibration: 1", "vibrissa_calibration: 2\nwhat_is_new: 7"), "format 2"),
         (good.replace("hinge_stiffness", "stiffness"), "no calibration"),
         (good.replace(&line("hinge_stiffness"), "hinge_stiffness: .nan"), "`hinge_stiffness`"),
         (good.replace(&line("  range"), "  range: [5e-4, 1e-4]"), "`one_channel`"),
         (good.replace(&line("  covariance"), "  covariance: [1e-6, 1e-5, 1e-6]"), "`one_channel`"),
         (good.replace(&line("  scale"), "  scale: 0"), "`recursive`"),
         (good.replace(&line("  reach"), "  reach: -1"), "`recursive`"),
+        (good.replace(&line("  places"), "  places: []"), "`recursive`"),
     ];
     for (text, reason) in bad {
         let error = Calibration::from_yaml(&text).unwrap_err().to_string();
@@ -153,8 +194,13 @@ fn a_line_that_cannot_be_read_is_told() {
     for (text, reason) in [
         ("x_mm,y_mm\n1,2\n", "line 1: the column `base_angle_urad` is missing"),
         ("x_mm,y_mm,base_angle_urad,z_mm\n", "line 1: there is no column `z_mm`"),
-        ("x_mm,y_mm,base_angle_urad\n1,2,3\n1,two,3\n", "line 3: `y_mm` must be a number, and is `two`"),
+        (
+            "x_mm,y_mm,base_angle_urad\n1,2,3\n1,two,3\n",
+            "line 3: `y_mm` must be a number from -10000 to 10000, and is `two`",
+        ),
         ("x_mm,y_mm,base_angle_urad\n1,2,inf\n", "line 2: `base_angle_urad` must be a number"),
+        ("x_mm,y_mm,base_angle_urad\n1,2e300,3\n", "line 2: `y_mm` must be a number from -10000 to 10000"),
+        ("x_mm,y_mm,base_angle_urad,x_mm\n", "line 1: the column `x_mm` is there twice"),
         ("x_mm,y_mm,base_angle_urad\n1,2\n", "line 2: every line"),
         ("x_mm,y_mm,base_angle_urad,contact\n1,2,3,edge\n", "line 2: `contact` must be `tip` or `shaft`"),
     ] {

@@ -1,5 +1,6 @@
 //! Fits to sets, and how well they hold for sets that they have not seen.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use serde::Serialize;
@@ -19,7 +20,7 @@ pub struct Fitted {
     pub held_out: Vec<HeldOut>,
 }
 
-/// How far a fit is off for sets that it has not seen: every fifth set is held out, five times.
+/// How far a fit is off for sets that it has not seen: every fifth place is held out, with all its sets, five times.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HeldOut {
     /// What was fitted, and what it is for.
@@ -34,9 +35,9 @@ pub struct HeldOut {
     pub range: String,
 }
 
-/// The fewest touches by the tip that anything is fitted to.
-pub const FEWEST_SETS: usize = 50;
-/// Into how many parts the sets are divided.
+/// The fewest places of touches by the tip that anything is fitted to.
+pub const FEWEST_PLACES: usize = 50;
+/// Into how many parts the places are divided.
 const FOLDS: usize = 5;
 /// How far a surface may be from parallel to the heading (rad) for a set to count for one channel: a standard deviation, and its weight
 /// falls by a normal distribution.
@@ -46,14 +47,15 @@ const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
 const LEAST_WEIGHT: f64 = 0.1;
 
 /// Fits everything that can be fitted to sets of a whisker. Those of touches on the shaft are left out, and those that bend it to the
-/// right count as their mirror images. With fewer than [`FEWEST_SETS`] nothing is fitted, and nothing that has too few in its range.
+/// right count as their mirror images. With fewer places than [`FEWEST_PLACES`] nothing is fitted, and nothing that has too few in its range.
 #[must_use]
 pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     let sets: Vec<ContactSet> =
         sets.iter().filter(|set| !set.on_shaft && set.base_angle != 0.0).map(|set| set.to_left()).collect();
     let mut calibration = Calibration::new(about);
     let mut held_out = Vec::new();
-    if sets.len() < FEWEST_SETS {
+    let places = places(&sets);
+    if places.iter().max().is_none_or(|last| last + 1 < FEWEST_PLACES) {
         return Fitted { calibration, held_out };
     }
 
@@ -66,7 +68,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
             is_meant.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
         };
         let range = format!("{:.0} to {:.0} urad, surface within 10 deg", 1e6 * range[0], 1e6 * range[1]);
-        held_out.extend(hold_out("one_channel", &sets, curve, miss, range));
+        held_out.extend(hold_out("one_channel", (&sets, &places), curve, miss, range));
     }
 
     calibration.recursive = AngleSurface::fit(&sets);
@@ -77,15 +79,17 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
             is_within.then(|| (base_angle - set.base_angle).abs() / gradient.norm())
         };
         let range = format!("{:.1} mm about the sets", 1e3 * surface.reach);
-        held_out.extend(hold_out("recursive", &sets, AngleSurface::fit, miss, range));
+        held_out.extend(hold_out("recursive", (&sets, &places), AngleSurface::fit, miss, range));
     }
 
     let hinge = HingeFit::new(whisker);
-    let stiffness = hinge.fit(&sets);
-    calibration.hinge_stiffness = Some(stiffness);
-    let miss = |stiffness: &f64, set: &ContactSet| hinge.miss(set, *stiffness);
-    let range = format!("base hinge {stiffness:.4} N m/rad");
-    held_out.extend(hold_out("sliding, moment_and_shear", &sets, |sets| Some(hinge.fit(sets)), miss, range));
+    calibration.hinge_stiffness = hinge.fit(&sets);
+    if let Some(stiffness) = calibration.hinge_stiffness {
+        let miss = |stiffness: &f64, set: &ContactSet| hinge.miss(set, *stiffness);
+        let range = format!("base hinge {stiffness:.4} N m/rad");
+        let fit = |sets: &[ContactSet]| hinge.fit(sets);
+        held_out.extend(hold_out("sliding, moment_and_shear", (&sets, &places), fit, miss, range));
+    }
     Fitted { calibration, held_out }
 }
 
@@ -101,17 +105,28 @@ fn near_heading(whisker: &Whisker, sets: &[ContactSet]) -> Option<ContactCurve> 
     ContactCurve::fit(&weighted.collect::<Vec<_>>())
 }
 
-/// Fits again and again without a part of the sets, and judges by that part.
+/// The number of every set's place, in the order in which the places come. Sets of one place are much alike: those that are fitted to
+/// would tell of those that are held out.
+fn places(sets: &[ContactSet]) -> Vec<usize> {
+    let mut numbers = BTreeMap::new();
+    let number = |set: &ContactSet| {
+        let next = numbers.len();
+        *numbers.entry([set.contact_base.x, set.contact_base.y].map(f64::to_bits)).or_insert(next)
+    };
+    sets.iter().map(number).collect()
+}
+
+/// Fits again and again without a part of the sets, by their places, and judges by that part.
 fn hold_out<F>(
     model: &'static str,
-    sets: &[ContactSet],
+    (sets, places): (&[ContactSet], &[usize]),
     fit: impl Fn(&[ContactSet]) -> Option<F>,
     miss: impl Fn(&F, &ContactSet) -> Option<f64>,
     range: String,
 ) -> Option<HeldOut> {
     let mut misses = Vec::with_capacity(sets.len());
     for fold in 0..FOLDS {
-        let is_held = |index: &usize| index % FOLDS == fold;
+        let is_held = |index: &usize| places[*index] % FOLDS == fold;
         let part = |held: bool| (0..sets.len()).filter(move |index| is_held(index) == held).map(|index| sets[index]);
         let fitted = fit(&part(false).collect::<Vec<_>>())?;
         misses.extend(part(true).filter_map(|set| miss(&fitted, &set)));

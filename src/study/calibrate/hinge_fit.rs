@@ -15,8 +15,11 @@ pub(super) struct HingeFit {
 
 /// The least and the greatest stiffness that is tried, over that of the rig.
 const SPAN: (f64, f64) = (0.2, 5.0);
-/// Steps of the golden section, which narrows that span to a millionth.
-const STEPS: usize = 34;
+/// Logarithms as near to those of an end as this are at the end.
+const AT_END: f64 = 1e-3;
+/// Values that are tried over that span, and steps of the golden section, which narrows what is between neighbours to a millionth.
+const TRIES: u32 = 16;
+const STEPS: usize = 27;
 /// Directions of the normal (degrees) among which the nearest is sought where none is known.
 const DIRECTIONS: std::ops::RangeInclusive<u32> = 60..=220;
 /// Steps of the Gauss-Newton method from there.
@@ -31,8 +34,9 @@ impl HingeFit {
         }
     }
 
-    /// The stiffness (N m/rad) by which the mechanics come nearest to sets of touches by the tip, bent to the left.
-    pub(super) fn fit(&self, sets: &[ContactSet]) -> f64 {
+    /// The stiffness (N m/rad) by which the mechanics come nearest to sets of touches by the tip, bent to the left. `None` if that is
+    /// beyond all that are tried.
+    pub(super) fn fit(&self, sets: &[ContactSet]) -> Option<f64> {
         // A set beyond the mechanics is as bad as one that is off by a centimetre.
         let worst = 1e-2;
         let cost = |log: f64| -> f64 {
@@ -40,7 +44,11 @@ impl HingeFit {
             sets.iter().map(|set| self.miss(set, stiffness).unwrap_or(worst).min(worst).powi(2)).sum()
         };
         let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let (mut low, mut high) = (SPAN.0.ln(), SPAN.1.ln());
+        // With a hinge that is far off, sets beyond the mechanics all cost the same, and nothing says which way to go.
+        let step = (SPAN.1 / SPAN.0).ln() / f64::from(TRIES);
+        let tried = (0..=TRIES).map(|index| SPAN.0.ln() + step * f64::from(index));
+        let best = tried.map(|log| (log, cost(log))).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
+        let (mut low, mut high) = ((best - step).max(SPAN.0.ln()), (best + step).min(SPAN.1.ln()));
         let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
         let (mut cost_a, mut cost_b) = (cost(a), cost(b));
         for _ in 0..STEPS {
@@ -54,7 +62,9 @@ impl HingeFit {
                 cost_b = cost(b);
             }
         }
-        self.stiffness * f64::midpoint(low, high).exp()
+        let found = f64::midpoint(low, high);
+        let is_within = found - SPAN.0.ln() > AT_END && SPAN.1.ln() - found > AT_END;
+        is_within.then(|| self.stiffness * found.exp())
     }
 
     /// How far the place of a set is from where the mechanics have it (m): under its normal, or the nearest if that is not known.

@@ -5,6 +5,6 @@ mod hinge_fit;
 #[cfg(feature = "sim")]
 mod stage;
 
-pub use fit::{FEWEST_SETS, Fitted, HeldOut, fit, held_out_table};
+pub use fit::{FEWEST_PLACES, Fitted, HeldOut, fit, held_out_table};
 #[cfg(feature = "sim")]
 pub use stage::{StageError, simulated_sets};

@@ -49,6 +49,18 @@ fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
 }
 
 #[test]
+fn what_was_measured_is_not_written_over() {
+    let folder = directory("calibrate_onto");
+    let file = folder.join("sets.csv");
+    std::fs::write(&file, sets()).unwrap();
+    let output = vibrissa(&["calibrate", &file.display().to_string(), "--out", &folder.display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("would overwrite what it is made from"), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), sets());
+    assert!(!folder.join("calibration.yaml").exists());
+}
+
+#[test]
 fn json_alone_is_printed_if_asked_for() {
     let file = directory("calibrate_json").join("measured.csv");
     std::fs::write(&file, sets()).unwrap();
@@ -70,7 +82,7 @@ fn what_cannot_be_calibrated_says_why() {
     let wrong = write("wrong.csv", "x_mm,y_mm\n82,51\n");
     for (arguments, reason) in [
         (&["calibrate", &wrong][..], "line 1: the column `base_angle_urad` is missing"),
-        (&["calibrate", &few], "1 touches by the tip, which are too few: give 50 or more"),
+        (&["calibrate", &few], "1 touches by the tip are too few, or in too few places: give 50 places or more"),
         (&["calibrate", "none.csv"], "cannot read none.csv"),
         (&["calibrate", &few, "--whisker", "r7"], "`r7`, which the rig does not have"),
     ] {
