@@ -7,7 +7,7 @@ use crate::study::bench::{DEFAULT_POLICY, SCENARIOS, TextFile};
 use crate::study::estimators::{estimators_table, judge_all};
 use crate::study::in_parallel;
 
-use super::arguments::BenchArguments;
+use super::arguments::{BenchArguments, World};
 use super::exit::{Exit, Failure};
 use super::{input, output};
 
@@ -17,7 +17,8 @@ pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let work = |file: &TextFile| {
         let scene = input::built_in_scenario(file)?.value;
         let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
-        judge_all(&scene, Arc::clone(&program)).map_err(failed)
+        let world = World::of(arguments.world, &scene);
+        judge_all(&scene, Arc::clone(&program), world).map_err(failed)
     };
     // One at a time unless told otherwise: their times are compared, too.
     let threads = arguments.jobs.unwrap_or(NonZeroUsize::MIN);

@@ -10,6 +10,7 @@ pub use fault::Fault;
 #[cfg(feature = "sim")]
 pub use mujoco::{MujocoError, MujocoWorld, engine_version};
 pub use quasi_static::{QuasiStaticError, QuasiStaticWorld};
+pub(crate) use sensors::Sensors;
 
 use crate::signal::{Command, Sample};
 

@@ -8,7 +8,7 @@ use crate::rig::Sensing;
 
 /// The sensors at the bases of whiskers: noise and resolution, the same in every world.
 #[derive(Debug, Clone)]
-pub(super) struct Sensors {
+pub(crate) struct Sensors {
     noise: Option<Normal<f64>>,
     resolution: f64,
     force_noise: Option<Normal<f64>>,
@@ -17,7 +17,7 @@ pub(super) struct Sensors {
 
 impl Sensors {
     /// Sensors of which the `seed` fixes the noise.
-    pub(super) fn new(sensing: &Sensing, seed: u64) -> Self {
+    pub(crate) fn new(sensing: &Sensing, seed: u64) -> Self {
         Self {
             noise: normal(sensing.angle_noise),
             resolution: sensing.angle_resolution,
@@ -27,13 +27,13 @@ impl Sensors {
     }
 
     /// What is read of a base angle (rad).
-    pub(super) fn read(&mut self, base_angle: f64) -> f64 {
+    pub(crate) fn read(&mut self, base_angle: f64) -> f64 {
         let noisy = base_angle + drawn(self.noise, &mut self.random);
         if self.resolution > 0.0 { (noisy / self.resolution).round() * self.resolution } else { noisy }
     }
 
     /// What is read of a force (N) at the base.
-    pub(super) fn read_force(&mut self, force: f64) -> f64 {
+    pub(crate) fn read_force(&mut self, force: f64) -> f64 {
         force + drawn(self.force_noise, &mut self.random)
     }
 }

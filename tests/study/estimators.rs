@@ -1,6 +1,16 @@
-//! The table of tip models.
+//! Tip models against each other, and their table.
 
-use vibrissa::study::estimators::{EstimatorRow, estimators_table};
+use std::sync::Arc;
+
+use vibrissa::diagnostic::Source;
+use vibrissa::machine::TipModelKind;
+use vibrissa::policy::compile;
+use vibrissa::scene::{Scene, WorldKind};
+use vibrissa::study::estimators::{EstimatorRow, estimators_table, judge_all};
+
+/// Goes up, and nearer to the wall on the right.
+const POLICY: &str = "machine a  whisker r0  initial Up
+state Up { record r0  steer body along vector(1, 3) at 5 cm/s facing 90 deg }";
 
 fn row(scenario: &str, noise: f64, model: &'static str, mean_mm: Option<f64>) -> EstimatorRow {
     EstimatorRow {
@@ -36,4 +46,31 @@ fn every_scene_and_noise_has_a_line_and_every_model_a_mean_over_the_scenes() {
     let mean = line("sliding", "none");
     assert!(mean.contains("0.10") && mean.contains("0.20") && mean.contains("50.0 %"), "{mean}");
     assert!(line("sliding", "10 ×").contains("0.0 %"), "{table}");
+}
+
+#[test]
+fn all_models_meet_the_same_touches_in_the_world_that_is_asked_for_whatever_the_rigs_noise() {
+    let scene = |noise: &str| {
+        let text = format!(
+            "name: wall\nrig: {{sensing: {{angle_noise: {noise}}}}}\n\
+             objects: [{{polygon: {{vertices: [[128 mm, -1 m], [2 m, -1 m], [2 m, 1 m], [128 mm, 1 m]]}}}}]\n\
+             start: {{position: [0 m, 0 m], heading: 90 deg}}\nstop: {{time: 2 s}}\n"
+        );
+        Scene::from_yaml(&Source::new("wall.yaml", text)).unwrap()
+    };
+    let program = Arc::new(compile(&Source::new("a.fsm", POLICY)).unwrap());
+    let judged = |noise: &str| judge_all(&scene(noise), Arc::clone(&program), WorldKind::QuasiStatic).unwrap();
+    let rows = judged("0 urad");
+    assert_eq!(rows.len(), 3 * TipModelKind::ALL.len());
+    let of = |noise: f64, model: &str| rows.iter().find(|row| row.noise == noise && row.model == model).unwrap();
+    // The surface is parallel to the heading, as models take it to be that do not know; but the bend grows, and the filter is late.
+    for model in TipModelKind::ALL.map(TipModelKind::name) {
+        let [clean, loud] = [0.0, 10.0].map(|noise| of(noise, model));
+        assert!(clean.told > 0.9 && clean.mean_mm.unwrap() < 0.5, "{clean:?}");
+        assert!(loud.mean_mm.unwrap() > clean.mean_mm.unwrap(), "{loud:?}");
+    }
+    // The noise is what is told, not the rig's own on top.
+    let timeless =
+        |rows: Vec<EstimatorRow>| rows.into_iter().map(|row| EstimatorRow { tick_us: 0.0, ..row }).collect::<Vec<_>>();
+    assert_eq!(timeless(judged("5 urad")), timeless(rows.clone()));
 }

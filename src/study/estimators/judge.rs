@@ -3,18 +3,15 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
-
 use crate::machine::{Program, Senses, TipModelKind, WhiskerScalar};
 use crate::percept::Perception;
 use crate::rig::{Rig, Sensing};
 use crate::run::BindError;
-use crate::scene::Scene;
+use crate::scene::{Scene, WorldKind};
 use crate::score::{ErrorFigures, Tip};
 use crate::signal::Sample;
 use crate::study::ExecuteError;
+use crate::world::Sensors;
 
 use super::row::EstimatorRow;
 use super::tape::Tape;
@@ -22,16 +19,17 @@ use super::tape::Tape;
 /// The noise of the sensors, over the estimate of that of the real one.
 const NOISES: [f64; 3] = [0.0, 1.0, 10.0];
 
-/// Runs a policy once in a scene, without noise, and gives what it felt to every tip model, with more and more noise. They are judged by
-/// the points that the run recorded.
+/// Runs a policy once in a scene, in a world, without noise, and gives what it felt to every tip model, with more and more noise. They
+/// are judged by the points that the run recorded.
 ///
 /// # Errors
 /// [`ExecuteError`] when the run cannot begin, or a tip model cannot be had of the rig.
-pub fn judge_all(scene: &Scene, program: Arc<Program>) -> Result<Vec<EstimatorRow>, ExecuteError> {
+pub fn judge_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Result<Vec<EstimatorRow>, ExecuteError> {
     let mut scene = scene.clone();
     scene.rig.sensing.forces = true;
+    make_noisy(&mut scene.rig.sensing, 0.0);
     let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
-    let mut tape = Tape::record(&scene, program)?;
+    let mut tape = Tape::record(&scene, program, world)?;
     let mut rows = Vec::with_capacity(NOISES.len() * TipModelKind::ALL.len());
     for factor in NOISES {
         let mut rig = scene.rig.clone();
@@ -56,20 +54,13 @@ fn make_noisy(sensing: &mut Sensing, factor: f64) {
 
 /// The samples with the noise of a rig's sensors.
 fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut off = |spread: f64| {
-        let normal: f64 = StandardNormal.sample(&mut random);
-        spread * normal
-    };
-    let Sensing { angle_noise, angle_resolution, force_noise, .. } = rig.sensing;
+    let mut sensors = Sensors::new(&rig.sensing, seed);
     let mut ticks = ticks.to_vec();
     for sample in ticks.iter_mut().flatten() {
-        for reading in &mut sample.whiskers[..rig.whiskers.len()] {
-            let angle = reading.base_angle + off(angle_noise);
-            reading.base_angle =
-                if angle_resolution > 0.0 { (angle / angle_resolution).round() * angle_resolution } else { angle };
+        for reading in sample.whiskers.iter_mut().take(rig.whiskers.len()) {
+            reading.base_angle = sensors.read(reading.base_angle);
             for force in [&mut reading.shear, &mut reading.axial].into_iter().flatten() {
-                *force += off(force_noise);
+                *force = sensors.read_force(*force);
             }
         }
     }

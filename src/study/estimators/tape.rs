@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use crate::machine::Program;
 use crate::run::{Control, Trace, drive};
-use crate::scene::Scene;
-use crate::scene::WorldKind;
+use crate::scene::{Scene, WorldKind};
 use crate::signal::{Command, Sample};
 use crate::study::{ExecuteError, build};
 use crate::world::{Fault, World};
@@ -19,10 +18,10 @@ pub(super) struct Tape {
 }
 
 impl Tape {
-    /// Runs a policy in a scene.
-    pub(super) fn record(scene: &Scene, program: Arc<Program>) -> Result<Self, ExecuteError> {
+    /// Runs a policy in a scene, in a world.
+    pub(super) fn record(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Result<Self, ExecuteError> {
         let control = Control::new(&scene.rig, program)?;
-        let world = build(scene, WorldKind::Mujoco, scene.seed)?;
+        let world = build(scene, world, scene.seed)?;
         let mut world = Recorder { world, ticks: Vec::new() };
         let period = 1.0 / scene.rig.sensing.control_rate;
         let run = drive(&mut world, control, &scene.stop, period, |_| ControlFlow::Continue(()));
