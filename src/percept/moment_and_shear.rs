@@ -138,8 +138,4 @@ impl TipModel for MomentAndShear {
         let bend = self.elastica.solve_at(near.contact_length, deflection, near.force_direction, &near)?;
         Some(self.surface(&bend))
     }
-
-    fn boxed(&self) -> Box<dyn TipModel> {
-        Box::new(self.clone())
-    }
 }

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{Pose, Vector2, rotate};
-use crate::signal::Reading;
+use crate::geometry::Pose;
 
 use super::tip_curve::TipCurve;
-use super::tip_model::{TipModel, Touch, turned};
+use super::tip_model::{TipModel, Touch};
 
 /// Takes the tip to be on a [`TipCurve`].
 #[derive(Debug, Clone)]
@@ -25,25 +24,8 @@ impl OneChannel {
 }
 
 impl TipModel for OneChannel {
-    fn take(&mut self, _: &Reading, _: Pose) {}
-
-    fn interrupt(&mut self) {}
-
     fn touch(&mut self, deflection: f64, base: Pose) -> Option<Touch> {
         let covariance = self.curve.covariance(deflection, self.deflection_spread)?;
-        Some(Touch {
-            point_world: base.position + rotate(self.curve.contact_base(deflection), base.heading),
-            covariance_world: turned(&covariance, base.heading),
-            spread: covariance.trace().sqrt(),
-            contact_length: self.length,
-        })
-    }
-
-    fn touch_at(&self, _: f64, _: f64) -> Option<Vector2> {
-        None
-    }
-
-    fn boxed(&self) -> Box<dyn TipModel> {
-        Box::new(self.clone())
+        Some(Touch::by_tip(self.curve.contact_base(deflection), &covariance, self.length, base))
     }
 }

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use nalgebra::Matrix2;
 
 use crate::calibration::{AngleSurface, ContactSet};
-use crate::geometry::{Pose, Vector2, rotate, unit};
+use crate::geometry::{Pose, Vector2, unit};
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
 use super::tip_curve::TipCurve;
-use super::tip_model::{TipModel, Touch, turned};
+use super::tip_model::{TipModel, Touch};
 use super::tip_table::TipTable;
 
 /// Follows the tip's place in the frame of the base: from reading to reading it goes as the usual curve does, then a step along the
@@ -126,19 +126,6 @@ impl TipModel for Recursive {
         covariance.m12 *= bend;
         covariance.m21 = covariance.m12;
         let place = Vector2::new(place.x, bend * place.y);
-        Some(Touch {
-            point_world: base.position + rotate(place, base.heading),
-            covariance_world: turned(&covariance, base.heading),
-            spread: covariance.trace().sqrt(),
-            contact_length: self.length,
-        })
-    }
-
-    fn touch_at(&self, _: f64, _: f64) -> Option<Vector2> {
-        None
-    }
-
-    fn boxed(&self) -> Box<dyn TipModel> {
-        Box::new(self.clone())
+        Some(Touch::by_tip(place, &covariance, self.length, base))
     }
 }

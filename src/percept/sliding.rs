@@ -250,10 +250,6 @@ impl TipModel for Sliding {
         let tip = self.table.at(deflection.abs(), force)?.tip_base - self.tip_radius * unit(normal);
         Some(Vector2::new(tip.x, bend * tip.y))
     }
-
-    fn boxed(&self) -> Box<dyn TipModel> {
-        Box::new(self.clone())
-    }
 }
 
 /// What is left of a tip's place (m) even when readings are exact.

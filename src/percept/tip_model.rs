@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use nalgebra::{Matrix2, Rotation2};
 
-use crate::geometry::{Point2, Pose, Vector2};
+use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::signal::Reading;
 
 /// Where a whisker is touched, as a tip model estimates it.
@@ -20,27 +20,51 @@ pub struct Touch {
     pub contact_length: f64,
 }
 
+impl Touch {
+    /// A touch by the tip of a whisker of `length` (m) at `place` with its `covariance` (m, m²; frame of the base), with the base at
+    /// `base`, where nothing is known of the surface's direction.
+    pub(super) fn by_tip(place: Vector2, covariance: &Matrix2<f64>, length: f64, base: Pose) -> Self {
+        Self {
+            point_world: base.position + rotate(place, base.heading),
+            covariance_world: turned(covariance, base.heading),
+            spread: covariance.trace().sqrt(),
+            contact_length: length,
+        }
+    }
+}
+
 /// An estimate of where a whisker is touched, from its readings and the poses of its base.
 ///
 /// A pose of the base is its place, and the direction of the undeflected shaft. A model that cannot tell says so, and never
 /// goes on beyond its range. Nothing allocates.
-pub trait TipModel: Debug + Send + Sync {
-    /// Takes a reading, sampled with the base at `base`; base angle and pose are finite.
-    fn take(&mut self, reading: &Reading, base: Pose);
+pub trait TipModel: Debug + Send + Sync + Boxed {
+    /// Takes a reading, sampled with the base at `base`; base angle and pose are finite. A model that has no past needs none.
+    fn take(&mut self, _reading: &Reading, _base: Pose) {}
 
     /// Forgets what is before a gap in the readings.
-    fn interrupt(&mut self);
+    fn interrupt(&mut self) {}
 
     /// Where the whisker is touched now, with the filtered base angle `deflection` (rad) and the base at `base`. `None` if that
     /// cannot be told.
     fn touch(&mut self, deflection: f64, base: Pose) -> Option<Touch>;
 
     /// Where a surface that goes as the one touched would be touched (m, frame of the base) at another deflection (rad), with the
-    /// undeflected shaft in the direction `yaw` (rad). `None` if nothing is known of the surface.
-    fn touch_at(&self, deflection: f64, yaw: f64) -> Option<Vector2>;
+    /// undeflected shaft in the direction `yaw` (rad). `None` if nothing is known of the surface, as by most models.
+    fn touch_at(&self, _deflection: f64, _yaw: f64) -> Option<Vector2> {
+        None
+    }
+}
 
+/// What can be had once more: every tip model that can be cloned.
+pub trait Boxed {
     /// The model once more.
     fn boxed(&self) -> Box<dyn TipModel>;
+}
+
+impl<M: TipModel + Clone + 'static> Boxed for M {
+    fn boxed(&self) -> Box<dyn TipModel> {
+        Box::new(self.clone())
+    }
 }
 
 impl Clone for Box<dyn TipModel> {
