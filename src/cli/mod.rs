@@ -23,6 +23,7 @@ mod plan;
 mod run;
 mod sweep;
 mod test;
+mod values;
 mod watch;
 mod worker;
 

@@ -1,0 +1,65 @@
+//! The values of arguments: worlds, parameters, quantities.
+
+use clap::ValueEnum;
+
+use crate::scene::{Scene, WorldKind};
+use crate::units::{Dimension, Quantity, parse_quantity};
+
+/// The worlds, as the command line names them.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum World {
+    /// The simulation by MuJoCo
+    Mujoco,
+    /// Static equilibria, one after the other: no inertia, no friction, and many times as fast
+    #[value(name = "quasistatic")]
+    QuasiStatic,
+}
+
+impl World {
+    /// The world to run a scene in when this is asked for, if anything is.
+    pub(super) fn of(asked: Option<Self>, scene: &Scene) -> WorldKind {
+        let asked = asked.map(|world| match world {
+            Self::Mujoco => WorldKind::Mujoco,
+            Self::QuasiStatic => WorldKind::QuasiStatic,
+        });
+        asked.or(scene.world).unwrap_or_default()
+    }
+}
+
+/// A parameter and the value to give it.
+#[derive(Debug, Clone)]
+pub(super) struct Setting {
+    pub(super) name: String,
+    pub(super) value: Quantity,
+}
+
+/// A parameter with its value, `NAME=VALUE`.
+pub(super) fn parse_setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
+    let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    Ok(Setting { name: name.trim().to_owned(), value })
+}
+
+/// A coefficient of friction from 0 to 1.
+pub(super) fn parse_friction(text: &str) -> Result<f64, String> {
+    let friction = text.trim().parse().ok().filter(|friction| (0.0..=1.0).contains(friction));
+    friction.ok_or_else(|| "write a number from 0 to 1, such as 0.3".to_owned())
+}
+
+/// A length (m) that is not negative.
+pub(super) fn parse_length(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::LENGTH, "20 mm")
+}
+
+/// An angle (rad) that is not negative.
+pub(super) fn parse_angle(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::ANGLE, "10 deg")
+}
+
+/// A quantity (SI) of this dimension that is not negative.
+fn parse_size(text: &str, dimension: Dimension, example: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    let fits = quantity.dimension == dimension && quantity.value_si >= 0.0;
+    fits.then_some(quantity.value_si)
+        .ok_or_else(|| format!("write {} that is not negative: \"{example}\"", dimension.phrase()))
+}
