@@ -16,9 +16,10 @@ pub struct Conditions {
     pub noise: bool,
 }
 
-/// The longest step (s) and time constant of contacts (s) at which a tip slides steadily up to a friction of 0.3.
-const STEP: f64 = 1.0 / 1800.0;
-const CONTACT_TIME: f64 = 2.5e-3;
+/// The longest step (s) and time constant of contacts (s) at which a tip slides steadily up to a friction of 0.3, and one that was
+/// stuck and springs off sinks in by less than the limit.
+const STEP: f64 = 1.0 / 3600.0;
+const CONTACT_TIME: f64 = 1.25e-3;
 /// How deep a tip may sink in (m) for a moment: one that was stuck springs off faster than one that slid.
 const PENETRATION_LIMIT: f64 = 3e-3;
 
