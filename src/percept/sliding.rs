@@ -84,6 +84,9 @@ const FIRST_PLACE: f64 = 2e-5;
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
+/// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
+const TURN_BACK: f64 = 2.0 * PI / 180.0;
+const TURNS_BACK: i32 = 3;
 /// Time (s) for which the base angle must have been calm.
 const CALM_TIME: f64 = 0.02;
 
@@ -136,8 +139,14 @@ impl Sliding {
     /// One step of sliding.
     fn slide(&self, last: &Contact, angle: f64, base: Pose, way: f64) -> State {
         let unsettled = State::Unsettled { left: Some(last.before[0]), bend: last.bend };
-        let Some(tip) = self.tip(angle, base, last.normal) else { return unsettled };
-        let normal = unit(last.normal);
+        // At a light touch, noise may turn the surface farther than any force comes from that bends the whisker: it is as far off as it
+        // has to be, if it may be.
+        let spread = last.covariance.m11.max(0.0).sqrt();
+        let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= spread);
+        let mut directions = turns.map(|turn| last.normal - last.bend * turn);
+        let found = directions.find_map(|direction| Some((direction, self.tip(angle, base, direction)?)));
+        let Some((direction, tip)) = found else { return unsettled };
+        let normal = unit(direction);
         let tangent = perpendicular(normal);
         let slid = (Point2::from(tip.tip_base) - last.centre).dot(&tangent);
         let along = last.centre + slid * tangent;
@@ -160,7 +169,7 @@ impl Sliding {
             bend: last.bend,
             centre,
             before: [last.before[1], last.before[2], last.centre],
-            normal: last.normal - gain.x * innovation,
+            normal: direction - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
             tip,
         })
