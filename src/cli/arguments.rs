@@ -31,6 +31,8 @@ pub(super) enum Command {
     Calibrate(CalibrateArguments),
     /// Do the same runs under several policies, and say where they differ
     Compare(CompareArguments),
+    /// Measure run time against error over the settings of a scene's world
+    Pareto(ParetoArguments),
     /// Run scenes that are drawn by chance from families, and say how many complete
     Families(FamiliesArguments),
     /// Do the runs of a sweep, each in a process that it may end, and go on with them after a kill
@@ -178,6 +180,28 @@ pub(super) struct CompareArguments {
     /// How many runs to do at a time; as many as there are processors unless given
     #[arg(short, long, value_name = "J")]
     pub(super) jobs: Option<NonZeroUsize>,
+}
+
+const PARETO_STATUS: &str = "Exit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = PARETO_STATUS)]
+pub(super) struct ParetoArguments {
+    /// Scenario; the disk of the bench unless given
+    #[arg(value_name = "SCENARIO")]
+    pub(super) scenario: Option<PathBuf>,
+    /// Policy, or compiled machine, to run instead of the one that is built in
+    #[arg(long, value_name = "FILE")]
+    pub(super) policy: Option<PathBuf>,
+    /// How often to run every setting; run times are medians
+    #[arg(long, value_name = "N", default_value = "3")]
+    pub(super) repeats: NonZeroUsize,
+    /// Write the results and a picture of time against error into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 const FAMILIES_STATUS: &str =

@@ -19,6 +19,7 @@ mod lsp;
 mod merge;
 mod mjcf;
 mod output;
+mod pareto;
 mod plan;
 mod run;
 mod sweep;
@@ -41,6 +42,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        Command::Pareto(arguments) => pareto::pareto(arguments),
         Command::Families(arguments) => families::families(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Merge(arguments) => merge::merge(arguments),

@@ -18,4 +18,5 @@ pub use table::table;
 pub use tick_line::{TickLine, tick_lines};
 
 pub(crate) use number::{mean_std, millimetres};
+pub(crate) use picture::{FrontPoint, front_picture};
 pub(crate) use table::{NONE, ruled};

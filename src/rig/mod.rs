@@ -3,17 +3,21 @@
 //! Body frame: origin at the platform's centre of mass, first axis forward (the heading), second axis to the left.
 
 mod hinge;
+mod integrator;
 mod physics;
 mod platform;
 mod sensing;
 mod shaft;
+mod solver;
 mod whisker;
 
 pub use hinge::Hinge;
+pub use integrator::Integrator;
 pub use physics::Physics;
 pub use platform::{Platform, YawController};
 pub use sensing::Sensing;
 pub use shaft::Shaft;
+pub use solver::Solver;
 pub use whisker::Whisker;
 
 /// A platform with whiskers, and the settings of its simulation.

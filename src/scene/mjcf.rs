@@ -44,8 +44,10 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt
     // pyramid for the friction cone a tip that slides at a small coefficient chatters; with the exact cone it does not.
     writeln!(
         xml,
-        r#"  <option timestep="{}" integrator="discrete" solver="CG" cone="elliptic"{} gravity="0 0 0" jacobian="dense">"#,
+        r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{} gravity="0 0 0" jacobian="dense">"#,
         physics.step,
+        physics.integrator.name(),
+        physics.solver.name(),
         hold(physics)
     )?;
     // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.

@@ -9,6 +9,8 @@ mod execute;
 pub mod families;
 mod judge;
 mod parallel;
+pub mod pareto;
+mod processor_time;
 pub mod sweep;
 mod tally;
 

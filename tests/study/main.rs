@@ -7,6 +7,7 @@ mod common;
 mod compare;
 mod corners;
 mod estimators;
+mod pareto;
 mod report;
 mod retrieval;
 mod runs;

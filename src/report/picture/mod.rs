@@ -1,11 +1,13 @@
 //! One run as one picture.
 
+mod front;
 mod legend;
 mod map;
 mod profile;
 mod scale;
 mod timeline;
 
+pub(crate) use front::{FrontPoint, front_picture};
 pub use profile::profile_picture;
 
 use std::iter;

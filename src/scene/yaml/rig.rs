@@ -7,7 +7,7 @@ use super::node::Entry;
 use super::reader::Reader;
 use super::{timing, whisker};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::rig::{Physics, Platform, Rig, YawController};
+use crate::rig::{Integrator, Physics, Platform, Rig, Solver, YawController};
 use crate::units::{Dimension, format_si};
 
 const TAIL_WIDTH: Key = Key::new("tail_width", Dimension::LENGTH, (1e-3, 2.0), "120 mm");
@@ -97,6 +97,14 @@ fn yaw(reader: &mut Reader<'_>, entry: &Entry, yaw: &mut YawController) {
 fn physics(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) -> Option<Span> {
     let mut fields = Fields::of(reader, &entry.value, "the physics", entry.key.span)?;
     let step = fields.set(reader, &timing::STEP, &mut physics.step);
+    if let Some(entry) = fields.entry("integrator") {
+        let index = reader.choice(&entry.value, "an integrator", &Integrator::ALL.map(Integrator::name));
+        physics.integrator = index.and_then(|index| Integrator::ALL.get(index)).copied().unwrap_or_default();
+    }
+    if let Some(entry) = fields.entry("solver") {
+        let index = reader.choice(&entry.value, "a solver", &Solver::ALL.map(Solver::name));
+        physics.solver = index.and_then(|index| Solver::ALL.get(index)).copied().unwrap_or_default();
+    }
     fields.set(reader, &CONTACT_TIME, &mut physics.contact_time);
     if let Some(entry) = fields.entry(IMPEDANCE.name)
         && let Some(items) = reader.triple(&entry.value, IMPEDANCE.example)

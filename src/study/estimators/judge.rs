@@ -29,7 +29,7 @@ pub fn judge_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Resu
     scene.rig.sensing.forces = true;
     make_noisy(&mut scene.rig.sensing, 0.0);
     let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
-    let mut tape = Tape::record(&scene, program, world)?;
+    let mut tape = Tape::record(&scene, &scene.rig, program, world)?;
     let mut rows = Vec::with_capacity(NOISES.len() * TipModelKind::ALL.len());
     for factor in NOISES {
         let mut rig = scene.rig.clone();
@@ -37,7 +37,8 @@ pub fn judge_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Resu
         let clean = std::mem::take(&mut tape.ticks);
         tape.ticks = noisy(&clean, &rig, scene.seed);
         for kind in TipModelKind::ALL {
-            rows.push(judge(&scene, &rig, &whiskers, &tape, kind, factor)?);
+            let kinds = vec![kind; whiskers.len()];
+            rows.push(judge(&scene, &rig, (&whiskers, &kinds), &tape, factor)?);
         }
         tape.ticks = clean;
     }
@@ -67,18 +68,19 @@ fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
     ticks
 }
 
-fn judge(
+/// What tip models, one for every one of the policy's `whiskers` (by their indices in the rig), make of a tape, if perception takes the
+/// rig to be `rig`. The row is called after the first of them.
+pub(in crate::study) fn judge(
     scene: &Scene,
     rig: &Rig,
-    whiskers: &[usize],
+    (whiskers, kinds): (&[usize], &[TipModelKind]),
     tape: &Tape,
-    kind: TipModelKind,
     noise: f64,
 ) -> Result<EstimatorRow, ExecuteError> {
-    let kinds = vec![kind; whiskers.len()];
-    let mut perception = Perception::new(rig, whiskers, &kinds).map_err(BindError::from)?;
+    let mut perception = Perception::new(rig, whiskers, kinds).map_err(BindError::from)?;
+    let trace = &tape.run.trace;
     let (mut tips, mut asked, mut on_shaft, mut seconds) = (Vec::new(), 0_usize, 0_usize, 0.0);
-    for (index, (samples, tick)) in tape.ticks.iter().zip(&tape.trace.ticks).enumerate() {
+    for (index, (samples, tick)) in tape.ticks.iter().zip(&trace.ticks).enumerate() {
         let start = Instant::now();
         perception.update(samples);
         seconds += start.elapsed().as_secs_f64();
@@ -101,12 +103,12 @@ fn judge(
     Ok(EstimatorRow {
         scenario: scene.name.clone(),
         noise,
-        model: kind.name(),
+        model: kinds.first().map_or("none", |kind| kind.name()),
         told: share(tips.len(), asked),
         mean_mm: figures.map(|figures| 1e3 * figures.mean),
         p95_mm: figures.map(|figures| 1e3 * figures.p95),
         within_band: figures.map(|figures| figures.within_band),
         on_shaft: share(on_shaft, tips.len()),
-        tick_us: 1e6 * seconds / tape.trace.ticks.len().max(1) as f64,
+        tick_us: 1e6 * seconds / trace.ticks.len().max(1) as f64,
     })
 }

@@ -4,5 +4,7 @@ mod judge;
 mod row;
 mod tape;
 
+pub(super) use judge::judge;
 pub use judge::judge_all;
 pub use row::{EstimatorRow, estimators_table};
+pub(super) use tape::Tape;

@@ -4,29 +4,34 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::machine::Program;
-use crate::run::{Control, Trace, drive};
+use crate::rig::Rig;
+use crate::run::{Control, Run, drive};
 use crate::scene::{Scene, WorldKind};
 use crate::signal::{Command, Sample};
 use crate::study::{ExecuteError, build};
 use crate::world::{Fault, World};
 
 /// The samples of a run, and what happened in it.
-pub(super) struct Tape {
+pub(in crate::study) struct Tape {
     /// One list a tick, as many as the trace has.
     pub(super) ticks: Vec<Vec<Sample>>,
-    pub(super) trace: Trace,
+    pub(in crate::study) run: Run,
 }
 
 impl Tape {
-    /// Runs a policy in a scene, in a world.
-    pub(super) fn record(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Result<Self, ExecuteError> {
-        let control = Control::new(&scene.rig, program)?;
+    /// Runs a policy in a scene, in a `world`. Perception takes the rig to be the one that is `perceived`.
+    pub(in crate::study) fn record(
+        scene: &Scene,
+        perceived: &Rig,
+        program: Arc<Program>,
+        world: WorldKind,
+    ) -> Result<Self, ExecuteError> {
+        let control = Control::new(perceived, program)?;
         let world = build(scene, world, scene.seed)?;
         let mut world = Recorder { world, ticks: Vec::new() };
         let period = 1.0 / scene.rig.sensing.control_rate;
         let run = drive(&mut world, control, &scene.stop, period, |_| ControlFlow::Continue(()));
-        let trace = run.ok_or(ExecuteError::Interrupted)?.trace;
-        Ok(Self { ticks: world.ticks, trace })
+        Ok(Self { run: run.ok_or(ExecuteError::Interrupted)?, ticks: world.ticks })
     }
 }
 

@@ -1,0 +1,207 @@
+//! What costs how much, and how far off it is.
+
+use svg::node::element::path::Data;
+use svg::node::element::{Circle, Group, Path, Rectangle, Title};
+
+use super::scale::Scale;
+use crate::report::style::{self, Anchor, line, px, text};
+
+/// One of several things of which each has a cost and an error by either of two measures.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FrontPoint {
+    /// What it is.
+    pub(crate) name: String,
+    /// The index of its kind, which gives its colour.
+    pub(crate) kind: usize,
+    /// What it costs, above 0.
+    pub(crate) cost: f64,
+    /// Its errors, above 0; with whether it is on the front of all, and whether on that of its like.
+    pub(crate) errors: [Option<(f64, bool, bool)>; 2],
+}
+
+/// Width of the picture, of a panel and of its sides, and heights (px).
+const WIDTH: f64 = 1240.0;
+const PANEL: (f64, f64) = (520.0, 440.0);
+const LEFT: [f64; 2] = [70.0, 690.0];
+const TOP: f64 = 100.0;
+/// Columns of the names, and the height of a line of them (px).
+const COLUMNS: usize = 4;
+const LINE: f64 = 20.0;
+const DOT: f64 = 4.5;
+/// Size of a number beside a point (px), and how far from it it may be.
+const NUMBER: f64 = 11.0;
+
+/// A picture of cost against error, both on logarithmic scales: a panel for either error, with the front of all as a line and points that are
+/// on the front of their like filled. The first point has a ring. A self-contained SVG.
+pub(crate) fn front_picture(
+    title: &str,
+    subtitle: &str,
+    cost: &str,
+    errors: [&str; 2],
+    kinds: &[&str],
+    points: &[FrontPoint],
+) -> String {
+    let names_top = TOP + PANEL.1 + 80.0;
+    let lines = points.len().div_ceil(COLUMNS);
+    let height = names_top + LINE * (lines as f64 + 2.0) + 10.0;
+    let mut document = svg::Document::new()
+        .set("width", px(WIDTH))
+        .set("height", px(height))
+        .set("viewBox", format!("0 0 {} {}", px(WIDTH), px(height)))
+        .set("font-family", style::FONT)
+        .set("role", "img")
+        .add(Title::new(style::printable(title)))
+        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+        .add(text(LEFT[0], 36.0, Anchor::Start, 20.0, style::INK, title))
+        .add(text(LEFT[0], 60.0, Anchor::Start, 13.0, style::GREY, subtitle));
+    for (measure, error) in errors.into_iter().enumerate() {
+        if let Some(panel) = Panel::new(measure, points) {
+            document = document.add(panel.draw(cost, error, points));
+        }
+    }
+    document = document.add(kind_line(kinds, names_top - LINE));
+    document.add(names(points, names_top + LINE)).to_string()
+}
+
+/// One measure of the error, with its scales.
+struct Panel {
+    measure: usize,
+    left: f64,
+    x: Scale,
+    y: Scale,
+}
+
+impl Panel {
+    /// The panel of an error; `None` if no point has any.
+    fn new(measure: usize, points: &[FrontPoint]) -> Option<Self> {
+        let known = || points.iter().filter_map(|point| Some((point.cost, point.errors[measure]?.0)));
+        let left = LEFT[measure];
+        let x = logarithmic(known().map(|(cost, _)| cost), (left, left + PANEL.0))?;
+        let y = logarithmic(known().map(|(_, error)| error), (TOP + PANEL.1, TOP))?;
+        Some(Self { measure, left, x, y })
+    }
+
+    fn draw(&self, cost: &str, error: &str, points: &[FrontPoint]) -> Group {
+        let (right, bottom) = (self.left + PANEL.0, TOP + PANEL.1);
+        let mut group = Group::new();
+        for (place, label) in round_values(&self.x) {
+            group = group.add(line((place, TOP), (place, bottom), style::GRID, 1.0));
+            group = group.add(text(place, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
+        }
+        for (place, label) in round_values(&self.y) {
+            group = group.add(line((self.left, place), (right, place), style::GRID, 1.0));
+            group = group.add(text(self.left - 8.0, place + 4.0, Anchor::End, 12.0, style::GREY, &label));
+        }
+        group = group.add(text(self.left, TOP - 14.0, Anchor::Start, 13.0, style::INK, error));
+        group = group.add(text(right, bottom + 40.0, Anchor::End, 13.0, style::INK, cost));
+        group = group.add(self.front(points));
+        let mut taken: Vec<(f64, f64)> = points.iter().filter_map(|point| self.place(point)).collect();
+        for (index, point) in points.iter().enumerate() {
+            let Some((x, y)) = self.place(point) else { continue };
+            let is_filled = point.errors[self.measure].is_some_and(|(_, _, is_on)| is_on);
+            let colour = colour(point.kind);
+            let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", DOT).set("stroke", colour);
+            group = group.add(dot.set("fill", if is_filled { colour } else { "#ffffff" }).set("stroke-width", 1.5));
+            if index == 0 {
+                let ring = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", 2.0 * DOT);
+                group = group.add(ring.set("fill", "none").set("stroke", style::INK).set("stroke-width", 1.5));
+            }
+            let place = free_place((x, y), &taken);
+            taken.push(place);
+            let number = (index + 1).to_string();
+            group = group.add(text(place.0, place.1 + 0.35 * NUMBER, Anchor::Middle, NUMBER, colour, &number));
+        }
+        group
+    }
+
+    fn place(&self, point: &FrontPoint) -> Option<(f64, f64)> {
+        let (error, ..) = point.errors[self.measure]?;
+        Some((self.x.at(point.cost.log10()), self.y.at(error.log10())))
+    }
+
+    /// The steps of what can be had for a cost.
+    fn front(&self, points: &[FrontPoint]) -> Path {
+        let is_on = |point: &&FrontPoint| point.errors[self.measure].is_some_and(|(_, is_on, _)| is_on);
+        let mut places: Vec<(f64, f64)> = points.iter().filter(is_on).filter_map(|point| self.place(point)).collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut data = Data::new();
+        let mut before = None;
+        for (x, y) in places {
+            data = match before {
+                None => data.move_to((x, TOP)).line_to((x, y)),
+                Some(height) => data.line_to((x, height)).line_to((x, y)),
+            };
+            before = Some(y);
+        }
+        if let Some(height) = before {
+            data = data.line_to((self.left + PANEL.0, height));
+        }
+        Path::new().set("d", data).set("fill", "none").set("stroke", style::GREY).set("stroke-width", 1.5)
+    }
+}
+
+/// A place beside a point (px) for its number: the nearest that is free, or else the first.
+fn free_place((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
+    let around = |radius: f64| {
+        (0..12).map(move |k| {
+            let angle = f64::from(k) * std::f64::consts::TAU / 12.0 - std::f64::consts::FRAC_PI_4;
+            (x + radius * angle.cos(), y + radius * angle.sin())
+        })
+    };
+    let is_free = |place: &(f64, f64)| {
+        taken.iter().all(|other| (place.0 - other.0).abs() > 1.2 * NUMBER || (place.1 - other.1).abs() > 0.9 * NUMBER)
+    };
+    let mut places = [14.0, 20.0, 28.0, 38.0, 50.0].into_iter().flat_map(around);
+    places.find(is_free).unwrap_or((x + 14.0, y))
+}
+
+/// The scale of the logarithms of some numbers above 0, with room at both ends; `None` if there are none.
+fn logarithmic(values: impl Iterator<Item = f64>, places: (f64, f64)) -> Option<Scale> {
+    const ROOM: f64 = 0.08;
+    let logarithms = values.map(f64::log10).filter(|value| value.is_finite());
+    let (low, high) =
+        logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let room = ROOM * (high - low).max(0.1);
+    (low <= high).then_some(Scale { values: (low - room, high + room), places })
+}
+
+/// The numbers 1, 2 and 5 times powers of ten that are on a logarithmic scale: their places and texts.
+fn round_values(scale: &Scale) -> Vec<(f64, String)> {
+    let (low, high) = scale.values;
+    #[expect(clippy::cast_possible_truncation, reason = "the exponents of what has been measured")]
+    let powers = low.floor() as i32..=high.floor() as i32;
+    let values = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit: f64| (digit * 10_f64.powi(power), power)));
+    let on_scale = values.filter(|(value, _)| (low..=high).contains(&value.log10()));
+    on_scale
+        .map(|(value, power)| {
+            let decimals = usize::try_from(-power).unwrap_or(0);
+            (scale.at(value.log10()), format!("{value:.decimals$}"))
+        })
+        .collect()
+}
+
+fn colour(kind: usize) -> &'static str {
+    style::WHISKERS[kind % style::WHISKERS.len()]
+}
+
+/// What the colours mean.
+fn kind_line(kinds: &[&str], y: f64) -> Group {
+    let mut x = LEFT[0];
+    kinds.iter().enumerate().fold(Group::new(), |group, (kind, name)| {
+        let place = x;
+        x += style::width_of(name, 13.0) + 40.0;
+        let dot = Circle::new().set("cx", px(place)).set("cy", px(y - 4.0)).set("r", DOT).set("fill", colour(kind));
+        group.add(dot).add(text(place + 10.0, y, Anchor::Start, 13.0, style::INK, name))
+    })
+}
+
+/// The names by their numbers, column by column.
+fn names(points: &[FrontPoint], top: f64) -> Group {
+    let lines = points.len().div_ceil(COLUMNS);
+    let breadth = (WIDTH - LEFT[0]) / COLUMNS as f64;
+    points.iter().enumerate().fold(Group::new(), |group, (index, point)| {
+        let (column, row) = ((index / lines) as f64, (index % lines) as f64);
+        let name = format!("{} · {}", index + 1, point.name);
+        group.add(text(LEFT[0] + column * breadth, top + row * LINE, Anchor::Start, 13.0, colour(point.kind), &name))
+    })
+}

@@ -1,0 +1,40 @@
+//! What no other is better than.
+
+/// Which of some points, each with what it costs and how far off it is, no other is better than: at most as dear and at most as far
+/// off, and one of both less. What is `None`, or has what is no number, is on no front.
+#[must_use]
+pub fn front(points: &[Option<(f64, f64)>]) -> Vec<bool> {
+    let known = |point: &Option<(f64, f64)>| point.filter(|(cost, error)| cost.is_finite() && error.is_finite());
+    let is_better = |one: (f64, f64), other: (f64, f64)| one.0 <= other.0 && one.1 <= other.1 && one != other;
+    let is_on = |point| !points.iter().filter_map(known).any(|other| is_better(other, point));
+    points.iter().map(|point| known(point).is_some_and(is_on)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn what_is_cheaper_or_nearer_than_all_others_is_on_the_front() {
+        let points = [Some((1.0, 5.0)), Some((2.0, 3.0)), Some((2.0, 4.0)), Some((3.0, 3.0)), Some((9.0, 1.0)), None];
+        assert_eq!(front(&points), [true, true, false, false, true, false]);
+        assert_eq!(front(&[Some((1.0, 1.0)), Some((1.0, 1.0)), Some((f64::NAN, 0.0))]), [true, true, false]);
+    }
+
+    proptest! {
+        /// In the order of their cost, points of a front come nearer and nearer.
+        #[test]
+        fn a_front_falls(points in prop::collection::vec((0.0..9.0_f64, 0.0..9.0_f64).prop_map(Some), 1..40)) {
+            let on = front(&points);
+            let mut chosen: Vec<(f64, f64)> =
+                points.iter().zip(&on).filter(|(_, on)| **on).filter_map(|(point, _)| *point).collect();
+            chosen.sort_by(|a, b| a.0.total_cmp(&b.0));
+            prop_assert!(chosen.windows(2).all(|pair| pair[1].1 < pair[0].1));
+            // Everything else has one on the front that is better.
+            for (cost, error) in points.iter().zip(&on).filter(|(_, on)| !**on).filter_map(|(point, _)| *point) {
+                prop_assert!(chosen.iter().any(|one| one.0 <= cost && one.1 <= error));
+            }
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Runs under all settings, and what they cost.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::row::{Front, ParetoRow};
+use super::setting::{FINE_LINKS, Setting, set_links};
+use super::{Pareto, front};
+use crate::geometry::unit;
+use crate::machine::Program;
+use crate::rig::Rig;
+use crate::run::{BindError, Control, Run, drive};
+use crate::scene::{Scene, WorldKind};
+use crate::score::{Estimate, Score, Statistics};
+use crate::study::estimators::{Tape, judge};
+use crate::study::processor_time::processor_time;
+use crate::study::{Ending, ExecuteError, build};
+
+/// How far behind the scene's start (m) the fine run begins once more.
+const BEHIND: f64 = 1e-3;
+
+/// Runs a policy in a scene under every one of `settings`, the first of which is the default, `repeats` times, one run at a time. One round
+/// has every setting once, so that what else the machine does falls on all of them. `progress` hears of every run that is done.
+///
+/// In all of them perception takes whiskers to have as many links as those of the fine run, so that what a coarse chain costs is not made
+/// up for by a tip model that knows it. Another tip model gets the samples of a run under the policy's own: no policy makes up for
+/// it, or is thrown by it.
+///
+/// # Errors
+/// [`ExecuteError`] when the first of the settings cannot be run; one of the others is then refused.
+pub fn measure(
+    scene: &Scene,
+    program: &Arc<Program>,
+    world: WorldKind,
+    settings: &[Setting],
+    repeats: usize,
+    mut progress: impl FnMut(&Setting),
+) -> Result<Pareto, ExecuteError> {
+    let mut firsts: Vec<Measured> = Vec::with_capacity(settings.len());
+    let mut rounds: Vec<Vec<f64>> = Vec::with_capacity(repeats);
+    for round in 0..repeats {
+        let mut seconds = Vec::with_capacity(settings.len());
+        for setting in settings {
+            let measured = match timed(scene, program, world, setting) {
+                Err(cause) if seconds.is_empty() => return Err(cause),
+                measured => measured.unwrap_or_else(|cause| Measured::refused(&cause)),
+            };
+            seconds.push(measured.seconds);
+            if round == 0 {
+                firsts.push(measured);
+            }
+            progress(setting);
+        }
+        rounds.push(seconds);
+    }
+    let fine = settings.iter().position(|setting| *setting == Setting::fine());
+    let fine = fine.and_then(|index| firsts[index].estimate.clone());
+    let mut behind = scene.clone();
+    behind.start.position -= BEHIND * unit(scene.start.heading);
+    let floor_mm = fine.as_ref().and_then(|fine| timed(&behind, program, world, &Setting::fine()).ok()?.apart(fine));
+    let mut rows = Vec::with_capacity(settings.len());
+    for (index, (setting, first)) in settings.iter().zip(&firsts).enumerate() {
+        let seconds = |round: &Vec<f64>| round[index];
+        let ratios = Statistics::of(rounds.iter().map(|round| seconds(round) / round[0]).collect());
+        let seconds = Statistics::of(rounds.iter().map(seconds).collect());
+        let figures = ratios.zip(seconds).filter(|_| first.ending != Ending::Refused);
+        let (scene, world) = setting.apply(scene, world);
+        let fine_mm = fine.as_ref().and_then(|fine| first.apart(fine));
+        rows.push(ParetoRow::new(setting, (&scene.rig, world), first, figures, fine_mm));
+    }
+    mark(&mut rows);
+    Ok(Pareto {
+        scenario: scene.name.clone(),
+        policy: program.name.clone(),
+        repeats,
+        tip_models: program.tip_models.iter().map(|kind| kind.name()).collect(),
+        floor_mm,
+        settings: rows,
+    })
+}
+
+/// What is kept of a run.
+pub(super) struct Measured {
+    pub(super) ending: Ending,
+    pub(super) reason: Option<String>,
+    pub(super) sim_s: f64,
+    pub(super) error_mm: Option<f64>,
+    pub(super) coverage: Option<f64>,
+    /// What it estimates, if that is a run's own.
+    estimate: Option<Estimate>,
+    seconds: f64,
+}
+
+impl Measured {
+    fn new(run: &Run, scene: &Scene, seconds: f64) -> Self {
+        let score = Score::new(run, &scene.truth);
+        Self {
+            ending: run.outcome.into(),
+            reason: run.reason.clone(),
+            sim_s: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
+            error_mm: score.error.map(|error| 1e3 * error.mean),
+            coverage: Some(score.coverage),
+            estimate: Some(Estimate::new(&run.trace)),
+            seconds,
+        }
+    }
+
+    fn refused(cause: &ExecuteError) -> Self {
+        let (ending, reason) = (Ending::Refused, Some(cause.to_string()));
+        Self { ending, reason, sim_s: 0.0, error_mm: None, coverage: None, estimate: None, seconds: f64::NAN }
+    }
+
+    /// The mean distance (mm) of its tips from the contour that another run estimated.
+    fn apart(&self, other: &Estimate) -> Option<f64> {
+        let tips = self.estimate.as_ref()?.strokes().iter().flatten();
+        let distances: Option<Vec<f64>> = tips.map(|&tip| other.distance(tip)).collect();
+        Some(1e3 * Statistics::of(distances?)?.mean())
+    }
+}
+
+/// A run under a setting, with the time of the processor (s) that building the world and the loop took.
+fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Setting) -> Result<Measured, ExecuteError> {
+    let (scene, world) = setting.apply(scene, world);
+    let mut perceived = scene.rig.clone();
+    set_links(&mut perceived, FINE_LINKS);
+    if setting.tip_model().is_some() {
+        return ridden(&scene, &perceived, program, world, setting);
+    }
+    let control = Control::new(&perceived, Arc::clone(program))?;
+    let period = scene.rig.sensing.control_rate.recip();
+    let start = processor_time();
+    let mut world = build(&scene, world, scene.seed)?;
+    let run = drive(world.as_mut(), control, &scene.stop, period, |_| ControlFlow::Continue(()));
+    let seconds = (processor_time() - start).as_secs_f64();
+    Ok(Measured::new(&run.ok_or(ExecuteError::Interrupted)?, &scene, seconds))
+}
+
+/// What another tip model makes of a run under the policy's own. The time is that of the run, with the one perception in place of the other.
+fn ridden(
+    scene: &Scene,
+    perceived: &Rig,
+    program: &Arc<Program>,
+    world: WorldKind,
+    setting: &Setting,
+) -> Result<Measured, ExecuteError> {
+    let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
+    let start = processor_time();
+    let tape = Tape::record(scene, perceived, Arc::clone(program), world)?;
+    let seconds = (processor_time() - start).as_secs_f64();
+    let kinds = setting.tip_model().map_or_else(|| program.tip_models.clone(), |kind| vec![kind; whiskers.len()]);
+    let own = judge(scene, perceived, (&whiskers, &program.tip_models), &tape, 0.0)?;
+    let other = judge(scene, perceived, (&whiskers, &kinds), &tape, 0.0)?;
+    let more = 1e-6 * (other.tick_us - own.tick_us) * tape.run.trace.ticks.len() as f64;
+    let run = Measured::new(&tape.run, scene, seconds + more);
+    Ok(Measured { error_mm: other.mean_mm, coverage: None, estimate: None, ..run })
+}
+
+/// Says of every row on which fronts it is, of all settings and of those in its own world.
+fn mark(rows: &mut [ParetoRow]) {
+    let fronts = |world: Option<&str>| {
+        let of = |error: fn(&ParetoRow) -> Option<f64>| {
+            let counts = |row: &&ParetoRow| row.completed() && world.is_none_or(|world| row.world == world);
+            let point = |row| Some(row).filter(counts).and_then(|row| Some((row.relative_time?, error(row)?)));
+            front(&rows.iter().map(point).collect::<Vec<_>>())
+        };
+        let fronts = of(|row| row.error_mm).into_iter().zip(of(|row| row.fine_mm));
+        fronts.map(|(exact, fine)| Front { exact, fine }).collect::<Vec<_>>()
+    };
+    let of_all = fronts(None);
+    let of_worlds = WorldKind::ALL.map(|world| fronts(Some(world.name())));
+    for (index, row) in rows.iter_mut().enumerate() {
+        row.on_front = of_all[index];
+        row.on_front_of_world = of_worlds.iter().fold(Front::default(), |on, fronts| on.or(fronts[index]));
+    }
+}

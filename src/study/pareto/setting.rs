@@ -1,0 +1,201 @@
+//! One setting of the world or of perception.
+
+use std::fmt;
+
+use crate::machine::TipModelKind;
+use crate::rig::{Integrator, Rig, Solver};
+use crate::scene::{Scene, WorldKind};
+
+/// What a setting has that the scenario has not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    /// The world.
+    World(WorldKind),
+    /// Links of every whisker.
+    Links(usize),
+    /// The longest step (s) up to this that goes into a sample. Where this is longer than a sample, samples become as long.
+    Step(f64),
+    /// Contacts with a time constant of one step: MuJoCo takes none that is shorter, and with other integrators than `discrete` none below
+    /// two steps.
+    HardContacts,
+    /// How MuJoCo goes from step to step.
+    Integrator(Integrator),
+    /// How MuJoCo finds the forces of contacts.
+    Solver(Solver),
+    /// The tip model of every whisker.
+    TipModel(TipModelKind),
+}
+
+/// A setting: the scenario with some changes, one after the other; the default has none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting(pub Vec<Change>);
+
+/// Links of the fine run, and of the whiskers that perception takes there to be in all settings.
+pub(super) const FINE_LINKS: usize = 40;
+/// The longest step (s) of the fine run.
+const FINE_STEP: f64 = 0.5e-3;
+
+const LINKS: [usize; 6] = [6, 8, 12, 16, 24, 40];
+const SLOW: f64 = 1.0 / 150.0;
+const USUAL: f64 = 1.0 / 300.0;
+const SHORT: f64 = 1.0 / 900.0;
+const SHORTER: f64 = 1.0 / 1800.0;
+const STEPS: [f64; 6] = [1.0 / 90.0, SLOW, USUAL, 1.0 / 600.0, SHORT, SHORTER];
+/// A step (s) that the explicit integrators bear.
+const SHORTEST: f64 = 1.0 / 3600.0;
+
+impl Setting {
+    /// The scenario as it is.
+    #[must_use]
+    pub const fn unchanged() -> Self {
+        Self(Vec::new())
+    }
+
+    /// The fine one that others are compared with: in MuJoCo, where the program has it, with 40 links and steps of at most 0.5 ms.
+    /// Contacts are as hard as the step bears, for what a whisker sinks in by is what a world of hard surfaces has not.
+    #[must_use]
+    pub fn fine() -> Self {
+        use Change::{HardContacts, Links, Step, World};
+        Self(vec![World(WorldKind::default()), Links(FINE_LINKS), Step(FINE_STEP), HardContacts])
+    }
+
+    /// The settings that are compared of a scene in its `world`: the default, the fine one, every axis by itself, and some changes
+    /// together. Those that are as one before are left out, and so are those of worlds that the program does not have.
+    #[must_use]
+    pub fn all(scene: &Scene, world: WorldKind) -> Vec<Self> {
+        use Change::{HardContacts, Integrator as By, Links, Solver as With, Step, TipModel, World};
+        let steps_with = Integrator::ALL.map(|integrator| vec![Step(SHORTEST), By(integrator), HardContacts]);
+        let together = [
+            vec![Links(8), Step(SLOW)],
+            vec![Links(8), With(Solver::ProjectedGaussSeidel)],
+            vec![HardContacts],
+            vec![Step(USUAL), HardContacts],
+            vec![Step(1.0 / 600.0), HardContacts],
+            vec![Step(SHORT), HardContacts],
+            vec![Step(SHORTER), HardContacts],
+            vec![Links(8), HardContacts],
+            vec![Links(8), With(Solver::ProjectedGaussSeidel), HardContacts],
+            vec![Links(8), Step(SHORT), HardContacts],
+            vec![Links(24), Step(SHORTER), HardContacts],
+            vec![World(WorldKind::QuasiStatic), Links(8)],
+            vec![World(WorldKind::QuasiStatic), Links(FINE_LINKS)],
+        ];
+        let singles = LINKS.map(Links).into_iter().chain(STEPS.map(Step)).chain(Solver::ALL.map(With));
+        let singles = singles.chain(WorldKind::ALL.map(World)).map(|change| vec![change]);
+        let all = [Self::unchanged(), Self::fine()].into_iter();
+        let all = all.chain(singles.chain(steps_with).chain(together).map(Self));
+        let mut seen: Vec<(Rig, WorldKind)> = Vec::new();
+        let is_new = |setting: &Self| {
+            let (scene, world) = setting.apply(scene, world);
+            let about = (scene.rig, world);
+            let is_new = (cfg!(feature = "sim") || world != WorldKind::Mujoco) && !seen.contains(&about);
+            seen.push(about);
+            is_new
+        };
+        all.filter(is_new).chain(TipModelKind::ALL.map(|kind| Self(vec![TipModel(kind)]))).collect()
+    }
+
+    /// The tip model that takes the place of the policy's own.
+    pub(super) fn tip_model(&self) -> Option<TipModelKind> {
+        self.0.iter().find_map(|change| if let Change::TipModel(kind) = change { Some(*kind) } else { None })
+    }
+
+    /// The scene and the world with the changes.
+    pub(super) fn apply(&self, scene: &Scene, world: WorldKind) -> (Scene, WorldKind) {
+        let (mut scene, mut world) = (scene.clone(), world);
+        let rig = &mut scene.rig;
+        for change in &self.0 {
+            match *change {
+                Change::World(kind) => world = kind,
+                Change::Links(links) => set_links(rig, links),
+                Change::Step(step) => set_step(rig, step),
+                Change::HardContacts => rig.physics.contact_time = rig.physics.step,
+                Change::Integrator(integrator) => rig.physics.integrator = integrator,
+                Change::Solver(solver) => rig.physics.solver = solver,
+                Change::TipModel(kind) => rig.sensing.forces |= kind == TipModelKind::MomentAndShear,
+            }
+        }
+        (scene, world)
+    }
+
+    /// The one thing that it changes, in words.
+    pub(super) fn axis(&self) -> &'static str {
+        match self.0.as_slice() {
+            [] => "default",
+            _ if *self == Self::fine() => "fine",
+            [Change::Links(_)] => "links",
+            [Change::Step(_)] => "step",
+            // An integrator comes with what it bears.
+            [Change::Integrator(_)] | [Change::Step(_), Change::Integrator(_), Change::HardContacts] => "integrator",
+            [Change::HardContacts] => "contacts",
+            [Change::Solver(_)] => "solver",
+            [Change::World(_)] => "world",
+            [Change::TipModel(_)] => "tip model",
+            _ => "several",
+        }
+    }
+}
+
+/// Gives every whisker so many links.
+pub(super) fn set_links(rig: &mut Rig, links: usize) {
+    for whisker in &mut rig.whiskers {
+        whisker.shaft.links = links;
+    }
+}
+
+fn set_step(rig: &mut Rig, step: f64) {
+    // A whole number, though rounded.
+    let parts = |period: f64| (period / step - 1e-9).ceil().max(1.0);
+    let sensing = &mut rig.sensing;
+    sensing.sample_rate = sensing.sample_rate.min(sensing.control_rate * parts(sensing.control_rate.recip()));
+    let sample = sensing.sample_rate.recip();
+    rig.physics.step = sample / parts(sample);
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let "default" | "fine" = self.axis() {
+            return f.write_str(self.axis());
+        }
+        for (index, change) in self.0.iter().enumerate() {
+            f.write_str(if index > 0 { ", " } else { "" })?;
+            match change {
+                Change::World(world) => write!(f, "{world}")?,
+                Change::Links(links) => write!(f, "{links} links")?,
+                Change::Step(step) => write!(f, "{:.2} ms", 1e3 * step)?,
+                Change::HardContacts => f.write_str("hard")?,
+                Change::Integrator(integrator) => f.write_str(integrator.name())?,
+                Change::Solver(solver) => f.write_str(solver.name())?,
+                Change::TipModel(kind) => f.write_str(kind.name())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::diagnostic::Source;
+    use crate::study::bench::SCENARIOS;
+
+    #[test]
+    fn every_setting_is_another_and_its_steps_make_up_samples_and_ticks() {
+        let whole = |parts: f64| (parts - parts.round()).abs() < 1e-9 && parts > 0.5;
+        for file in [SCENARIOS[0], SCENARIOS[4]] {
+            let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+            let settings = Setting::all(&scene, WorldKind::default());
+            assert_eq!(settings[..2], [Setting::unchanged(), Setting::fine()]);
+            let mut names: Vec<_> = settings.iter().map(ToString::to_string).collect();
+            for setting in &settings {
+                let rig = setting.apply(&scene, WorldKind::default()).0.rig;
+                assert!(whole(1.0 / (rig.physics.step * rig.sensing.sample_rate)), "{setting}");
+                assert!(whole(rig.sensing.sample_rate / rig.sensing.control_rate), "{setting}");
+            }
+            names.sort();
+            names.dedup();
+            assert_eq!(names.len(), settings.len());
+        }
+    }
+}

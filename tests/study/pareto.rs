@@ -1,0 +1,95 @@
+//! Run time against error over the settings of a world.
+
+use std::sync::Arc;
+
+use vibrissa::diagnostic::Source;
+use vibrissa::machine::{Program, TipModelKind};
+use vibrissa::policy::{compile, gather};
+use vibrissa::scene::{Scene, WorldKind};
+use vibrissa::study::Ending;
+use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS};
+use vibrissa::study::pareto::{Change, Pareto, Setting, measure, pareto_picture, pareto_table};
+
+fn disk() -> Scene {
+    Scene::from_yaml(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap()
+}
+
+fn program() -> Arc<Program> {
+    let source = Source::new(DEFAULT_POLICY.path, DEFAULT_POLICY.text);
+    Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap())
+}
+
+/// What comes of the default and some other changes.
+fn measured(world: WorldKind, changes: &[&[Change]]) -> Pareto {
+    let others = changes.iter().map(|changes| Setting(changes.to_vec()));
+    let settings: Vec<_> = [Setting::unchanged()].into_iter().chain(others).collect();
+    measure(&disk(), &program(), world, &settings, 1, |_| ()).unwrap()
+}
+
+/// Less work is fewer links or fewer steps, with all else the same: how long either takes need not be known for that. Contacts stay as they
+/// are, too: harder ones are nearer for nothing, as docs/pareto.md says.
+#[cfg(feature = "sim")]
+#[test]
+fn whatever_does_less_work_than_the_default_is_farther_off() {
+    use vibrissa::rig::Solver;
+    let less: [&[Change]; 6] = [
+        &[Change::Links(6)],
+        &[Change::Links(8)],
+        &[Change::Links(12)],
+        &[Change::Step(1.0 / 150.0)],
+        &[Change::Links(8), Change::Step(1.0 / 150.0)],
+        &[Change::Links(12), Change::Solver(Solver::ProjectedGaussSeidel)],
+    ];
+    let pareto = measured(WorldKind::Mujoco, &less);
+    let [default, others @ ..] = pareto.settings.as_slice() else { panic!("no default") };
+    assert_eq!(default.outcome, Ending::Completed);
+    assert!(default.error_mm.unwrap() < 0.06);
+    for other in others {
+        let is_farther = other.outcome != Ending::Completed || other.error_mm > default.error_mm;
+        assert!(
+            is_farther,
+            "{} is off by {:?} mm, the default by {:?} mm",
+            other.setting, other.error_mm, default.error_mm
+        );
+    }
+}
+
+#[test]
+fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
+    let changes: [&[Change]; 3] = [
+        &[Change::Links(8)],
+        &[Change::TipModel(TipModelKind::Sliding)],
+        &[Change::Links(40), Change::Step(1.0 / 150.0)],
+    ];
+    let pareto = measured(WorldKind::QuasiStatic, &changes);
+    let [default, _, same_model, fine] = pareto.settings.as_slice() else { panic!("four settings") };
+    assert_eq!((default.relative_time, default.relative_time_range), (Some(1.0), Some([1.0, 1.0])));
+    assert!(pareto.settings.iter().all(|row| row.outcome == Ending::Completed && row.error_mm.unwrap() < 0.02));
+    assert!(pareto.settings.iter().all(|row| row.relative_time.is_some_and(|time| time > 0.0)));
+    assert_eq!((fine.links, fine.step_ms.round()), (40, 7.0));
+    // The same perception of the same samples, once in the loop and once after it.
+    assert!((same_model.error_mm.unwrap() - default.error_mm.unwrap()).abs() < 1e-9);
+    assert!(pareto.settings.iter().any(|row| row.on_front.exact));
+    // There was no fine run.
+    assert!(pareto.floor_mm.is_none() && pareto.settings.iter().all(|row| row.fine_mm.is_none() && !row.on_front.fine));
+    let table = pareto_table(&pareto);
+    assert!(pareto.settings.iter().all(|row| table.contains(&row.setting)), "{table}");
+    let picture = pareto_picture(&pareto);
+    assert!(picture.starts_with("<svg") && picture.contains("4 · 40 links, 6.67 ms"), "{picture}");
+}
+
+#[test]
+fn a_default_that_cannot_be_run_is_an_error_and_of_the_others_one_that_cannot_is_refused() {
+    let mut scene = disk();
+    scene.stop.time = 0.5;
+    scene.rig.physics.friction = 0.1;
+    let settings = [Setting::unchanged(), Setting(vec![Change::World(WorldKind::QuasiStatic)])];
+    let of = |world| measure(&scene, &program(), world, &settings, 1, |_| ());
+    assert!(of(WorldKind::QuasiStatic).is_err());
+    if cfg!(feature = "sim") {
+        let pareto = of(WorldKind::Mujoco).unwrap();
+        let refused = &pareto.settings[1];
+        assert_eq!((refused.outcome, refused.relative_time), (Ending::Refused, None));
+        assert!(refused.reason.as_deref().is_some_and(|reason| reason.contains("friction")));
+    }
+}
