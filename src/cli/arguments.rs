@@ -37,9 +37,11 @@ pub(super) enum Command {
     Families(FamiliesArguments),
     /// Do the runs of a sweep, each in a process that it may end, and go on with them after a kill
     Sweep(SweepArguments),
+    /// Run what is hard on worlds, and find the largest steps that are stable
+    Stress(StressArguments),
     /// Join the results of a sweep's shards
     Merge(MergeArguments),
-    /// Do runs of a sweep that standard input asks for
+    /// Do runs of a sweep, or hard cases, that standard input asks for
     #[command(hide = true)]
     Worker(WorkerArguments),
     /// Check policies, and say what they consist of
@@ -112,6 +114,9 @@ pub(super) struct BenchArguments {
     /// ten times that
     #[arg(long, conflicts_with_all = ["policies", "friction", "noise", "out"])]
     pub(super) estimators: bool,
+    /// Measure times instead: run every scene N times, one run at a time, and print medians
+    #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"])]
+    pub(super) timing: Option<NonZeroUsize>,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -283,9 +288,23 @@ pub(super) struct MergeArguments {
 
 #[derive(Debug, Args)]
 pub(super) struct WorkerArguments {
-    /// Sweep
+    /// Sweep; hard cases without one
     #[arg(value_name = "FILE")]
-    pub(super) file: PathBuf,
+    pub(super) file: Option<PathBuf>,
+}
+
+const STRESS_STATUS: &str = "Exit status: 0 every case ended in a way that runs end, with finite numbers; 1 otherwise; 2 unusable input; \
+                             3 internal error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = STRESS_STATUS)]
+pub(super) struct StressArguments {
+    /// Print only JSON: an array of cases and settings
+    #[arg(long)]
+    pub(super) json: bool,
+    /// How many cases to run at a time; as many as there are processors unless given
+    #[arg(short, long, value_name = "J")]
+    pub(super) jobs: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, Args)]

@@ -40,10 +40,7 @@ pub(super) fn run_all(
     threads: Option<NonZeroUsize>,
     is_drawn: impl Fn(&[Violation]) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
-    let bar = ProgressBar::new(jobs.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
-        bar.set_style(style);
-    }
+    let bar = bar(jobs.len());
     let run = |job: &Job| finished(job, &is_drawn);
     let done = |finished: &Result<Finished, Failure>| {
         if let Ok(Finished { result, .. }) = finished {
@@ -54,4 +51,13 @@ pub(super) fn run_all(
     let finished = in_parallel(jobs, threads.unwrap_or_else(processors), run, done);
     bar.finish_and_clear();
     finished.into_iter().collect()
+}
+
+/// A bar on standard error, if that is a terminal, for so many runs.
+pub(super) fn bar(runs: usize) -> ProgressBar {
+    let bar = ProgressBar::new(runs as u64);
+    if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
+        bar.set_style(style);
+    }
+    bar
 }

@@ -14,15 +14,18 @@ use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
 use super::run::make_directory;
-use super::{estimators, file, output};
+use super::{estimators, file, output, timing};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.estimators {
         return estimators::estimators(arguments);
     }
     let conditions = conditions(arguments);
-    let (conditions, jobs): (Vec<_>, Vec<_>) =
-        jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?.into_iter().unzip();
+    let jobs = jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?;
+    if let Some(repeats) = arguments.timing {
+        return timing::timing(&jobs, repeats, arguments.json);
+    }
+    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs.into_iter().unzip();
     make_directory(arguments.out.as_deref())?;
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));

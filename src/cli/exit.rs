@@ -13,6 +13,7 @@ use crate::study::ExecuteError;
 use crate::study::calibrate::FEWEST_PLACES;
 #[cfg(feature = "sim")]
 use crate::study::calibrate::StageError;
+use crate::study::stress::CaseError;
 use crate::study::sweep::{ResultsError, StartError};
 
 use super::output;
@@ -104,6 +105,8 @@ pub(super) enum Failure {
     NoResults { directory: PathBuf },
     #[error("the process of a run answered what is no result ({0}); this is a fault of the program, please report it")]
     Answer(serde_json::Error),
+    #[error("a hard case cannot be made: {0}; this is a fault of the program, please report it")]
+    Case(#[from] CaseError),
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]

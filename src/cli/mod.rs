@@ -22,8 +22,10 @@ mod output;
 mod pareto;
 mod plan;
 mod run;
+mod stress;
 mod sweep;
 mod test;
+mod timing;
 mod values;
 mod watch;
 mod worker;
@@ -45,6 +47,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Pareto(arguments) => pareto::pareto(arguments),
         Command::Families(arguments) => families::families(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
+        Command::Stress(arguments) => stress::stress(arguments),
         Command::Merge(arguments) => merge::merge(arguments),
         Command::Worker(arguments) => worker::worker(arguments),
         Command::Check(arguments) => check::check(arguments),

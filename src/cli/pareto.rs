@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use crate::study::bench::{DEFAULT_POLICY, SCENARIOS};
 use crate::study::pareto::{Setting, measure, pareto_picture, pareto_table};
 use crate::study::{Ending, check_world};
 
 use super::arguments::{ParetoArguments, World};
+use super::batch::bar;
 use super::exit::{Exit, Failure};
 use super::run::make_directory;
 use super::{file, input, output};
@@ -29,10 +28,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     check_world(world).map_err(failed)?;
     make_directory(arguments.out.as_deref())?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats.get());
-    let bar = ProgressBar::new((settings.len() * repeats) as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
-        bar.set_style(style);
-    }
+    let bar = bar(settings.len() * repeats);
     let measured = measure(&scene, &program, world, &settings, repeats, |setting| {
         bar.set_message(setting.to_string());
         bar.inc(1);

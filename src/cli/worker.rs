@@ -1,10 +1,12 @@
-//! `vibrissa worker`: the process in which runs of a sweep happen.
+//! `vibrissa worker`: the process in which runs of a sweep happen, or hard cases.
 
 use std::io::stdin;
 use std::sync::mpsc::channel;
 
 use crate::diagnostic::{Colour, terminal};
 use crate::scene::SweepRun;
+use crate::study::engine_version;
+use crate::study::stress::StressTask;
 use crate::study::sweep::{Shard, SweepLine};
 
 use super::arguments::WorkerArguments;
@@ -13,10 +15,25 @@ use super::exit::{Exit, Failure};
 use super::output;
 use super::plan::Plan;
 
-/// Greets with the fingerprint of the sweep, and answers every index of a run with the run's line.
+/// Greets with the fingerprint of the sweep, and answers every index of a run with the run's line. Without a sweep it is the version, and the
+/// index of a hard case.
 pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
-    let plan = Plan::read(&arguments.file)?;
-    output::result(plan.header(Shard::WHOLE).fingerprint())?;
+    let Some(file) = &arguments.file else {
+        let tasks = StressTask::all()?;
+        return serve(&engine_version(), |index| {
+            let task = usize::try_from(index).ok().and_then(|index| tasks.get(index));
+            task.map(|task| serde_json::to_string(&task.run()))
+        });
+    };
+    let plan = Plan::read(file)?;
+    serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
+        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run)))
+    })
+}
+
+/// Greets, and answers every index with a line, until there is none or nobody asks any more.
+fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>>) -> Result<Exit, Failure> {
+    output::result(greeting)?;
     let (sender, requests) = channel();
     std::thread::spawn(move || {
         for request in stdin().lines().map_while(Result::ok) {
@@ -28,10 +45,10 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
         std::process::exit(0);
     });
     for request in requests {
-        let Some(run) = request.parse().ok().and_then(|index| plan.sweep.run(index)) else {
+        let Some(line) = request.parse().ok().and_then(&line) else {
             return Ok(Exit::Unusable);
         };
-        output::result(serde_json::to_string(&line(&plan, &run))?)?;
+        output::result(line?)?;
     }
     Ok(Exit::Done)
 }

@@ -11,6 +11,7 @@ mod judge;
 mod parallel;
 pub mod pareto;
 mod processor_time;
+pub mod stress;
 pub mod sweep;
 mod tally;
 

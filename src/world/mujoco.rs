@@ -102,6 +102,16 @@ impl MujocoWorld {
         Some((place, link as f64 * link_length + along))
     }
 
+    /// The energy (J) in the springs and in the motion of platform and whiskers. No sensor reports this: it is for tests of the simulation.
+    #[must_use]
+    pub fn energy(&mut self) -> f64 {
+        // After a step, what is derived from places and speeds belongs to the state before it.
+        self.data.forward();
+        self.data.energy_pos();
+        self.data.energy_vel();
+        self.data.energy().iter().sum()
+    }
+
     /// Where a link of a whisker begins (m, world frame), and its direction (rad).
     fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
         let positions = self.data.qpos();

@@ -32,8 +32,7 @@ fn measured(world: WorldKind, changes: &[&[Change]]) -> Pareto {
 #[test]
 fn whatever_does_less_work_than_the_default_is_farther_off() {
     use vibrissa::rig::Solver;
-    let less: [&[Change]; 6] = [
-        &[Change::Links(6)],
+    let less: [&[Change]; 5] = [
         &[Change::Links(8)],
         &[Change::Links(12)],
         &[Change::Step(1.0 / 150.0)],

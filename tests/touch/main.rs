@@ -12,6 +12,8 @@ mod moment_and_shear;
 mod perception;
 mod quasi_static;
 mod sliding;
+#[cfg(feature = "sim")]
+mod stability;
 mod steering;
 mod tip_model;
 mod tip_models;

@@ -30,6 +30,12 @@ impl Conditions {
         self == Self::default()
     }
 
+    /// The name of a scenario, and what makes it harder.
+    #[must_use]
+    pub fn named(self, scenario: &str) -> String {
+        if self.are_ideal() { scenario.to_owned() } else { format!("{scenario}, {self}") }
+    }
+
     /// Makes a scene so.
     pub fn apply(self, scene: &mut Scene) {
         let rig = &mut scene.rig;

@@ -6,6 +6,7 @@ mod page;
 mod row;
 mod table;
 mod thesis;
+mod timing;
 
 pub use built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
 pub use conditions::Conditions;
@@ -13,3 +14,4 @@ pub use page::bench_page;
 pub use row::{BenchRow, Verdict, Verdicts};
 pub use table::bench_table;
 pub use thesis::{Reported, THESIS, ThesisFigures, thesis_figures};
+pub use timing::{TickTimes, Timing, TimingRow, timing_table};

@@ -76,8 +76,7 @@ impl BenchRow {
     /// The scene, and the conditions if they make it harder.
     #[must_use]
     pub fn scene(&self) -> String {
-        let scenario = &self.result.scenario;
-        if self.conditions.are_ideal() { scenario.clone() } else { format!("{scenario}, {}", self.conditions) }
+        self.conditions.named(&self.result.scenario)
     }
 
     /// The figures that the thesis reports too: what was found, what it reports, and the verdict.

@@ -8,6 +8,7 @@ mod fmt;
 mod graph;
 mod program;
 mod run;
+mod stress;
 #[cfg(feature = "sim")]
 mod sweep;
 mod test;

@@ -1,0 +1,59 @@
+//! `vibrissa stress`
+
+use std::ops::ControlFlow;
+use std::process::Command;
+
+use crate::study::stress::{StressRow, StressTask, stress_table};
+use crate::study::sweep::{Answer, StartError, Worker, answer};
+use crate::study::{engine_version, processors, stream_in_parallel};
+
+use super::arguments::StressArguments;
+use super::batch::bar;
+use super::exit::{Exit, Failure};
+use super::output;
+
+pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
+    let tasks = StressTask::all()?;
+    let indices: Vec<usize> = (0..tasks.len()).collect();
+    let bar = bar(tasks.len());
+    let mut rows: Vec<(usize, StressRow)> = Vec::with_capacity(tasks.len());
+    let mut failure = None;
+    stream_in_parallel(
+        &indices,
+        arguments.jobs.unwrap_or_else(processors),
+        || None,
+        |slot, index| answer(slot, worker, &index.to_string()),
+        |index, answer| {
+            match row(&tasks[index], answer) {
+                Ok(row) => rows.push((index, row)),
+                Err(cause) => failure = Some(cause),
+            }
+            bar.inc(1);
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    );
+    bar.finish_and_clear();
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    rows.sort_by_key(|(index, _)| *index);
+    let rows: Vec<StressRow> = rows.into_iter().map(|(_, row)| row).collect();
+    if arguments.json {
+        output::json(&rows)?;
+    } else {
+        output::result(stress_table(&rows))?;
+    }
+    Ok(if rows.iter().all(StressRow::is_sound) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// A process for cases, so that one that ends it costs no other.
+fn worker() -> Result<Worker, StartError> {
+    Worker::start(Command::new(std::env::current_exe()?).arg("worker"), &engine_version())
+}
+
+fn row(task: &StressTask, answer: Result<Answer, StartError>) -> Result<StressRow, Failure> {
+    match answer? {
+        Answer::Line(line) => serde_json::from_str(&line).map_err(Failure::Answer),
+        Answer::Crash(reason) => Ok(task.crashed(reason)),
+    }
+}

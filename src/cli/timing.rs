@@ -1,0 +1,37 @@
+//! `vibrissa bench --timing N`
+
+use std::num::NonZeroUsize;
+
+use crate::scene::Outcome;
+use crate::study::bench::{Conditions, Timing, TimingRow, timing_table};
+
+use super::batch::bar;
+use super::exit::{Exit, Failure};
+use super::job::Job;
+use super::output;
+
+/// Does every job so many times, one run at a time. One round has every job once, so that what else the machine does falls on all of them.
+pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: NonZeroUsize, json: bool) -> Result<Exit, Failure> {
+    let bar = bar(jobs.len() * repeats.get());
+    let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats.get()); jobs.len()];
+    for _ in 0..repeats.get() {
+        for ((_, job), times) in jobs.iter().zip(&mut times) {
+            bar.set_message(job.identity.scenario.clone());
+            let timing = Timing::take(&job.scene, &job.program, job.world, job.seed);
+            times.push(timing.map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?);
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    let row = |((conditions, job), times): (&(Conditions, Job), &Vec<Timing>)| {
+        let identity = &job.identity;
+        TimingRow::new(conditions.named(&identity.scenario), identity.policy.clone(), identity.world.clone(), times)
+    };
+    let rows: Vec<TimingRow> = jobs.iter().zip(&times).filter_map(row).collect();
+    if json {
+        output::json(&rows)?;
+    } else {
+        output::result(timing_table(&rows))?;
+    }
+    Ok(if rows.iter().all(|row| row.outcome == Outcome::Completed) { Exit::Done } else { Exit::Unexpected })
+}

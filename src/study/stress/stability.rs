@@ -1,0 +1,128 @@
+//! The largest step that a world bears.
+
+use crate::geometry::Vector2;
+use crate::rig::{Integrator, Rig};
+use crate::scene::{Scene, WorldKind};
+use crate::signal::Command;
+use crate::study::{ExecuteError, build};
+use crate::world::{Fault, World};
+
+use super::case::{CaseError, disk_beside, scene, set_links, set_step, stiffen};
+
+/// A setting of which the largest stable step is sought.
+#[derive(Debug, Clone)]
+pub struct StabilityCase {
+    /// The setting.
+    pub name: String,
+    /// The world.
+    pub world: WorldKind,
+    rig: Rig,
+}
+
+/// Ticks a second at which steps are tried, and the most steps a tick: the shortest step is 0.1 ms.
+const TICKS: f64 = 30.0;
+const MOST_STEPS: u32 = 333;
+/// Ticks of being shaken, of rest after it, and of the way past a disk.
+const SHAKEN: usize = 30;
+const REST: usize = 60;
+const PAST: usize = 75;
+
+impl StabilityCase {
+    /// All settings.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let mut cases = Vec::new();
+        let mut add = |name: String, world, change: &dyn Fn(&mut Rig)| {
+            let mut rig = Rig::default();
+            change(&mut rig);
+            cases.push(Self { name, world, rig });
+        };
+        for integrator in Integrator::ALL {
+            let others: &[usize] = if integrator == Integrator::default() { &[8, 40] } else { &[] };
+            for &links in [16].iter().chain(others) {
+                add(format!("{}, {links} links", integrator.name()), WorldKind::Mujoco, &|rig| {
+                    rig.physics.integrator = integrator;
+                    set_links(rig, links);
+                });
+            }
+        }
+        for world in WorldKind::ALL {
+            for factor in [0.01, 0.1, 1.0, 10.0, 100.0] {
+                add(format!("{factor} times as stiff"), world, &|rig| stiffen(rig, factor));
+            }
+        }
+        cases
+    }
+
+    /// The largest stable step (s), found by bisection over the steps that make up a tick; `None` if not even the shortest is.
+    ///
+    /// It is stable if the platform can be shaken, without its whiskers' swinging more some time after that, and driven past a disk, without a
+    /// fault.
+    ///
+    /// # Errors
+    /// [`CaseError`] when the disk cannot be made.
+    pub fn largest_stable_step(&self) -> Result<Option<f64>, CaseError> {
+        let scene = scene(&self.name, disk_beside()?, 0.0)?;
+        let is_stable = |steps: u32| self.is_stable(&scene, step(steps));
+        // Long steps are tried first: they take the least time. As many steps as `low` are not stable, as many as `high` are.
+        let (mut low, mut high) = (0, 1);
+        while !is_stable(high) {
+            if high == MOST_STEPS {
+                return Ok(None);
+            }
+            (low, high) = (high, (2 * high).min(MOST_STEPS));
+        }
+        while high - low > 1 {
+            let middle = u32::midpoint(low, high);
+            if is_stable(middle) { high = middle } else { low = middle }
+        }
+        Ok(Some(step(high)))
+    }
+
+    fn is_stable(&self, scene: &Scene, step: f64) -> bool {
+        let mut scene = scene.clone();
+        scene.rig = self.rig.clone();
+        // A sample a step, so that every number of steps makes up a tick.
+        scene.rig.sensing.sample_rate = step.recip();
+        set_step(&mut scene.rig, step);
+        let shaken = self.world_of(&scene, false).is_ok_and(|mut world| calms_down(world.as_mut()).unwrap_or(false));
+        shaken && self.world_of(&scene, true).is_ok_and(|mut world| passes(world.as_mut()).is_ok())
+    }
+
+    fn world_of(&self, scene: &Scene, with_disk: bool) -> Result<Box<dyn World>, ExecuteError> {
+        let mut scene = scene.clone();
+        if !with_disk {
+            scene.solids.clear();
+        }
+        build(&scene, self.world, 0)
+    }
+}
+
+fn step(steps: u32) -> f64 {
+    (TICKS * f64::from(steps)).recip()
+}
+
+/// Shakes the platform in free air. Whether its whiskers do not swing more some time later: soft ones may swing for long.
+fn calms_down(world: &mut dyn World) -> Result<bool, Fault> {
+    let bend = |world: &mut dyn World, command: &Command| -> Result<f64, Fault> {
+        let samples = world.advance(command)?;
+        let angles = samples.iter().flat_map(|sample| sample.whiskers.iter().map(|reading| reading.base_angle.abs()));
+        Ok(angles.fold(0.0, |most, angle| if angle <= most { most } else { angle }))
+    };
+    let mut most: f64 = 0.0;
+    for tick in 0..SHAKEN {
+        let way = if tick / 3 % 2 == 0 { 1.0 } else { -1.0 };
+        let command = Command { velocity_world: Vector2::new(0.0, 0.3 * way), yaw_rate: 3.0 * way };
+        most = most.max(bend(world, &command)?);
+    }
+    for _ in 0..REST {
+        bend(world, &Command::STOP)?;
+    }
+    Ok(bend(world, &Command::STOP)? <= most)
+}
+
+/// Drives past a disk.
+fn passes(world: &mut dyn World) -> Result<(), Fault> {
+    let command = Command { velocity_world: Vector2::new(0.0, 0.1), yaw_rate: 0.0 };
+    (0..PAST).try_for_each(|_| world.advance(&command).map(|_| ()))
+}
