@@ -44,7 +44,7 @@ impl Disk {
     }
 
     pub(crate) fn world(&self) -> Result<MujocoWorld, Box<dyn Error>> {
-        Ok(MujocoWorld::new(&self.scene.rig, &self.scene.solids, self.scene.start, 0)?)
+        Ok(MujocoWorld::pruned(&self.scene.rig, &self.scene.solids, self.scene.start, 0)?)
     }
 
     pub(crate) fn control(&self) -> Result<Control, Box<dyn Error>> {

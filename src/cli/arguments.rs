@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::scene::{Scene, WorldSetup};
 use crate::study::sweep::Shard;
 
 pub(super) use super::values::{Setting, World};
@@ -58,6 +59,8 @@ pub(super) enum Command {
     Lsp,
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),
+    /// Tell what of a scenario is left out of its run, what that saves, and why it is safe
+    Explain(ExplainArguments),
 }
 
 #[derive(Debug, Args)]
@@ -75,6 +78,8 @@ pub(super) struct RunArguments {
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
     /// Seed of the sensors' noise instead of the scenario's; it matters only to a rig with noise
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u64>,
@@ -110,6 +115,8 @@ pub(super) struct BenchArguments {
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
     /// Compare tip models instead, by what `vibrissa.fsm` feels in every scene: without noise, with that of the real sensor, and with
     /// ten times that
     #[arg(long, conflicts_with_all = ["policies", "friction", "noise", "out"])]
@@ -179,6 +186,8 @@ pub(super) struct CompareArguments {
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
     /// Print only JSON: the runs that did not complete, and the figures with their intervals
     #[arg(long)]
     pub(super) json: bool,
@@ -233,6 +242,8 @@ pub(super) struct FamiliesArguments {
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy"])]
     pub(super) print: bool,
@@ -256,6 +267,8 @@ pub(super) struct SweepArguments {
     /// Sweep: scenes, policies, and what varies
     #[arg(value_name = "FILE")]
     pub(super) file: PathBuf,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
     /// Do only the K-th of N parts; which part a run belongs to depends on its key alone
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub(super) shard: Shard,
@@ -291,6 +304,8 @@ pub(super) struct WorkerArguments {
     /// Sweep; hard cases without one
     #[arg(value_name = "FILE")]
     pub(super) file: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) pruning: Pruning,
 }
 
 const STRESS_STATUS: &str = "Exit status: 0 every case ended in a way that runs end, with finite numbers; 1 otherwise; 2 unusable input; \
@@ -393,8 +408,40 @@ pub(super) struct FmtArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_STATUS)]
+pub(super) struct ExplainArguments {
+    /// Scenario file
+    #[arg(value_name = "SCENARIO")]
+    pub(super) scenario: PathBuf,
+    /// Policy, or compiled machine, instead of the policy that the scenario names
+    #[arg(long, value_name = "FILE")]
+    pub(super) policy: Option<PathBuf>,
+    /// World to run in, instead of the scenario's; `mujoco` where that names none
+    #[arg(long, value_enum)]
+    pub(super) world: Option<World>,
+    /// Print only JSON: the decisions
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_STATUS)]
 pub(super) struct MjcfArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
     pub(super) scenario: PathBuf,
+}
+
+/// How much is simulated.
+#[derive(Debug, Args)]
+pub(super) struct Pruning {
+    /// Simulate everything, also what cannot matter; `vibrissa explain` tells what that is
+    #[arg(long)]
+    pub(super) no_prune: bool,
+}
+
+impl Pruning {
+    /// How to run a scene when this world is asked for, if any is.
+    pub(super) fn of(&self, asked: Option<World>, scene: &Scene) -> WorldSetup {
+        WorldSetup { kind: World::of(asked, scene), prune: !self.no_prune }
+    }
 }

@@ -8,7 +8,7 @@ use crate::report::RunResult;
 use crate::scene::{Outcome, Violation};
 use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
 
-use super::arguments::{BenchArguments, World};
+use super::arguments::BenchArguments;
 use super::batch::{Finished, run_all};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
@@ -21,7 +21,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         return estimators::estimators(arguments);
     }
     let conditions = conditions(arguments);
-    let jobs = jobs(&policies(&arguments.policies)?, &conditions, arguments.world)?;
+    let jobs = jobs(&policies(&arguments.policies)?, &conditions, arguments)?;
     if let Some(repeats) = arguments.timing {
         return timing::timing(&jobs, repeats, arguments.json);
     }
@@ -85,7 +85,7 @@ fn conditions(arguments: &BenchArguments) -> Vec<Conditions> {
 fn jobs(
     policies: &[(PathBuf, Loaded<Policy>)],
     conditions: &[Conditions],
-    world: Option<World>,
+    arguments: &BenchArguments,
 ) -> Result<Vec<(Conditions, Job)>, Failure> {
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, input::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
@@ -101,7 +101,7 @@ fn jobs(
                 }
                 let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
                 let (program, seed) = (policy.value.artifact.program.clone(), scene.seed);
-                let world = World::of(world, &scene);
+                let world = arguments.pruning.of(arguments.world, &scene);
                 jobs.push((conditions, Job::with(Path::new(file.path), scene, program, world, seed, hashes)));
             }
         }

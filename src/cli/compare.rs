@@ -8,7 +8,7 @@ use crate::scene::{Jitter, Scene};
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_table};
 
-use super::arguments::{CompareArguments, World};
+use super::arguments::CompareArguments;
 use super::batch::run_all;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded};
@@ -36,7 +36,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         for Setting { path, scene, hash } in &settings {
             let hashes = (hash.clone().finalize(), policy.hash.clone().finalize());
             let program = policy.value.artifact.program.clone();
-            let world = World::of(arguments.world, scene);
+            let world = arguments.pruning.of(arguments.world, scene);
             jobs.push(Job::with(path, scene.clone(), program, world, scene.seed, hashes));
         }
     }

@@ -11,7 +11,7 @@ use crate::study::families::{FamilyRun, FamilyTally, families_table};
 use crate::study::{in_parallel, processors};
 use crate::units::{Dimension, format_si};
 
-use super::arguments::{FamiliesArguments, World};
+use super::arguments::FamiliesArguments;
 use super::batch::{Finished, run_all};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
@@ -39,7 +39,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
         None => input::built_in_policy(&DEFAULT_POLICY)?,
     };
     policy.value.tell_warnings();
-    let jobs = trials.iter().map(|trial| job(trial, &policy, arguments.world)).collect::<Result<Vec<_>, Failure>>()?;
+    let jobs = trials.iter().map(|trial| job(trial, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&jobs, arguments.jobs, is_drawn)?;
@@ -73,12 +73,12 @@ fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
     Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
 }
 
-fn job(trial: &Trial, policy: &Loaded<Policy>, world: Option<World>) -> Result<Job, Failure> {
+fn job(trial: &Trial, policy: &Loaded<Policy>, arguments: &FamiliesArguments) -> Result<Job, Failure> {
     let Draw { text, scene, speed } = &trial.draw;
     let mut program = policy.value.artifact.program.clone();
     program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
     let hashes = (Sha256::digest(text), with_settings(policy.hash.clone(), [("speed", *speed)].into_iter()).finalize());
-    let world = World::of(world, scene);
+    let world = arguments.pruning.of(arguments.world, scene);
     Ok(Job::with(Path::new(&scene.name), scene.clone(), program, world, scene.seed, hashes))
 }
 

@@ -12,11 +12,11 @@ use crate::diagnostic::Source;
 use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
-use crate::scene::{Scene, WorldKind};
+use crate::scene::{Scene, WorldSetup};
 use crate::score::Score;
 use crate::study::{engine_hash, execute};
 
-use super::arguments::{RunArguments, World};
+use super::arguments::RunArguments;
 use super::exit::Failure;
 use super::input::{self, Loaded, Policy, PolicyText};
 use super::{file, output};
@@ -26,7 +26,7 @@ pub(super) struct Job {
     pub(super) path: PathBuf,
     pub(super) scene: Scene,
     pub(super) program: Arc<Program>,
-    pub(super) world: WorldKind,
+    pub(super) world: WorldSetup,
     pub(super) seed: u64,
     pub(super) identity: Identity,
 }
@@ -93,7 +93,7 @@ impl Job {
         let policy_hash = with_settings(policy_hash, settings);
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
-        let world = World::of(arguments.world, &scene);
+        let world = arguments.pruning.of(arguments.world, &scene);
         Ok(Self::with(path, scene, program, world, seed, hashes))
     }
 
@@ -102,7 +102,7 @@ impl Job {
         path: &Path,
         scene: Scene,
         program: Program,
-        world: WorldKind,
+        world: WorldSetup,
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
     ) -> Self {
@@ -110,7 +110,7 @@ impl Job {
         let identity = Identity {
             scenario: scene.name.clone(),
             policy: program.name.clone(),
-            world: world.to_string(),
+            world: world.kind.to_string(),
             seed,
             hash: Hashes {
                 scenario: input::short(scenario_hash.as_ref()),

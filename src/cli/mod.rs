@@ -9,6 +9,7 @@ mod compare;
 mod compile;
 mod estimators;
 mod exit;
+mod explain;
 mod families;
 mod file;
 mod fmt;
@@ -56,6 +57,7 @@ pub fn main(arguments: &Arguments) -> Exit {
         Command::Test(arguments) => test::test(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Lsp => lsp::lsp(),
+        Command::Explain(arguments) => explain::explain(arguments),
         Command::Mjcf(arguments) => mjcf::mjcf(arguments),
     };
     done.unwrap_or_else(|failure| {

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::machine::Program;
 use crate::run::Control;
-use crate::scene::{FileReference, ScenesOf, Sweep, SweepRun};
+use crate::scene::{FileReference, ScenesOf, Sweep, SweepRun, WorldSetup};
 use crate::study::sweep::{Header, Shard};
 use crate::study::{check_world, engine_version};
 use crate::units::Dimension;
@@ -29,17 +29,21 @@ pub(super) struct Plan {
     /// The files that scenarios name, by their paths, or why one cannot be read.
     files: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
     inputs: BTreeMap<String, String>,
+    prune: bool,
 }
 
 impl Plan {
-    /// Reads a sweep and what it names.
-    pub(super) fn read(path: &Path) -> Result<Self, Failure> {
+    /// Reads a sweep and what it names; in its runs what cannot matter is left out, or not.
+    pub(super) fn read(path: &Path, prune: bool) -> Result<Self, Failure> {
         let source = input::read(path)?;
         let sweep = match Sweep::from_yaml(&source) {
             Ok(sweep) => sweep,
             Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
         };
         let mut inputs = BTreeMap::from([("the program".to_owned(), engine_version())]);
+        if !prune {
+            inputs.insert("pruning".to_owned(), "none".to_owned());
+        }
         let mut hashed = |kind: &str, path: &Path, hash: Sha256| {
             inputs.insert(format!("{kind} {}", path.display()), input::short(&hash.finalize()));
         };
@@ -64,7 +68,7 @@ impl Plan {
             scenarios.push(Some(text));
         }
         let files = BTreeMap::new();
-        let mut plan = Self { path: path.to_owned(), source, sweep, policies, scenarios, files, inputs };
+        let mut plan = Self { path: path.to_owned(), source, sweep, policies, scenarios, files, inputs, prune };
         plan.read_files();
         Ok(plan)
     }
@@ -110,7 +114,7 @@ impl Plan {
         let mut told = BTreeSet::new();
         for run in self.sweep.samples() {
             let job = self.job(&run)?;
-            check_world(job.world).map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?;
+            check_world(job.world.kind).map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?;
             let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !job.scene.rig.sensing.is_noisy();
             if is_same && run.scenes().trials > 1 && told.insert(run.scenes) {
                 let name = run.scenes().name();
@@ -155,7 +159,7 @@ impl Plan {
             ScenesOf::Family(_) => scene.seed,
             ScenesOf::Scenario(_) => run.scenes().seed.unwrap_or(scene.seed).wrapping_add(run.trial),
         };
-        let world = scene.world.unwrap_or_default();
+        let world = WorldSetup { kind: scene.world.unwrap_or_default(), prune: self.prune };
         Ok(Job::with(Path::new(&text.name), scene, program, world, seed, hashes))
     }
 

@@ -19,7 +19,7 @@ use super::plan::Plan;
 use super::run::make_directory;
 
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
-    let plan = Plan::read(&arguments.file)?;
+    let plan = Plan::read(&arguments.file, !arguments.pruning.no_prune)?;
     plan.tell_warnings()?;
     plan.check()?;
     let sweep = &plan.sweep;
@@ -33,7 +33,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
     let bar = bar(resumed, left.len());
     let fingerprint = header.fingerprint();
-    let start = || worker(&arguments.file, &fingerprint);
+    let start = || worker(arguments, &fingerprint);
     let mut failure = None;
     stream_in_parallel(
         &left,
@@ -64,9 +64,13 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
 }
 
 /// A process for runs: this program once more, so that what ends it ends no other run.
-fn worker(sweep: &Path, fingerprint: &str) -> Result<Worker, StartError> {
+fn worker(arguments: &SweepArguments, fingerprint: &str) -> Result<Worker, StartError> {
     let mut command = Command::new(std::env::current_exe()?);
-    Worker::start(command.arg("worker").arg(sweep), fingerprint)
+    command.arg("worker").arg(&arguments.file);
+    if arguments.pruning.no_prune {
+        command.arg("--no-prune");
+    }
+    Worker::start(&mut command, fingerprint)
 }
 
 /// The line of the run with this index.

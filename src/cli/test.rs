@@ -105,7 +105,7 @@ fn job_of(
     test.set(&mut program);
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
-    let (seed, world) = (scene.seed, World::of(arguments.world, &scene));
+    let (seed, world) = (scene.seed, World::of(arguments.world, &scene).into());
     let hashes = (hash.finalize(), policy_hash.finalize());
     Ok(Job::with(&path, scene, program, world, seed, hashes))
 }

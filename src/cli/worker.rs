@@ -25,7 +25,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
             task.map(|task| serde_json::to_string(&task.run()))
         });
     };
-    let plan = Plan::read(file)?;
+    let plan = Plan::read(file, !arguments.pruning.no_prune)?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
         plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run)))
     })

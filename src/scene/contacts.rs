@@ -4,6 +4,9 @@ use std::fmt::{self, Write};
 
 use crate::rig::{Physics, Rig};
 
+use super::part::Part;
+use super::prune::Scope;
+
 /// How much slower a contact takes up sliding than sinking in, and how much harder it then holds against it.
 ///
 /// The engine's law of friction pushes a sliding contact apart: with one time constant `T` for both directions, a contact that slides at
@@ -54,14 +57,19 @@ impl Contacts {
     }
 
     /// The pairs of every part with every link and the platform, where it is a matter of them.
-    pub(super) fn write_pairs(self, xml: &mut String, rig: &Rig, parts: &[String]) -> fmt::Result {
+    pub(super) fn write_pairs(
+        self,
+        xml: &mut String,
+        rig: &Rig,
+        scope: &Scope,
+        parts: &[(String, &Part)],
+    ) -> fmt::Result {
         if self == Self::Masks {
             return Ok(());
         }
-        let links = rig
-            .whiskers
-            .iter()
-            .flat_map(|whisker| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
+        let links = scope
+            .flexible(rig)
+            .flat_map(|(_, whisker)| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
         let physics = &rig.physics;
         let mut contact = contact(physics, &format!("{0} {0}", physics.friction));
         if physics.friction > 0.0 {
@@ -71,7 +79,7 @@ impl Contacts {
         }
         writeln!(xml, r"  <contact>")?;
         for geom in links.chain(["platform/body".to_owned()]) {
-            for part in parts {
+            for (part, _) in parts {
                 writeln!(xml, r#"    <pair geom1="{part}" geom2="{geom}" {contact}/>"#)?;
             }
         }

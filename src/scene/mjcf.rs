@@ -12,6 +12,7 @@ use crate::rig::{Platform, Rig, Shaft, Whisker};
 
 use super::contacts::{Contacts, hold};
 use super::part::Part;
+use super::prune::Scope;
 use super::solid::Solid;
 
 /// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
@@ -19,6 +20,11 @@ const HALF_HEIGHT: f64 = 0.01;
 
 /// The least moment of inertia (kg m²) that MuJoCo takes for a body.
 pub(super) const LEAST_INERTIA: f64 = 1e-15;
+
+/// Mass (kg) and moment of inertia (kg m²) of a whisker's base. The suspension's inertia is the hinge's armature; the body only needs
+/// enough to be a body.
+const BASE_MASS: f64 = 1e-6;
+const BASE_INERTIA: f64 = 1e-9;
 
 /// Writes the MuJoCo model of `rig` at `start` before `solids`.
 ///
@@ -28,14 +34,23 @@ pub(super) const LEAST_INERTIA: f64 = 1e-15;
 /// `start`.
 #[must_use]
 pub fn mjcf(rig: &Rig, solids: &[Solid], start: Pose) -> String {
-    let parts: Vec<&Part> = solids.iter().flat_map(Solid::parts).collect();
+    mjcf_within(rig, solids, start, &Scope::whole(rig, solids))
+}
+
+/// The same, with what `scope` says alone. A rigid whisker is one body, without joints and geoms; the other names stay as they are.
+#[must_use]
+pub fn mjcf_within(rig: &Rig, solids: &[Solid], start: Pose, scope: &Scope) -> String {
+    let all = solids.iter().flat_map(Solid::parts).count();
+    let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
+    let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
+    let parts: Vec<(String, &Part)> = parts.map(|(index, part)| (name(index), part)).collect();
     let mut xml = String::new();
     // Writing to a string cannot fail.
-    let _ = write_model(&mut xml, rig, &parts, start);
+    let _ = write_model(&mut xml, rig, &parts, start, scope);
     xml
 }
 
-fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt::Result {
+fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Pose, scope: &Scope) -> fmt::Result {
     let physics = &rig.physics;
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false"/>"#)?;
@@ -57,14 +72,13 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt
     contacts.write_defaults(xml, physics)?;
     write_assets(xml, &rig.platform, parts)?;
     writeln!(xml, r"  <worldbody>")?;
-    for (index, part) in parts.iter().enumerate() {
-        write_part(xml, &part_name(index, parts), part, contacts)?;
+    for (name, part) in parts {
+        write_part(xml, name, part, contacts)?;
     }
-    write_platform(xml, rig, contacts)?;
+    write_platform(xml, rig, contacts, scope)?;
     writeln!(xml, r"  </worldbody>")?;
     if !parts.is_empty() {
-        let names: Vec<_> = (0..parts.len()).map(|index| part_name(index, parts)).collect();
-        contacts.write_pairs(xml, rig, &names)?;
+        contacts.write_pairs(xml, rig, scope, parts)?;
     }
     write_actuators(xml, &rig.platform)?;
     if rig.sensing.forces {
@@ -74,21 +88,16 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[&Part], start: Pose) -> fmt
         }
         writeln!(xml, r"  </sensor>")?;
     }
-    write_start(xml, rig, start)?;
+    write_start(xml, rig, start, scope)?;
     writeln!(xml, r"</mujoco>")
 }
 
-/// What a part is called; a name that no link of a whisker can have.
-fn part_name(index: usize, parts: &[&Part]) -> String {
-    if parts.len() == 1 { "object".to_owned() } else { format!("object/{index}") }
-}
-
-fn write_assets(xml: &mut String, platform: &Platform, parts: &[&Part]) -> fmt::Result {
+fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]) -> fmt::Result {
     writeln!(xml, r"  <asset>")?;
     write_prism(xml, "platform", platform.outline_body().iter().map(|corner| (corner.x, corner.y)))?;
-    for (index, part) in parts.iter().enumerate() {
+    for (name, part) in parts {
         if let Part::Prism { outline } = part {
-            write_prism(xml, &part_name(index, parts), outline.iter().map(|corner| (corner.x, corner.y)))?;
+            write_prism(xml, name, outline.iter().map(|corner| (corner.x, corner.y)))?;
         }
     }
     writeln!(xml, r"  </asset>")
@@ -114,7 +123,7 @@ fn write_part(xml: &mut String, name: &str, part: &Part, contacts: Contacts) -> 
     }
 }
 
-fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts) -> fmt::Result {
+fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts, scope: &Scope) -> fmt::Result {
     let Platform { mass, inertia, .. } = rig.platform;
     writeln!(xml, r#"    <body name="platform/body">"#)?;
     writeln!(xml, r#"      <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#)?;
@@ -123,23 +132,46 @@ fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts) -> fmt::Resul
     writeln!(xml, r#"      <joint name="platform/yaw" type="hinge" axis="0 0 1"/>"#)?;
     let mask = contacts.of_rig();
     writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" {mask}/>"#)?;
-    for whisker in &rig.whiskers {
-        write_whisker(xml, whisker, mask)?;
+    for (index, whisker) in rig.whiskers.iter().enumerate() {
+        // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
+        writeln!(
+            xml,
+            r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
+            whisker.base_body.x, whisker.base_body.y, whisker.direction_body
+        )?;
+        if scope.is_rigid(index) {
+            write_rigid(xml, whisker)?;
+        } else {
+            write_whisker(xml, whisker, mask)?;
+        }
     }
     writeln!(xml, r"    </body>")
+}
+
+/// Writes a whisker that neither bends nor touches: its mass alone, where it is while the whisker is straight.
+fn write_rigid(xml: &mut String, whisker: &Whisker) -> fmt::Result {
+    let shaft = &whisker.shaft;
+    let links = || (0..shaft.links).map(|link| (shaft.link_mass(link), (link as f64 + 0.5) * shaft.link_length()));
+    let mass = BASE_MASS + links().map(|(mass, _)| mass).sum::<f64>();
+    let centre = links().map(|(mass, along)| mass * along).sum::<f64>() / mass;
+    let of_links =
+        links().enumerate().map(|(link, (mass, along))| link_inertia(shaft, link) + mass * (along - centre).powi(2));
+    let inertia = BASE_INERTIA + BASE_MASS * centre * centre + of_links.sum::<f64>();
+    writeln!(
+        xml,
+        r#"        <inertial pos="{centre} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#
+    )?;
+    writeln!(xml, r#"        <site name="{}"/>"#, whisker.name)?;
+    writeln!(xml, "      </body>")
 }
 
 fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result {
     let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
     let length = shaft.link_length();
-    // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
     writeln!(
         xml,
-        r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
-        whisker.base_body.x, whisker.base_body.y, whisker.direction_body
+        r#"        <inertial pos="0 0 0" mass="{BASE_MASS:e}" diaginertia="{BASE_INERTIA:e} {BASE_INERTIA:e} {BASE_INERTIA:e}"/>"#
     )?;
-    // The suspension's inertia is the hinge's armature; the body only needs enough to be a body.
-    writeln!(xml, r#"        <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/>"#)?;
     writeln!(
         xml,
         r#"        <joint name="{name}" type="hinge" axis="0 0 1" stiffness="{}" damping="{}" armature="{}"/>"#,
@@ -187,8 +219,8 @@ fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
     writeln!(xml, r"  </actuator>")
 }
 
-fn write_start(xml: &mut String, rig: &Rig, start: Pose) -> fmt::Result {
-    let straight: usize = rig.whiskers.iter().map(|whisker| 1 + whisker.shaft.links).sum();
+fn write_start(xml: &mut String, rig: &Rig, start: Pose, scope: &Scope) -> fmt::Result {
+    let straight: usize = scope.flexible(rig).map(|(_, whisker)| 1 + whisker.shaft.links).sum();
     writeln!(
         xml,
         "  <keyframe>\n    <key name=\"start\" qpos=\"{} {} {}{}\"/>\n  </keyframe>",

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Contour, Piece, Point2};
+use crate::geometry::{Contour, Piece, Point2, Vector2};
 
 use super::solid::SolidError;
 
@@ -46,6 +46,21 @@ impl Part {
             return Err(SolidError::Corners { count: outline.len(), limit: MOST_CORNERS });
         }
         Ok(Self::Prism { outline })
+    }
+
+    /// The corners (m, world frame) with the smallest and the largest coordinates of the box about it.
+    pub(super) fn bounds(&self) -> (Point2, Point2) {
+        match self {
+            Self::Cylinder { centre, radius } => {
+                let half = Vector2::repeat(*radius);
+                (centre - half, centre + half)
+            }
+            Self::Prism { outline } => {
+                let nowhere =
+                    (Point2::from(Vector2::repeat(f64::INFINITY)), Point2::from(Vector2::repeat(f64::NEG_INFINITY)));
+                outline.iter().fold(nowhere, |(low, high), corner| (low.inf(corner), high.sup(corner)))
+            }
+        }
     }
 }
 

@@ -32,6 +32,21 @@ impl Default for WorldKind {
     }
 }
 
+/// A world to run in, and how much of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WorldSetup {
+    /// The world.
+    pub kind: WorldKind,
+    /// Whether what cannot matter is left out.
+    pub prune: bool,
+}
+
+impl From<WorldKind> for WorldSetup {
+    fn from(kind: WorldKind) -> Self {
+        Self { kind, prune: true }
+    }
+}
+
 impl fmt::Display for WorldKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

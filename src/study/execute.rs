@@ -7,7 +7,9 @@ use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
 use crate::run::{BindError, Control, Run, Trace, drive};
-use crate::scene::{Scene, WorldKind, mjcf};
+use crate::scene::{Scene, WorldKind, WorldSetup, mjcf};
+#[cfg(feature = "sim")]
+use crate::world::MujocoWorld;
 use crate::world::{QuasiStaticError, QuasiStaticWorld, World};
 
 /// Why a run could not begin.
@@ -39,23 +41,26 @@ pub enum ExecuteError {
 pub fn execute(
     scene: &Scene,
     program: Arc<Program>,
-    world: WorldKind,
+    world: impl Into<WorldSetup>,
     seed: u64,
     progress: impl FnMut(&Trace) -> ControlFlow<()>,
 ) -> Result<Run, ExecuteError> {
     let control = Control::new(&scene.rig, program)?;
-    let mut world = build(scene, world, seed)?;
+    let mut world = build(scene, world.into(), seed)?;
     let period = 1.0 / scene.rig.sensing.control_rate;
     drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
 }
 
-pub(super) fn build(scene: &Scene, kind: WorldKind, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+pub(super) fn build(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
     let Scene { rig, solids, start, .. } = scene;
-    match kind {
+    match world.kind {
         #[cfg(feature = "sim")]
-        WorldKind::Mujoco => Ok(Box::new(crate::world::MujocoWorld::new(rig, solids, *start, seed)?)),
+        WorldKind::Mujoco => {
+            let build = if world.prune { MujocoWorld::pruned } else { MujocoWorld::new };
+            Ok(Box::new(build(rig, solids, *start, seed)?))
+        }
         #[cfg(not(feature = "sim"))]
-        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(world.kind)),
         WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, solids, *start, seed)?)),
     }
 }
@@ -84,19 +89,21 @@ fn simulator() -> &'static str {
 }
 
 /// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
-/// the model that it is given.
+/// the model that it is given, and whether that is pruned.
 #[must_use]
-pub fn engine_hash(scene: &Scene, world: WorldKind) -> [u8; 32] {
-    let engine = match world {
+pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
+    let engine = match world.kind {
         WorldKind::Mujoco => simulator(),
-        WorldKind::QuasiStatic => world.name(),
+        WorldKind::QuasiStatic => world.kind.name(),
     };
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
-    // It has all of the rig, the solids and the start, whichever world they are for.
+    // It has all of the rig but its longest step, the solids and the start, whichever world they are for.
     hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
+    hash.update([u8::from(world.prune)]);
+    hash.update(scene.rig.physics.calm_step.to_le_bytes());
     hash.finalize().into()
 }

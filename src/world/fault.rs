@@ -11,6 +11,12 @@ pub enum Fault {
         /// What the engine said, and what to do.
         cause: &'static str,
     },
+    /// The engine refused the model of what had come into reach.
+    #[error("{cause}")]
+    Model {
+        /// What the engine said.
+        cause: String,
+    },
     /// A whisker went too far into the object.
     #[error(
         "a whisker sank {:.3} mm into the object at {time:.3} s, beyond the limit of {:.3} mm; make `physics.step` or \

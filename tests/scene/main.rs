@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod errors;
+mod explain;
 mod families;
 mod geometry;
 #[cfg(feature = "outlines")]

@@ -8,6 +8,8 @@ mod compare;
 mod corners;
 mod estimators;
 mod pareto;
+#[cfg(feature = "sim")]
+mod pruning;
 mod report;
 mod retrieval;
 mod runs;

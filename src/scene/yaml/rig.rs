@@ -105,6 +105,12 @@ fn physics(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) -> Opt
         let index = reader.choice(&entry.value, "a solver", &Solver::ALL.map(Solver::name));
         physics.solver = index.and_then(|index| Solver::ALL.get(index)).copied().unwrap_or_default();
     }
+    fields.set(reader, &timing::CALM_STEP, &mut physics.calm_step);
+    if let Some(entry) = fields.entry("rigid_in_air")
+        && let Some(rigid) = reader.flag(&entry.value)
+    {
+        physics.rigid_in_air = rigid;
+    }
     fields.set(reader, &CONTACT_TIME, &mut physics.contact_time);
     if let Some(entry) = fields.entry(IMPEDANCE.name)
         && let Some(items) = reader.triple(&entry.value, IMPEDANCE.example)

@@ -10,6 +10,7 @@ use crate::rig::{Physics, Rig, Sensing};
 use crate::units::{Dimension, format_si};
 
 pub(super) const STEP: Key = Key::new("step", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
+pub(super) const CALM_STEP: Key = Key::new("calm_step", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
 
 const SAMPLE_RATE: Key = Key::new("sample_rate", Dimension::FREQUENCY, (1.0, 1e5), "300 Hz");
 const CONTROL_RATE: Key = Key::new("control_rate", Dimension::FREQUENCY, (0.1, 1e4), "30 Hz");
@@ -60,8 +61,17 @@ pub(super) fn check(reader: &mut Reader<'_>, rig: &mut Rig, places: Places) {
     if let Some(place) = places.step.or(places.sample_rate) {
         fit_step(reader, &mut rig.physics, rig.sensing.sample_rate, place);
     }
+    fit_calm_step(rig);
     if let Some(place) = places.filter_cutoff.or(places.sample_rate) {
         check_cutoff(reader, &rig.sensing, place);
+    }
+}
+
+/// A longest step that is off the sample period by as little as a step may be is taken for it.
+fn fit_calm_step(rig: &mut Rig) {
+    let period = rig.sensing.sample_rate.recip();
+    if (rig.physics.calm_step / period - 1.0).abs() <= ROUNDED {
+        rig.physics.calm_step = period;
     }
 }
 

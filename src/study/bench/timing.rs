@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::machine::Program;
 use crate::report::{NONE, ruled};
-use crate::scene::{Outcome, Scene, WorldKind};
+use crate::scene::{Outcome, Scene, WorldSetup};
 use crate::score::{Score, Statistics};
 use crate::study::processor_time::processor_time;
 use crate::study::{ExecuteError, execute};
@@ -32,7 +32,7 @@ impl Timing {
     ///
     /// # Errors
     /// [`ExecuteError`] when the run cannot begin.
-    pub fn take(scene: &Scene, program: &Arc<Program>, world: WorldKind, seed: u64) -> Result<Self, ExecuteError> {
+    pub fn take(scene: &Scene, program: &Arc<Program>, world: WorldSetup, seed: u64) -> Result<Self, ExecuteError> {
         let start = processor_time();
         let run = execute(scene, Arc::clone(program), world, seed, |_| ControlFlow::Continue(()))?;
         let score = Score::new(&run, &scene.truth);

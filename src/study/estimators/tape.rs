@@ -27,7 +27,7 @@ impl Tape {
         world: WorldKind,
     ) -> Result<Self, ExecuteError> {
         let control = Control::new(perceived, program)?;
-        let world = build(scene, world, scene.seed)?;
+        let world = build(scene, world.into(), scene.seed)?;
         let mut world = Recorder { world, ticks: Vec::new() };
         let period = 1.0 / scene.rig.sensing.control_rate;
         let run = drive(&mut world, control, &scene.stop, period, |_| ControlFlow::Continue(()));

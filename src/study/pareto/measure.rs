@@ -129,7 +129,7 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
     let control = Control::new(&perceived, Arc::clone(program))?;
     let period = scene.rig.sensing.control_rate.recip();
     let start = processor_time();
-    let mut world = build(&scene, world, scene.seed)?;
+    let mut world = build(&scene, world.into(), scene.seed)?;
     let run = drive(world.as_mut(), control, &scene.stop, period, |_| ControlFlow::Continue(()));
     let seconds = (processor_time() - start).as_secs_f64();
     Ok(Measured::new(&run.ok_or(ExecuteError::Interrupted)?, &scene, seconds))

@@ -13,11 +13,15 @@ pub enum Change {
     World(WorldKind),
     /// Links of every whisker.
     Links(usize),
-    /// The longest step (s) up to this that goes into a sample. Where this is longer than a sample, samples become as long.
+    /// All steps as long: the longest (s) up to this that goes into a sample. Where this is longer than a sample, samples become as long.
     Step(f64),
     /// Contacts with a time constant of one step: MuJoCo takes none that is shorter, and with other integrators than `discrete` none below
     /// two steps.
     HardContacts,
+    /// No step is longer than those that fast whiskers take.
+    NoCalmSteps,
+    /// Whiskers bend in the air, too.
+    BendInAir,
     /// How MuJoCo goes from step to step.
     Integrator(Integrator),
     /// How MuJoCo finds the forces of contacts.
@@ -55,15 +59,17 @@ impl Setting {
     /// Contacts are as hard as the step bears, for what a whisker sinks in by is what a world of hard surfaces has not.
     #[must_use]
     pub fn fine() -> Self {
-        use Change::{HardContacts, Links, Step, World};
-        Self(vec![World(WorldKind::default()), Links(FINE_LINKS), Step(FINE_STEP), HardContacts])
+        use Change::{BendInAir, HardContacts, Links, Step, World};
+        Self(vec![World(WorldKind::default()), Links(FINE_LINKS), Step(FINE_STEP), HardContacts, BendInAir])
     }
 
     /// The settings that are compared of a scene in its `world`: the default, the fine one, every axis by itself, and some changes
     /// together. Those that are as one before are left out, and so are those of worlds that the program does not have.
     #[must_use]
     pub fn all(scene: &Scene, world: WorldKind) -> Vec<Self> {
-        use Change::{HardContacts, Integrator as By, Links, Solver as With, Step, TipModel, World};
+        use Change::{
+            BendInAir, HardContacts, Integrator as By, Links, NoCalmSteps, Solver as With, Step, TipModel, World,
+        };
         let steps_with = Integrator::ALL.map(|integrator| vec![Step(SHORTEST), By(integrator), HardContacts]);
         let together = [
             vec![Links(8), Step(SLOW)],
@@ -81,7 +87,7 @@ impl Setting {
             vec![World(WorldKind::QuasiStatic), Links(FINE_LINKS)],
         ];
         let singles = LINKS.map(Links).into_iter().chain(STEPS.map(Step)).chain(Solver::ALL.map(With));
-        let singles = singles.chain(WorldKind::ALL.map(World)).map(|change| vec![change]);
+        let singles = singles.chain(WorldKind::ALL.map(World)).chain([NoCalmSteps, BendInAir]).map(|change| vec![change]);
         let all = [Self::unchanged(), Self::fine()].into_iter();
         let all = all.chain(singles.chain(steps_with).chain(together).map(Self));
         let mut seen: Vec<(Rig, WorldKind)> = Vec::new();
@@ -110,6 +116,8 @@ impl Setting {
                 Change::Links(links) => set_links(rig, links),
                 Change::Step(step) => set_step(rig, step),
                 Change::HardContacts => rig.physics.contact_time = rig.physics.step,
+                Change::NoCalmSteps => rig.physics.calm_step = rig.physics.step,
+                Change::BendInAir => rig.physics.rigid_in_air = false,
                 Change::Integrator(integrator) => rig.physics.integrator = integrator,
                 Change::Solver(solver) => rig.physics.solver = solver,
                 Change::TipModel(kind) => rig.sensing.forces |= kind == TipModelKind::MomentAndShear,
@@ -124,7 +132,8 @@ impl Setting {
             [] => "default",
             _ if *self == Self::fine() => "fine",
             [Change::Links(_)] => "links",
-            [Change::Step(_)] => "step",
+            [Change::Step(_) | Change::NoCalmSteps] => "step",
+            [Change::BendInAir] => "whiskers in the air",
             // An integrator comes with what it bears.
             [Change::Integrator(_)] | [Change::Step(_), Change::Integrator(_), Change::HardContacts] => "integrator",
             [Change::HardContacts] => "contacts",
@@ -150,6 +159,7 @@ fn set_step(rig: &mut Rig, step: f64) {
     sensing.sample_rate = sensing.sample_rate.min(sensing.control_rate * parts(sensing.control_rate.recip()));
     let sample = sensing.sample_rate.recip();
     rig.physics.step = sample / parts(sample);
+    rig.physics.calm_step = rig.physics.step;
 }
 
 impl fmt::Display for Setting {
@@ -164,6 +174,8 @@ impl fmt::Display for Setting {
                 Change::Links(links) => write!(f, "{links} links")?,
                 Change::Step(step) => write!(f, "{:.2} ms", 1e3 * step)?,
                 Change::HardContacts => f.write_str("hard")?,
+                Change::NoCalmSteps => f.write_str("no longer steps in calm")?,
+                Change::BendInAir => f.write_str("bending in the air")?,
                 Change::Integrator(integrator) => f.write_str(integrator.name())?,
                 Change::Solver(solver) => f.write_str(solver.name())?,
                 Change::TipModel(kind) => f.write_str(kind.name())?,

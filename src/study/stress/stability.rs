@@ -34,6 +34,8 @@ impl StabilityCase {
         let mut cases = Vec::new();
         let mut add = |name: String, world, change: &dyn Fn(&mut Rig)| {
             let mut rig = Rig::default();
+            // What is shaken in the air is to bend there.
+            rig.physics.rigid_in_air = false;
             change(&mut rig);
             cases.push(Self { name, world, rig });
         };
@@ -94,7 +96,7 @@ impl StabilityCase {
         if !with_disk {
             scene.solids.clear();
         }
-        build(&scene, self.world, 0)
+        build(&scene, self.world.into(), 0)
     }
 }
 

@@ -66,7 +66,7 @@ fn times_are_medians_of_the_runs_and_a_count_of_none_is_refused() {
     let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
     let source = Source::new(DEFAULT_POLICY.path, DEFAULT_POLICY.text);
     let program = compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap();
-    let taken = Timing::take(&scene, &Arc::new(program), WorldKind::QuasiStatic, 0).unwrap();
+    let taken = Timing::take(&scene, &Arc::new(program), WorldKind::QuasiStatic.into(), 0).unwrap();
     assert!(taken.processor > 0.0 && taken.sim > 60.0 && taken.tick_mean.is_some() && taken.tick_p99.is_some());
     let runs = [1.0, 5.0, 2.0].map(|processor| Timing { processor, sim: 10.0, ..taken });
     let row = TimingRow::new("disk".to_owned(), String::new(), String::new(), &runs).unwrap();

@@ -1,0 +1,166 @@
+//! What is left out of a run, and why.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::geometry::Pose;
+use crate::rig::Rig;
+use crate::scene::{Solid, WorldKind};
+
+use super::reach::{Reach, first_link_in_reach, may_be_rigid};
+
+/// What becomes of something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It is left out, and the run is the same without it.
+    LeftOut,
+    /// It stays.
+    Kept,
+    /// A setting of the physics makes it less, and the run a little different.
+    Setting,
+}
+
+/// A decision about a part of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Decision {
+    /// What becomes of it.
+    pub verdict: Verdict,
+    /// What it is about.
+    pub subject: String,
+    /// What it saves; nothing where something stays.
+    pub saves: Option<String>,
+    /// Why it is safe, or why it stays.
+    pub why: String,
+}
+
+/// What is left out of a run and what stays, decided from the scenario and what the policy reads.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Pruning {
+    /// The decisions.
+    pub decisions: Vec<Decision>,
+}
+
+impl Pruning {
+    /// The decisions about a rig that starts at `start` before `solids` in a world, under a policy that binds the whiskers with these
+    /// names. Counts are those at the start.
+    #[must_use]
+    pub fn new(rig: &Rig, solids: &[Solid], start: Pose, bound: &[String], world: WorldKind) -> Self {
+        let mut decisions = Vec::new();
+        match world {
+            WorldKind::Mujoco => in_mujoco(&mut decisions, rig, solids, start),
+            WorldKind::QuasiStatic => decisions.push(Decision {
+                verdict: Verdict::LeftOut,
+                subject: "pieces of outlines that no whisker is near".to_owned(),
+                saves: Some("a tree of their boxes is asked for those that are near".to_owned()),
+                why: "a link touches only what is as near as it is long".to_owned(),
+            }),
+        }
+        whiskers(&mut decisions, rig, bound);
+        Self { decisions }
+    }
+}
+
+fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, solids: &[Solid], start: Pose) {
+    let reach = Reach::new(rig, solids);
+    let parts = solids.iter().flat_map(Solid::parts).count();
+    let near = if reach.is_windowed() { reach.parts_about(start.position).len() } else { parts };
+    if reach.is_windowed() {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: "parts of solids out of reach".to_owned(),
+            saves: Some(format!("{} of {parts} geoms at the start", parts - near)),
+            why: "the rig cannot get to them before the model is built anew with what is then near".to_owned(),
+        });
+    } else {
+        decisions.push(Decision {
+            verdict: Verdict::Kept,
+            subject: format!("all parts of solids, of which there are {parts}"),
+            saves: None,
+            why: "they are so few that building models with fewer of them would take longer".to_owned(),
+        });
+    }
+    let links: usize = rig.whiskers.iter().map(|whisker| whisker.shaft.links).sum();
+    let unreached =
+        rig.whiskers.iter().map(|whisker| first_link_in_reach(whisker, reach.clearance(whisker, &start), 0.0));
+    let unreached: usize = unreached.sum();
+    decisions.push(Decision {
+        verdict: Verdict::LeftOut,
+        subject: "contacts of links out of reach".to_owned(),
+        saves: Some(format!("{} of {} pairs at the start", unreached * near, links * near)),
+        why: "a whisker does not stretch, so that no link gets farther from the base than the shaft is long up to there; \
+              the distance of the base from the exact outlines is taken in every tick"
+            .to_owned(),
+    });
+    if !rig.sensing.forces {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: "forces at the bases of whiskers".to_owned(),
+            saves: Some(format!("{} sensors, and a pass of the dynamics in every sample", rig.whiskers.len())),
+            why: "the rig does not sense them".to_owned(),
+        });
+    }
+    if rig.physics.rigid_in_air {
+        let is_rigid = |whisker: &&_| may_be_rigid(whisker, reach.clearance(whisker, &start), 0.0, false);
+        let joints: usize = rig.whiskers.iter().filter(is_rigid).map(|whisker| 1 + whisker.shaft.links).sum();
+        let all = 3 + links + rig.whiskers.len();
+        decisions.push(Decision {
+            verdict: Verdict::Setting,
+            subject: "`rigid_in_air`: whiskers that hang at rest in the air do not bend".to_owned(),
+            saves: Some(format!("{joints} of {all} degrees of freedom at the start")),
+            why: "they read less than a hundredth of the contact threshold; but the last digits of the platform's way change, and \
+                  policies make more of that where they decide"
+                .to_owned(),
+        });
+    }
+    let steps = (1.0 / (rig.sensing.sample_rate * rig.physics.step)).round().max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
+    let together = rig.physics.steps_in_calm(steps as usize);
+    if together > 1 {
+        decisions.push(Decision {
+            verdict: Verdict::Setting,
+            subject: "`calm_step`: short steps while no whisker moves fast".to_owned(),
+            saves: Some(format!("{} of {together} steps", together - 1)),
+            why: "what slides needs no more; a long step after which something is fast is done again in short ones"
+                .to_owned(),
+        });
+    }
+}
+
+fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {
+    for whisker in rig.whiskers.iter().filter(|whisker| !bound.contains(&whisker.name)) {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: format!("perception of `{}`", whisker.name),
+            saves: Some("its filter, its tip model and its contour, in every tick".to_owned()),
+            why: "the policy does not bind it".to_owned(),
+        });
+        decisions.push(Decision {
+            verdict: Verdict::Kept,
+            subject: format!("the whisker `{}`", whisker.name),
+            saves: None,
+            why: "the policy does not bind it, but what it touches pushes the platform, and a contact that is too deep ends the run"
+                .to_owned(),
+        });
+    }
+}
+
+impl fmt::Display for Pruning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, Decision { verdict, subject, saves, why }) in self.decisions.iter().enumerate() {
+            let verdict = match verdict {
+                Verdict::LeftOut => "left out",
+                Verdict::Kept => "kept",
+                Verdict::Setting => "setting",
+            };
+            let line = if index > 0 { "\n" } else { "" };
+            write!(f, "{line}{verdict:<10}{subject}")?;
+            if let Some(saves) = saves {
+                write!(f, "\n          saves: {saves}")?;
+            }
+            write!(f, "\n          why: {why}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,45 @@
+//! What MuJoCo says.
+
+use std::sync::Once;
+
+use mujoco_rs::logging::set_log_handler;
+use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
+
+/// What each of MuJoCo's warning counters means and what to do about it, in their order.
+pub(super) const WARNINGS: [&str; 7] = [
+    "an inertia matrix became singular; give the rig heavier parts",
+    "there are more contacts than memory for them; make `links` smaller",
+    "there are more constraints than memory for them; make `links` smaller",
+    "a position is too large or not a number; make `physics.step` smaller",
+    "a velocity is too large or not a number; make `physics.step` smaller",
+    "an acceleration is too large or not a number; make `physics.step` smaller or the shaft less stiff",
+    "a command is too large or not a number",
+];
+
+/// The version of the linked MuJoCo.
+#[must_use]
+pub fn engine_version() -> &'static str {
+    route_engine_messages();
+    mujoco_rs::mujoco_version()
+}
+
+/// Keeps MuJoCo from writing a log file into the working directory.
+pub(super) fn route_engine_messages() {
+    static ROUTED: Once = Once::new();
+    #[expect(
+        unsafe_code,
+        reason = "MuJoCo's log handler is global; nothing else in the process uses MuJoCo before this"
+    )]
+    // SAFETY: every use of MuJoCo in this crate comes after a call of this function, and `Once` lets one thread through.
+    ROUTED.call_once(|| unsafe { set_log_handler(on_engine_message) });
+}
+
+/// Warnings are counted by the engine and become [`Fault`](crate::world::Fault)s; an error ends the process, so its text must get
+/// out here.
+#[expect(clippy::print_stderr, reason = "MuJoCo ends the process right after an error")]
+fn on_engine_message(message: &MjLogMessage) {
+    if matches!(message.level(), MjtLogLevel::mjLOG_ERROR) {
+        eprintln!("error: MuJoCo stopped: {}", message.subject());
+        std::process::exit(3);
+    }
+}

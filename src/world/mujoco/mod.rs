@@ -1,0 +1,9 @@
+//! The MuJoCo world.
+
+mod engine;
+mod messages;
+mod pruner;
+mod world;
+
+pub use messages::engine_version;
+pub use world::{MujocoError, MujocoWorld};

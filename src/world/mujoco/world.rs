@@ -1,0 +1,214 @@
+//! A rig before solids, simulated by MuJoCo.
+
+use crate::geometry::{Point2, Pose, unit};
+use crate::rig::{Rig, Whisker};
+use crate::scene::Solid;
+use crate::signal::{Command, Sample};
+use crate::world::sensors::{Sensors, whole};
+use crate::world::{Fault, World};
+
+use super::engine::Engine;
+use super::messages::{WARNINGS, route_engine_messages};
+use super::pruner::Pruner;
+
+/// A whisker of which everything moves slower than this (m/s) against its base is calm: in a step of 3.3 ms it goes a third of a
+/// millimetre.
+const CALM: f64 = 0.1;
+
+/// Why a MuJoCo world could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum MujocoError {
+    /// MuJoCo refused the generated model.
+    #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
+    Model(String),
+}
+
+/// A rig before solids, simulated by MuJoCo.
+///
+/// The same rig, solids, start, seed and commands give the same samples, bit for bit.
+pub struct MujocoWorld {
+    engine: Engine,
+    pruner: Pruner,
+    rig: Rig,
+    steps_per_sample: usize,
+    /// How many steps are taken in one while all whiskers are calm.
+    steps_in_calm: usize,
+    samples_per_tick: usize,
+    samples: Vec<Sample>,
+    steps_done: u64,
+    sensors: Sensors,
+    body_touched: bool,
+}
+
+impl MujocoWorld {
+    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise. All parts and links are
+    /// there all the time.
+    ///
+    /// # Errors
+    /// [`MujocoError`] when MuJoCo refuses the model.
+    pub fn new(rig: &Rig, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
+        Self::with(rig, solids, start, seed, false)
+    }
+
+    /// The same, but looks only at parts of solids and links that are in reach.
+    ///
+    /// # Errors
+    /// [`MujocoError`] when MuJoCo refuses the model.
+    pub fn pruned(rig: &Rig, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
+        Self::with(rig, solids, start, seed, true)
+    }
+
+    fn with(rig: &Rig, solids: &[Solid], start: Pose, seed: u64, prune: bool) -> Result<Self, MujocoError> {
+        route_engine_messages();
+        let mut pruner = Pruner::new(rig, solids, prune);
+        let engine = pruner.first(rig, start)?;
+        let sensing = &rig.sensing;
+        let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
+        let steps_per_sample = whole(1.0 / (sensing.sample_rate * rig.physics.step));
+        Ok(Self {
+            engine,
+            pruner,
+            steps_per_sample,
+            steps_in_calm: rig.physics.steps_in_calm(steps_per_sample),
+            samples_per_tick,
+            samples: Vec::with_capacity(samples_per_tick),
+            steps_done: 0,
+            sensors: Sensors::new(sensing, seed),
+            body_touched: false,
+            rig: rig.clone(),
+        })
+    }
+
+    /// Where a whisker (by its index in the rig) is touched, as the simulation has it: the place (m, world frame), half as deep as the
+    /// contact, and the length of the shaft from the base to there (m). Of several contacts it is the deepest. No sensor reports
+    /// this: it is for who measures with a ruler, never for policies.
+    #[must_use]
+    pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
+        let shaft = &self.rig.whiskers[whisker].shaft;
+        let (place, link) = self.engine.deepest(whisker, shaft.links)?;
+        let (start, direction) = self.link(whisker, link);
+        let along = (place - start).dot(&unit(direction)).clamp(0.0, shaft.link_length());
+        Some((place, link as f64 * shaft.link_length() + along))
+    }
+
+    /// The energy (J) in the springs and in the motion of platform and whiskers. No sensor reports this: it is for tests of the simulation.
+    #[must_use]
+    pub fn energy(&mut self) -> f64 {
+        self.engine.refresh();
+        self.engine.energy()
+    }
+
+    /// Where a link of a whisker that bends begins (m, world frame), and its direction (rad).
+    fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
+        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
+        let body = self.engine.body();
+        let joints = self.engine.angles(whisker);
+        let mut start = body.point_to_world(*base_body);
+        let mut direction = body.heading + direction_body + joints[0] + joints[1];
+        for turn in &joints[2..2 + link] {
+            start += shaft.link_length() * unit(direction);
+            direction += turn;
+        }
+        (start, direction)
+    }
+
+    fn time(&self) -> f64 {
+        self.steps_done as f64 * self.rig.physics.step
+    }
+
+    /// Takes so many steps in one.
+    fn step(&mut self, steps: usize) -> Result<(), Fault> {
+        self.engine.step(steps as f64 * self.rig.physics.step);
+        self.steps_done += steps as u64;
+        // First: after a silent reset, contacts are those of another place.
+        self.engine.warning().map_or(Ok(()), |cause| self.diverged(cause))?;
+        for (depth, is_body) in self.engine.contacts() {
+            let (time, limit) = (self.time(), self.rig.physics.penetration_limit);
+            self.body_touched |= is_body && depth >= 0.0;
+            if depth > limit {
+                return Err(if is_body {
+                    Fault::Crash { time, depth }
+                } else {
+                    Fault::Penetration { time, depth, limit }
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether no whisker moves fast, and the body touches nothing.
+    fn is_calm(&self) -> bool {
+        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| self.engine.speed(&self.rig, whisker) < CALM)
+    }
+
+    fn diverged(&self, cause: &'static str) -> Result<(), Fault> {
+        Err(Fault::Diverged { time: self.time(), cause })
+    }
+
+    /// Lets the time of a sample pass.
+    fn pass(&mut self) -> Result<(), Fault> {
+        let mut done = 0;
+        while done < self.steps_per_sample {
+            if self.steps_in_calm == 1 || !self.passes_calmly()? {
+                (0..self.steps_in_calm).try_for_each(|_| self.step(1))?;
+            }
+            done += self.steps_in_calm;
+        }
+        Ok(())
+    }
+
+    /// Takes several steps in one, unless a whisker is not calm before or after. What springs off an edge is at metres a second, and on
+    /// the next surface, within a millisecond or two: so it is what comes out that tells.
+    fn passes_calmly(&mut self) -> Result<bool, Fault> {
+        if !self.is_calm() {
+            return Ok(false);
+        }
+        self.engine.keep();
+        self.step(self.steps_in_calm)?;
+        let is_calm = self.is_calm();
+        if !is_calm {
+            self.engine.back();
+            self.steps_done -= self.steps_in_calm as u64;
+        }
+        Ok(is_calm)
+    }
+
+    fn sample(&mut self) -> Sample {
+        if self.rig.sensing.forces {
+            self.engine.refresh();
+        }
+        let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
+        for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
+            let base_angle = self.engine.angles(index).first().copied().unwrap_or(0.0);
+            reading.base_angle = self.sensors.read(base_angle);
+            if self.rig.sensing.forces {
+                let (axial, shear) = self.engine.base_forces(index);
+                (reading.axial, reading.shear) =
+                    (Some(self.sensors.read_force(axial)), Some(self.sensors.read_force(shear)));
+            }
+        }
+        sample
+    }
+}
+
+impl World for MujocoWorld {
+    fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
+        self.pruner.fit(&self.rig, &mut self.engine, command)?;
+        self.engine.command(command.velocity_world, command.yaw_rate);
+        self.body_touched = false;
+        self.samples.clear();
+        for _ in 0..self.samples_per_tick {
+            self.pass()?;
+            let sample = self.sample();
+            self.samples.push(sample);
+        }
+        if !self.engine.is_finite() {
+            self.diverged(WARNINGS[3])?;
+        }
+        Ok(&self.samples)
+    }
+
+    fn body_touches(&self) -> bool {
+        self.body_touched
+    }
+}

@@ -1,0 +1,44 @@
+//! What is told of what is left out of a run.
+
+use vibrissa::diagnostic::Source;
+use vibrissa::scene::{Pruning, Scene, Verdict, WorldKind};
+
+use crate::snapshots::snapshots;
+
+fn scene(name: &str) -> Scene {
+    let path = format!("{}/scenarios/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+    Scene::from_yaml(&Source::new(name, std::fs::read_to_string(path).unwrap())).unwrap()
+}
+
+fn pruning(scene: &Scene, bound: &[&str], world: WorldKind) -> Pruning {
+    let bound: Vec<String> = bound.iter().map(ToString::to_string).collect();
+    Pruning::new(&scene.rig, &scene.solids, scene.start, &bound, world)
+}
+
+#[test]
+fn every_decision_is_told_with_what_it_saves_and_why_it_is_safe() {
+    let (one_part, many_parts) = (scene("box"), scene("round-tunnel"));
+    snapshots("explain").bind(|| {
+        insta::assert_snapshot!("box", pruning(&one_part, &["r0"], WorldKind::Mujoco));
+        insta::assert_snapshot!("round_tunnel", pruning(&many_parts, &["r0", "l0"], WorldKind::Mujoco));
+    });
+}
+
+#[test]
+fn a_whisker_that_no_policy_binds_stays_because_it_pushes() {
+    let scene = scene("disk");
+    for world in WorldKind::ALL {
+        let kept = |bound: &[&str]| {
+            let decisions = pruning(&scene, bound, world).decisions;
+            decisions.iter().filter(|one| one.verdict == Verdict::Kept && one.subject.contains("whisker")).count()
+        };
+        assert_eq!((kept(&["r0", "l0"]), kept(&["r0"])), (0, 1));
+    }
+}
+
+#[test]
+fn what_is_left_out_saves_something_and_what_stays_does_not() {
+    for decision in pruning(&scene("zigzag-tunnel"), &["l0"], WorldKind::Mujoco).decisions {
+        assert_eq!(decision.saves.is_some(), decision.verdict != Verdict::Kept, "{decision:?}");
+    }
+}
