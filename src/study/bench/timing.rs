@@ -36,7 +36,7 @@ impl Timing {
         let start = processor_time();
         let run = execute(scene, Arc::clone(program), world, seed, |_| ControlFlow::Continue(()))?;
         let score = Score::new(&run, &scene.truth);
-        let processor = (processor_time() - start).as_secs_f64();
+        let processor = processor_time() - start;
         Ok(Self {
             outcome: run.outcome,
             sim: run.trace.ticks.last().map_or(0.0, |tick| tick.time),

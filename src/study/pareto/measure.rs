@@ -131,7 +131,7 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
     let start = processor_time();
     let mut world = build(&scene, world.into(), scene.seed)?;
     let run = drive(world.as_mut(), control, &scene.stop, period, |_| ControlFlow::Continue(()));
-    let seconds = (processor_time() - start).as_secs_f64();
+    let seconds = processor_time() - start;
     Ok(Measured::new(&run.ok_or(ExecuteError::Interrupted)?, &scene, seconds))
 }
 
@@ -146,7 +146,7 @@ fn ridden(
     let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
     let start = processor_time();
     let tape = Tape::record(scene, perceived, Arc::clone(program), world)?;
-    let seconds = (processor_time() - start).as_secs_f64();
+    let seconds = processor_time() - start;
     let kinds = setting.tip_model().map_or_else(|| program.tip_models.clone(), |kind| vec![kind; whiskers.len()]);
     let own = judge(scene, perceived, (&whiskers, &program.tip_models), &tape, 0.0)?;
     let other = judge(scene, perceived, (&whiskers, &kinds), &tape, 0.0)?;
