@@ -9,9 +9,9 @@ use crate::machine::{Artifact, FORMAT, Program, State, Target};
 use crate::policy::{self, Checked as Found};
 use crate::units::format_si;
 
-use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure};
 use super::input::PolicyFile;
+use super::language_arguments::CheckArguments;
 use super::{input, output};
 
 /// What is known of one policy.

@@ -1,8 +1,8 @@
 //! `vibrissa compile`
 
-use super::arguments::CompileArguments;
 use super::exit::{Exit, Failure};
 use super::input::Policy;
+use super::language_arguments::CompileArguments;
 use super::{file, input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {

@@ -7,8 +7,8 @@ use similar::TextDiff;
 use crate::diagnostic::Source;
 use crate::policy::format;
 
-use super::arguments::FmtArguments;
 use super::exit::{Exit, Failure};
+use super::language_arguments::FmtArguments;
 use super::{input, output};
 
 pub(super) fn fmt(arguments: &FmtArguments) -> Result<Exit, Failure> {

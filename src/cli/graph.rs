@@ -2,8 +2,8 @@
 
 use crate::report::{chart_dot, chart_mermaid, chart_svg};
 
-use super::arguments::{ChartFormat, GraphArguments};
 use super::exit::{Exit, Failure};
+use super::language_arguments::{ChartFormat, GraphArguments};
 use super::{file, input, output};
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {

@@ -16,6 +16,7 @@ mod fmt;
 mod graph;
 mod input;
 mod job;
+mod language_arguments;
 mod lsp;
 mod merge;
 mod mjcf;

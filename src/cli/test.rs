@@ -12,10 +12,11 @@ use crate::report::RunResult;
 use crate::score::Score;
 use crate::study::violations;
 
-use super::arguments::{TestArguments, World};
+use super::arguments::World;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
 use super::job::{Job, with_settings};
+use super::language_arguments::TestArguments;
 use super::{job, output, run};
 
 /// What came of one test.

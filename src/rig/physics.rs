@@ -47,7 +47,7 @@ impl Default for Physics {
             calm_step: 1.0 / 300.0,
             rigid_in_air: true,
             contact_time: 0.005,
-            contact_impedance: [0.98, 0.99, 1e-4],
+            contact_impedance: [0.95, 0.99, 1e-4],
             friction: 0.0,
             penetration_limit: 1e-3,
         }

@@ -37,7 +37,7 @@ const WAYS: f64 = 6.0;
 const REST: f64 = 60.0;
 /// Small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round a corner, or comes to
 /// an object on the swing, sinks in for a moment, and deeper the longer the steps are.
-const RIG: &str = "rig: {physics: {step: 1.1111 ms, contact_time: 2.5 ms, penetration_limit: 3 mm}}";
+const RIG: &str = "rig: {physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}}";
 
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.

@@ -87,7 +87,8 @@ impl Setting {
             vec![World(WorldKind::QuasiStatic), Links(FINE_LINKS)],
         ];
         let singles = LINKS.map(Links).into_iter().chain(STEPS.map(Step)).chain(Solver::ALL.map(With));
-        let singles = singles.chain(WorldKind::ALL.map(World)).chain([NoCalmSteps, BendInAir]).map(|change| vec![change]);
+        let singles =
+            singles.chain(WorldKind::ALL.map(World)).chain([NoCalmSteps, BendInAir]).map(|change| vec![change]);
         let all = [Self::unchanged(), Self::fine()].into_iter();
         let all = all.chain(singles.chain(steps_with).chain(together).map(Self));
         let mut seen: Vec<(Rig, WorldKind)> = Vec::new();
