@@ -58,7 +58,7 @@ fn pruning_does_not_change_the_estimated_contour() {
 }
 
 #[test]
-#[ignore = "a campaign of hundreds of scenes, which takes minutes"]
+#[ignore = "takes minutes; `cargo test --release --test study pruning -- --ignored` runs it"]
 fn pruning_does_not_change_the_estimated_contour_of_hundreds_of_scenes() {
     assert!(compare(30, 20.0) > 10_000);
 }
