@@ -41,8 +41,8 @@ pub use pose::{Pose, perpendicular, rotate, unit};
 pub use sample::ContourPoint;
 pub use segment::Segment;
 pub use shapes::{
-    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, circle, polar_curve, polygon, regular_polygon,
-    rounded_rectangle,
+    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve, polygon,
+    regular_polygon, rounded_rectangle,
 };
 pub use strip::{Side, Strip, StripError};
 

@@ -1,6 +1,6 @@
 //! What a run is measured against.
 
-use crate::geometry::{Contour, ContourSet};
+use crate::geometry::{Contour, ContourSet, TunnelAxis};
 
 /// The exact geometry that the estimates of a run are measured against, in world coordinates.
 #[derive(Debug, Clone)]
@@ -10,14 +10,14 @@ pub struct Truth {
     /// What there is to be traced, for coverage and the Hausdorff distance: the outline of a plain object, the inner sides of
     /// a tunnel's walls.
     pub reference: ContourSet,
-    /// The lines in the middle of tunnels, for the thesis's axis error (section 5.3); `None` without a tunnel.
-    pub axis: Option<ContourSet>,
+    /// The lines in the middle of tunnels, for the thesis's axis error (section 5.3).
+    pub axes: Vec<TunnelAxis>,
 }
 
 impl From<Contour> for Truth {
     /// The truth about a single plain object.
     fn from(outline: Contour) -> Self {
         let surfaces = ContourSet::from(outline);
-        Self { reference: surfaces.clone(), surfaces, axis: None }
+        Self { reference: surfaces.clone(), surfaces, axes: Vec::new() }
     }
 }

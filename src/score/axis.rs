@@ -1,6 +1,6 @@
 //! How well a run kept to the middle of a tunnel.
 
-use crate::geometry::{ContourSet, Point2, Vector2};
+use crate::geometry::{Point2, TunnelAxis, Vector2};
 use crate::run::{TickRecord, Trace};
 
 use super::tip::is_finite;
@@ -10,13 +10,14 @@ use super::{Spread, Statistics};
 ///
 /// A midpoint is half-way between the tips that a tick recorded on the left and on the right of the body, of several on a
 /// side between their means. So ticks count in which both walls are recorded, from the first contact with both on: the
-/// transition at the start is part of the thesis's figure. Midpoints before the beginning and beyond the end of the axis
-/// do not count.
+/// transition at the start is part of the thesis's figure. Of several tunnels the nearest axis counts; midpoints before the
+/// beginning and beyond the end of all do not.
 ///
 /// `None` if there is no midpoint that counts.
 #[must_use]
-pub fn axis_error(trace: &Trace, axis: &ContourSet) -> Option<Spread> {
-    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(|midpoint| distance(midpoint, axis));
+pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Spread> {
+    let nearest = |midpoint| axes.iter().filter_map(|axis| axis.distance(midpoint)).min_by(f64::total_cmp);
+    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(nearest);
     Statistics::of(errors.collect()).map(|errors| Spread { mean: errors.mean(), std: errors.std() })
 }
 
@@ -34,12 +35,4 @@ fn midpoint(tick: &TickRecord) -> Option<Point2> {
     }
     let [(right, of_right), (left, of_left)] = sides;
     (of_right > 0.0 && of_left > 0.0).then(|| Point2::from(0.5 * (right / of_right + left / of_left)))
-}
-
-/// The distance (m) of a midpoint from the nearest axis; `None` if it is beyond the end of it.
-fn distance(midpoint: Point2, axis: &ContourSet) -> Option<f64> {
-    let nearest = axis.contours().map(|axis| (axis, axis.nearest(midpoint)));
-    let (axis, nearest) = nearest.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance))?;
-    let is_inside = nearest.arc_length > 0.0 && nearest.arc_length < axis.length();
-    (axis.is_closed() || is_inside).then_some(nearest.distance)
 }

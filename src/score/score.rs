@@ -46,7 +46,7 @@ impl Score {
             coverage: coverage(&estimate, &truth.reference),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
-            axis: truth.axis.as_ref().and_then(|axis| axis_error(&run.trace, axis)),
+            axis: axis_error(&run.trace, &truth.axes),
             corners: CornerFigures::new(&run.trace, &truth.reference),
             states: state_shares(&run.trace),
             path,

@@ -160,7 +160,7 @@ fn tunnels_are_as_wide_as_they_say_square_to_every_run() {
         let said = draw.scene.description.split(" mm clear").next().unwrap().rsplit(' ').next().unwrap();
         let said = 1e-3 * said.parse::<f64>().unwrap();
         assert!((0.18..=0.26).contains(&said));
-        for run in draw.scene.truth.axis.as_ref().unwrap().contours().next().unwrap().pieces() {
+        for run in draw.scene.truth.axes[0].line().pieces() {
             // From the middle of a run square to it: no inner corner is nearer there.
             let middle = run.point_at(0.5 * run.length());
             let clear = left.outline().signed_distance(middle) + right.outline().signed_distance(middle);
@@ -173,8 +173,8 @@ fn tunnels_are_as_wide_as_they_say_square_to_every_run() {
 fn zigzags_go_to_and_fro_by_one_angle() {
     let mut drawn = Vec::new();
     for draw in named("zigzag-tunnel") {
-        let axis = draw.scene.truth.axis.clone().unwrap();
-        let turns: Vec<f64> = axis.contours().next().unwrap().corners().iter().map(|corner| corner.turn).collect();
+        let axis = draw.scene.truth.axes[0].line();
+        let turns: Vec<f64> = axis.corners().iter().map(|corner| corner.turn).collect();
         assert!((3..=5).contains(&turns.len()));
         assert!(turns.windows(2).all(|turns| (turns[0] + turns[1]).abs() < 1e-4));
         drawn.push(turns[0].abs().to_degrees());

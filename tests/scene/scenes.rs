@@ -20,7 +20,7 @@ fn scene(name: &str) -> Scene {
 fn outline(name: &str) -> Contour {
     let scene = scene(name);
     assert_eq!((scene.solids.len(), scene.truth.reference.contours().count()), (1, 1));
-    assert!(scene.stop.loop_closed.is_some() && scene.truth.axis.is_none());
+    assert!(scene.stop.loop_closed.is_some() && scene.truth.axes.is_empty());
     scene.solids[0].outline().clone()
 }
 
@@ -111,7 +111,7 @@ fn at(scene: &Scene, point: Point2) -> (f64, bool) {
 /// Whether the place that a tunnel's run is to reach is on its axis, at its end if it has one.
 fn leads_to_the_end(scene: &Scene, end: Option<Point2>) {
     let reached = scene.stop.reached.unwrap();
-    let axis = scene.truth.axis.as_ref().unwrap();
+    let axis = scene.truth.axes[0].line();
     assert!(axis.nearest(reached.place).distance < 3e-3, "off the axis");
     if let Some(end) = end {
         assert!((reached.place - end).norm() < 1e-3);
@@ -126,7 +126,7 @@ fn the_smooth_tunnel_is_even_along_its_sine() {
         let normal = Vector2::new(-0.4 * (4.0 * x).cos(), 1.0).normalize();
         frame.point_to_world(Point2::new(x, 0.1 * (4.0 * x).sin()) + aside * normal)
     };
-    let axis = scene.truth.axis.clone().unwrap();
+    let axis = scene.truth.axes[0].line();
     for k in 1..1000 {
         let x = 1.5 * f64::from(k) / 1000.0;
         assert!(axis.nearest(line(x, 0.0)).distance < 2e-6);
@@ -185,14 +185,17 @@ fn the_round_tunnel_goes_round_its_star_and_opens_where_the_platform_starts() {
     let outer = |angle: f64| 1.0 + 0.1 * (5.0 * angle).sin();
     let place =
         |angle: f64, radius: f64| frame.point_to_world(Point2::from(radius * Vector2::new(angle.cos(), angle.sin())));
-    let axis = scene.truth.axis.clone().unwrap();
+    let axis = scene.truth.axes[0].line();
+    let mut off_the_axis = 0.0_f64;
     for k in 0..1000 {
         let angle = TAU * f64::from(k) / 1000.0;
         let (to_face, solid) = at(&scene, place(angle, outer(angle) - 0.22));
         assert!((to_face - 0.01).abs() < 3e-6 && solid, "the inner wall goes all the way round");
         assert!(axis.nearest(place(angle, outer(angle) - 0.11)).distance < 2e-6);
         assert!(!at(&scene, place(angle, outer(angle) - 0.11)).1);
+        off_the_axis = off_the_axis.max(scene.truth.axes[0].distance(place(angle, outer(angle) - 0.11)).unwrap());
     }
+    assert!((2e-3..4e-3).contains(&off_the_axis), "walls at a distance along the radius are not parallel");
     // Arc lengths of the outer wall by many chords.
     let steps = 100_000_u32;
     let angles: Vec<f64> = (0..=steps).map(|k| TAU * f64::from(k) / f64::from(steps)).collect();

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, Piece, Point2, Pose, circle, polygon, unit};
+use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
 use vibrissa::scene::{Metric, Truth};
 use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, LONGEST_STEP, Score};
 
@@ -198,8 +198,8 @@ fn whiskers_are_not_joined_but_pooled() {
 #[test]
 fn the_axis_error_is_that_of_the_midpoints_between_two_tips() {
     // The platform goes up the y axis, between them.
-    let line = Contour::open(vec![Piece::segment(Point2::new(0.0, 0.0), Point2::new(0.0, 1.0))]).unwrap();
-    let truth = Truth { axis: Some(line.into()), ..disk(0.05).into() };
+    let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]).unwrap();
+    let truth = Truth { axes: vec![TunnelAxis::new(up(0.0), up(-0.11), up(0.11))], ..disk(0.05).into() };
     let left = [Some(Point2::new(-0.104, 0.1)), None, Some(Point2::new(-0.1, 0.3)), Some(Point2::new(f64::NAN, 0.4))];
     let right = [0.1, 0.1, 0.102, 0.1].map(|x| Some(Point2::new(x, 0.2)));
     let axis = Score::new(&run_with(&[left.to_vec(), right.to_vec()]), &truth).axis.unwrap();

@@ -2,13 +2,14 @@
 
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, Piece, Point2, Pose, circle};
+use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle};
 use vibrissa::run::Trace;
 use vibrissa::score::{Collisions, Score, axis_error, body_path, state_shares};
 
-/// An axis up the y axis, from 0 to 1 m.
-fn axis() -> Contour {
-    Contour::open(vec![Piece::segment(Point2::origin(), Point2::new(0.0, 1.0))]).unwrap()
+/// A tunnel up the y axis, from 0 to 1 m, wide enough for all of these tips.
+fn tunnel() -> [TunnelAxis; 1] {
+    let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]).unwrap();
+    [TunnelAxis::new(up(0.0), up(-0.5), up(0.5))]
 }
 
 /// A run up the y axis that records tips at `left` and `right` (m, to the right of the axis) beside the platform.
@@ -20,7 +21,7 @@ fn between(left: f64, right: f64, count: usize) -> Trace {
 proptest! {
     #[test]
     fn the_axis_error_is_that_of_the_midpoints(left in -0.2..-0.01_f64, right in 0.01..0.2_f64) {
-        let error = axis_error(&between(left, right, 60), &axis().into()).unwrap();
+        let error = axis_error(&between(left, right, 60), &tunnel()).unwrap();
         prop_assert!((error.mean - 0.5 * (left + right).abs()).abs() < 1e-12);
         prop_assert!(error.std.unwrap() < 1e-12);
     }
@@ -31,7 +32,7 @@ proptest! {
         for tick in &mut trace.ticks {
             tick.tips[2] = tick.tips[0].map(|tip| Point2::new(extra, tip.y));
         }
-        let error = axis_error(&trace, &axis().into()).unwrap();
+        let error = axis_error(&trace, &tunnel()).unwrap();
         prop_assert!((error.mean - 0.5 * (0.5 * (0.1 + extra) - 0.1).abs()).abs() < 1e-12);
     }
 }
@@ -45,12 +46,12 @@ fn only_ticks_with_both_walls_and_beside_the_axis_count() {
     for tick in &mut trace.ticks[30..40] {
         tick.tips[0] = tick.tips[0].map(|tip| Point2::new(0.3, tip.y));
     }
-    let error = axis_error(&trace, &axis().into()).unwrap();
+    let error = axis_error(&trace, &tunnel()).unwrap();
     assert!((error.mean - (10.0 * 0.1 + 20.0 * 0.01) / 30.0).abs() < 1e-12);
     let beyond = between(-0.1, 0.12, 900);
-    let inside = axis_error(&beyond, &axis().into()).unwrap();
+    let inside = axis_error(&beyond, &tunnel()).unwrap();
     assert!((inside.mean - 0.01).abs() < 1e-12, "what lies beyond its end does not count");
-    assert_eq!(axis_error(&run_with(&[vec![Some(Point2::new(0.1, 0.1)); 9]]).trace, &axis().into()), None);
+    assert_eq!(axis_error(&run_with(&[vec![Some(Point2::new(0.1, 0.1)); 9]]).trace, &tunnel()), None);
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn a_left_side_is_that_of_the_body_whichever_way_it_goes() {
     for tick in &mut trace.ticks {
         tick.body.heading = -std::f64::consts::FRAC_PI_2;
     }
-    assert!((axis_error(&trace, &axis().into()).unwrap().mean - 0.01).abs() < 1e-12);
+    assert!((axis_error(&trace, &tunnel()).unwrap().mean - 0.01).abs() < 1e-12);
 }
 
 #[test]

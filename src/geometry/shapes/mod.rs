@@ -8,6 +8,7 @@ mod polygon;
 mod regular_polygon;
 mod rounded_rectangle;
 mod tunnel;
+mod tunnel_axis;
 
 pub use circle::circle;
 pub use error::ShapeError;
@@ -17,3 +18,4 @@ pub use polygon::polygon;
 pub use regular_polygon::regular_polygon;
 pub use rounded_rectangle::rounded_rectangle;
 pub use tunnel::{CentreLine, Corners, Opening, Tunnel};
+pub use tunnel_axis::TunnelAxis;

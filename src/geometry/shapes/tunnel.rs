@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::ShapeError;
 use super::error::{finite, positive};
+use super::{ShapeError, TunnelAxis};
 use crate::geometry::fit::{LEAST_PARTS, fit};
-use crate::geometry::{Contour, Piece, Point2, Pose, Strip, Vector2, perpendicular, unit};
+use crate::geometry::{Contour, Piece, Point2, Pose, Side, Strip, Vector2, perpendicular, unit};
 
 /// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,8 +67,8 @@ pub struct Opening {
 /// Two walls of an even thickness, and the line in the middle between them, in world coordinates.
 #[derive(Clone, Debug)]
 pub struct Tunnel {
-    /// The line in the middle; closed in a round tunnel.
-    pub axis: Contour,
+    /// The line in the middle.
+    pub axis: TunnelAxis,
     /// The wall on the left of it; closed in a round tunnel.
     pub left: Strip,
     /// The wall on the right of it.
@@ -95,15 +95,16 @@ impl Tunnel {
         positive("width", width)?;
         positive("thickness", thickness)?;
         line.check()?;
-        let wall = |aside: f64| -> Result<Strip, ShapeError> {
-            let middle = line.aside(aside, aside > 0.0)?;
+        let wall = |aside: f64, opened: bool| -> Result<Strip, ShapeError> {
+            let middle = line.aside(aside, opened)?;
             Ok(Strip::new(&middle.transformed(pose), thickness)?)
         };
-        Ok(Self {
-            axis: line.aside(0.0, false)?.transformed(pose),
-            left: wall(-0.5 * width)?,
-            right: wall(0.5 * width)?,
-        })
+        let (left, right) = (wall(-0.5 * width, false)?, wall(0.5 * width, true)?);
+        // The axis goes on past an opening.
+        let whole = if matches!(line, CentreLine::Polar { .. }) { wall(0.5 * width, false)? } else { right.clone() };
+        let drawn = line.aside(0.0, false)?.transformed(pose);
+        let axis = TunnelAxis::new(drawn, left.side(Side::Right).clone(), whole.side(Side::Left).clone());
+        Ok(Self { axis, left, right })
     }
 }
 

@@ -5,7 +5,7 @@ use super::node::Placed;
 use super::object::Object;
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::geometry::{Contour, ContourSet, Pose, Side, Tunnel};
+use crate::geometry::{Contour, ContourSet, Pose, Side, Tunnel, TunnelAxis};
 use crate::rig::Rig;
 use crate::scene::clearance::{Overlap, overlap};
 use crate::scene::solid::{Solid, SolidError};
@@ -15,7 +15,7 @@ use crate::scene::truth::Truth;
 pub(super) struct Objects {
     solids: Vec<Placed<Solid>>,
     reference: Vec<Contour>,
-    axes: Vec<Contour>,
+    axes: Vec<TunnelAxis>,
 }
 
 impl Objects {
@@ -57,7 +57,7 @@ impl Objects {
         Some(Truth {
             surfaces: ContourSet::new(outlines)?,
             reference: ContourSet::new(self.reference.iter().cloned())?,
-            axis: ContourSet::new(self.axes.iter().cloned()),
+            axes: self.axes.clone(),
         })
     }
 
