@@ -46,7 +46,7 @@ impl Default for Physics {
             solver: Solver::default(),
             calm_step: 1.0 / 300.0,
             rigid_in_air: true,
-            contact_time: 0.005,
+            contact_time: 1.0 / 300.0,
             contact_impedance: [0.95, 0.99, 1e-4],
             friction: 0.0,
             penetration_limit: 1e-3,

@@ -24,7 +24,7 @@ const YAW_PROPORTIONAL: Key = Key::new("proportional", Dimension::FREQUENCY, (0.
 const YAW_INTEGRAL: Key = Key::new("integral", Dimension::new(0, 0, -2, 0), (0.0, 1000.0), "0.8 Hz^2");
 const YAW_LIMIT: Key = Key::new("limit", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "45 deg/s");
 
-const CONTACT_TIME: Key = Key::new("contact_time", Dimension::TIME, (1e-6, 1.0), "5 ms");
+const CONTACT_TIME: Key = Key::new("contact_time", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
 const IMPEDANCE: Key = Key::new("contact_impedance", Dimension::NUMBER, (1e-4, 0.9999), "[0.95, 0.99, 0.1 mm]");
 const IMPEDANCE_DEPTH: Key = Key::new("contact_impedance", Dimension::LENGTH, (1e-9, 0.1), "[0.95, 0.99, 0.1 mm]");
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
