@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::geometry::{rotate, unit, wrap};
+use crate::geometry::{perpendicular, unit, wrap};
 use crate::rig::Whisker;
 
 use super::bend::Bend;
@@ -162,7 +162,9 @@ impl Elastica {
         let tip_angle = base_angle - shot.root.value;
         let force = load.force * self.force_unit;
         let (across, along) = (load.angle - shot.root.value).sin_cos();
-        let contact_base = -self.length * rotate(shot.base, tip_angle);
+        let force_direction = load.angle + tip_angle;
+        let (way, left) = (unit(force_direction), perpendicular(unit(force_direction)));
+        let contact_base = self.length * (shot.along.value * way - shot.lever.value * left);
         let beyond = self.length * (1.0 - load.contact);
         Some(Bend {
             base_angle,
@@ -171,7 +173,7 @@ impl Elastica {
             contact_length: load.contact * self.length,
             contact_base,
             force,
-            force_direction: load.angle + tip_angle,
+            force_direction,
             tip_base: contact_base + beyond * unit(tip_angle),
             tip_angle,
         })

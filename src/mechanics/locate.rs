@@ -1,14 +1,12 @@
 //! Where something touches a whisker, from the moment and the shear at its base.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
 use super::bend::Bend;
 use super::elastica::Elastica;
 use super::follow::follow;
 use super::newton::{self, Residual};
-use super::shot::{Load, Shot};
+use super::touch::{LoadedTouch, Touch};
 
 /// Why nothing can be said of where a whisker is touched.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -21,42 +19,27 @@ pub enum LocateError {
     NoContact,
     /// No place on the whisker fits the readings.
     #[error(
-        "no touch without friction has this shear with this base angle; the nearest that has its base angle has a shear of {:.3e} N",
-        nearest.shear
+        "no touch without friction by something that stays has this shear with this base angle: the shaft would spring over; leave \
+         the readings out"
     )]
-    NoSolution {
-        /// The bend with the same base angle whose shear comes nearest, to some thousandths of `EI / L²`. The straight shaft
-        /// where there is none with that base angle.
-        nearest: Bend,
-    },
+    NoSolution,
 }
 
-/// The greatest turn (rad), in small bends, of the shaft from which the search begins.
-const SMALL_TURN: f64 = 0.1;
 /// How far a step of Newton's method may change the place, the angle (rad) or the force, as powers of e.
 const REACH: f64 = 0.5;
+/// A touch that stays has a shear, in units of `EI / L²`, above minus this, or, on the shaft, above minus the second times the square of
+/// the base moment in those of `EI / L`. At the tip no touch has less, for then the shaft would bend to the other side where it is held:
+/// for a uniform shaft the first is `4 K(1/√2)²`. One that tapers is softer.
+const LEAST_SHEAR: (f64, f64) = (13.76, 4.0);
+/// How many times the length of the shaft, or its inverse, moment over shear and their like may be.
+const ABSURD: f64 = 1e6;
 
-/// A touch without friction as two numbers, so that all touches are one plane without a gap.
+/// What a touch is to have: the logarithm of the moment at the base, in units of `EI / L`, and shear over moment, in units of `1 / L`.
+/// All touches that bend a shaft to one side fill the plane of the two, once.
 #[derive(Debug, Clone, Copy)]
-struct Touch {
-    /// Below 0 the logarithm of the length to the touch, over that of the shaft; from 0 on the tip is touched, and this is
-    /// how far (rad) the force is from square to the shaft, towards its head.
-    place: f64,
-    /// Logarithm of the force, in the unit of [`Load`].
-    force: f64,
-}
-
-impl Touch {
-    fn of(bend: &Bend, elastica: &Elastica) -> Self {
-        let length = bend.contact_length / elastica.length;
-        let place = if length < 1.0 { length.ln() } else { bend.force_direction - bend.tip_angle - FRAC_PI_2 };
-        Self { place, force: (bend.force / elastica.force_unit).ln() }
-    }
-
-    fn load(self) -> Load {
-        let contact = self.place.min(0.0).exp();
-        Load { contact, angle: FRAC_PI_2 + self.place.max(0.0), force: self.force.exp() }
-    }
+struct Aim {
+    moment: f64,
+    ratio: f64,
 }
 
 impl Elastica {
@@ -70,83 +53,80 @@ impl Elastica {
     /// is on the shaft where moment over shear is less than the length, and at the tip where it is more, the force along the
     /// shaft adding to the moment. No two touches have the same readings.
     ///
-    /// Taken for a touch is only what would stay under a force that stays: a shaft that a force at its tip bends, though it
-    /// pushes to the other side, does so down to a limit, and then springs over. Below that shear there is no solution.
+    /// Taken for a touch is only what stays if what touches stays where it is: at the tip a straight surface, along which it may slide,
+    /// and a point on the shaft. A bent whisker is held by a surface that would push an unbent one to the other side, so that the shear
+    /// changes its sign, down to a limit; then it springs over, and there is no solution.
     ///
     /// A neighbouring touch as `guess` makes it several times as fast; any other, such as the [`straight`](Self::straight) shaft,
     /// does no harm.
     ///
     /// # Errors
-    /// [`LocateError`]; without a solution it has the nearest.
+    /// [`LocateError`].
     pub fn locate(&self, base_angle: f64, shear: f64, guess: &Bend) -> Result<Bend, LocateError> {
         if !(base_angle.is_finite() && shear.is_finite()) {
             return Err(LocateError::NotFinite);
         }
         if base_angle == 0.0 {
-            let nearest = self.straight();
-            return Err(if shear == 0.0 { LocateError::NoContact } else { LocateError::NoSolution { nearest } });
+            return Err(if shear == 0.0 { LocateError::NoContact } else { LocateError::NoSolution });
         }
         let side = |bend: Bend| if base_angle < 0.0 { bend.mirrored() } else { bend };
         let (moment, shear) = (base_angle.abs() / self.hinge_compliance, base_angle.signum() * shear / self.force_unit);
-        let found = self.find(moment, shear, &side(*guess));
-        found.map(side).map_err(|nearest| LocateError::NoSolution { nearest: side(nearest) })
+        self.find(moment, shear, &side(*guess)).map(side).ok_or(LocateError::NoSolution)
     }
 
-    /// The bend to the left with a moment and a shear at its base, in the units of [`Load`]; else the last with that moment
-    /// on the way to that shear.
-    fn find(&self, moment: f64, shear: f64, guess: &Bend) -> Result<Bend, Bend> {
-        if guess.base_angle > 0.0
-            && let Some(found) = self.touch(moment, shear, Touch::of(guess, self))
-        {
-            return Ok(found);
+    /// How the place of a touch (m) and the direction of its force (rad), both in the frame of the base, change with the base angle (rad)
+    /// and the shear (N): a row each of x, y and the direction. `None` of a straight shaft, and of what is no touch.
+    #[must_use]
+    pub fn changes(&self, bend: &Bend) -> Option<Matrix3x2<f64>> {
+        let is_left = bend.base_angle > 0.0;
+        let left = if is_left { *bend } else { bend.mirrored() };
+        let mut changes = self.loaded(Touch::of(&left, self))?.by_readings(self, &left)?;
+        if !is_left {
+            // x is the same function of both readings with the other sign; all else changes its sign with them.
+            changes.row_mut(0).neg_mut();
         }
-        let Some(small) = self.small(moment, shear) else { return Err(self.straight()) };
-        let first = small.shear / self.force_unit;
-        let Some(start) = self.touch(moment, first, Touch::of(&small, self)) else { return Err(self.straight()) };
-        follow(start, |share, near| self.touch(moment, (1.0 - share) * first + share * shear, Touch::of(near, self)))
+        Some(changes)
     }
 
-    /// A touch with about a moment, and with about a shear if the shaft bends little under it; else nearer to the base, where
-    /// it does. It is on the shaft, or square at the tip.
-    fn small(&self, moment: f64, shear: f64) -> Option<Bend> {
-        let mut contact = if shear > 0.0 { (moment / shear).min(1.0) } else { 1.0 };
-        let turn = |contact: f64| {
-            let taper = 1.0 + (self.taper - 1.0) * contact;
-            moment * contact * (1.0 + 2.0 * taper) / (6.0 * taper * taper)
-        };
-        while turn(contact) > SMALL_TURN {
-            contact *= 0.5;
+    /// The bend to the left with a moment and a shear at its base, in the units of [`Load`](super::shot::Load).
+    fn find(&self, moment: f64, shear: f64, guess: &Bend) -> Option<Bend> {
+        let aim = Aim { moment: moment.ln(), ratio: shear / moment };
+        let is_absurd = moment.max(moment.recip()).max(aim.ratio.abs()) > ABSURD;
+        if is_absurd || shear < -(LEAST_SHEAR.0 + LEAST_SHEAR.1 * moment * moment) {
+            return None;
         }
-        let load = Load { contact, angle: FRAC_PI_2, force: moment / contact };
-        self.bend(&load, &Shot::of(&load, self.taper)?)
+        let near = (guess.base_angle > 0.0).then(|| self.touch(aim, Touch::of(guess, self))).flatten();
+        let touch = near.or_else(|| {
+            let start = self.loaded(Touch::about(moment, aim.ratio, self.taper))?;
+            self.touch(aim, start.touch).or_else(|| {
+                let from = Aim { moment: start.moment.value.ln(), ratio: start.shear.value / start.moment.value };
+                let between = |from: f64, to: f64, share: f64| (1.0 - share) * from + share * to;
+                let on_the_way = |share: f64, near: &LoadedTouch| {
+                    let moment = between(from.moment, aim.moment, share);
+                    self.touch(Aim { moment, ratio: between(from.ratio, aim.ratio, share) }, near.touch)
+                };
+                follow(start, on_the_way).ok()
+            })
+        })?;
+        if touch.stays() { self.bend(&touch.touch.load(), &touch.shot) } else { None }
     }
 
     /// The touch with a moment and a shear, from a neighbouring one on.
-    fn touch(&self, moment: f64, shear: f64, near: Touch) -> Option<Bend> {
-        let at = |unknowns: Vector2<f64>| Touch { place: unknowns.x, force: unknowns.y }.load();
+    fn touch(&self, aim: Aim, near: Touch) -> Option<LoadedTouch> {
+        let at = |unknowns: Vector2<f64>| self.loaded(Touch { place: unknowns.x, force: unknowns.y });
         let solution = newton::solve(Vector2::new(near.place, near.force), REACH, |unknowns| {
-            let load = at(unknowns);
-            let Shot { root, moment: held, .. } = Shot::of(&load, self.taper)?;
-            let (across, along) = (load.angle - root.value).sin_cos();
-            // The derivatives of the angle of the force to the shaft at the base, and of the moment, by the place.
-            let (turn, moment_by_place) = if unknowns.x < 0.0 {
-                (-load.contact * root.by_contact, load.contact * held.by_contact)
-            } else {
-                (1.0 - root.by_angle, held.by_angle)
-            };
+            let LoadedTouch { moment, shear, .. } = at(unknowns)?;
+            let ratio = shear.value / moment.value;
             Some(Residual {
-                value: Vector2::new(held.value - moment, load.force * across - shear),
+                value: Vector2::new(moment.value.ln() - aim.moment, ratio - aim.ratio),
                 slope: Matrix2::new(
-                    moment_by_place,
-                    load.force * held.by_force,
-                    load.force * along * turn,
-                    load.force * (across - load.force * along * root.by_force),
+                    moment.by_place / moment.value,
+                    moment.by_force / moment.value,
+                    (shear.by_place - ratio * moment.by_place) / moment.value,
+                    (shear.by_force - ratio * moment.by_force) / moment.value,
                 ),
             })
         })?;
-        let load = at(solution);
-        let shot = Shot::of(&load, self.taper)?;
-        let stays = 1.0 - shot.root.by_angle + self.hinge_compliance * shot.moment.by_angle > 0.0;
-        if stays && load.angle < PI { self.bend(&load, &shot) } else { None }
+        at(solution)
     }
 }

@@ -9,6 +9,7 @@ mod follow;
 mod locate;
 mod newton;
 mod shot;
+mod touch;
 
 pub use bend::Bend;
 pub use chain::{Equilibrium, ShaftChain};

@@ -1,7 +1,5 @@
 //! A shaft followed from the force that bends it to its base.
 
-use nalgebra::Vector2;
-
 use super::extrapolation::integrate;
 
 /// A force on a shaft, seen from where it is. Lengths are in units of the shaft's length `L`, forces of `EI / L²`, moments of
@@ -25,59 +23,70 @@ pub(super) struct Varied {
     pub(super) by_force: f64,
 }
 
-/// What a load makes of a shaft, in the frame of the shaft where the load is.
+/// What a load makes of a shaft. Its place is told along and across the force.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shot {
-    /// Direction of the shaft at the base (rad).
+    /// Direction of the shaft at the base, counted from that where the load is (rad).
     pub(super) root: Varied,
+    /// Way from the base to the load in the direction of the force.
+    pub(super) along: Varied,
+    /// The force's lever about the base: how far the load is to the right of the base, seen in the direction of the force.
+    pub(super) lever: Varied,
     /// Bending moment at the base.
     pub(super) moment: Varied,
-    /// Place of the base.
-    pub(super) base: Vector2<f64>,
     /// Whether the shaft is bent to the left all along, but for where the load is.
     pub(super) bends_left: bool,
 }
 
 impl Shot {
-    /// Solves the equations of the elastica, `θ' = M / EI` and `M' = −F sin(φ − θ)`, from the load to the base, with the
-    /// variational equations for the derivatives, for a shaft whose radius at the tip is `taper` times that at the base.
-    /// `None` if the load is not on the shaft, or absurdly great.
+    /// Solves the equations of the elastica, `θ' = M / EI` with the moment `M = F λ` of the force's lever `λ' = −sin(φ − θ)`, from the
+    /// load to the base, with the variational equations for the derivatives, for a shaft whose radius at the tip is `taper` times that
+    /// at the base. `None` if the load is not on the shaft, or absurdly great.
     pub(super) fn of(load: &Load, taper: f64) -> Option<Self> {
         let Load { contact, angle: psi, force } = *load;
         if !(contact > 0.0 && contact <= 1.0) {
             return None;
         }
-        let slope = |t: f64, state: &[f64; 10]| {
+        let slope = |t: f64, state: &[f64; 12]| {
             // 1 / EI at the length c (1 − t), and its derivative by c.
             let thickness = 1.0 + (taper - 1.0) * contact * (1.0 - t);
             let softness = thickness.powi(-4);
             let softness_c = 4.0 * (1.0 - taper) * (1.0 - t) * softness / thickness;
-            // The direction and the moment, the place, and the derivatives of the first two by contact, angle and force.
-            let [angle, moment, .., angle_c, moment_c, angle_a, moment_a, angle_f, moment_f] = *state;
-            let (sin, cos) = angle.sin_cos();
+            // The direction, the lever and the way, and their derivatives by contact, angle and force.
+            let [angle, lever, _, angle_c, lever_c, _, angle_a, lever_a, _, angle_f, lever_f, _] = *state;
             let (across, along) = (psi - angle).sin_cos();
-            let turned = contact * force * along;
+            let (across_c, along_c) = (contact * across, contact * along);
+            let bend = contact * softness * force;
             [
-                -contact * softness * moment,
-                contact * force * across,
-                -contact * cos,
-                -contact * sin,
-                -contact * softness * moment_c - (softness + contact * softness_c) * moment,
-                force * across - turned * angle_c,
-                -contact * softness * moment_a,
-                turned * (1.0 - angle_a),
-                -contact * softness * moment_f,
-                contact * across - turned * angle_f,
+                -bend * lever,
+                across_c,
+                along_c,
+                -bend * lever_c - force * (softness + contact * softness_c) * lever,
+                across - along_c * angle_c,
+                along + across_c * angle_c,
+                -bend * lever_a,
+                along_c * (1.0 - angle_a),
+                -across_c * (1.0 - angle_a),
+                -bend * lever_f - contact * softness * lever,
+                -along_c * angle_f,
+                across_c * angle_f,
             ]
         };
         let mut bends_left = true;
-        let state = integrate([0.0; 10], slope, |state| bends_left &= state[1] > 0.0)?;
-        let [angle, moment, x, y, angle_c, moment_c, angle_a, moment_a, angle_f, moment_f] = state;
-        Some(Self {
-            root: Varied { value: angle, by_contact: angle_c, by_angle: angle_a, by_force: angle_f },
-            moment: Varied { value: moment, by_contact: moment_c, by_angle: moment_a, by_force: moment_f },
-            base: Vector2::new(x, y),
-            bends_left,
-        })
+        let state = integrate([0.0; 12], slope, |state| bends_left &= state[1] > 0.0)?;
+        let varied = |i: usize| Varied {
+            value: state[i],
+            by_contact: state[3 + i],
+            by_angle: state[6 + i],
+            by_force: state[9 + i],
+        };
+        let lever = varied(1);
+        let moment = Varied {
+            value: force * lever.value,
+            by_contact: force * lever.by_contact,
+            by_angle: force * lever.by_angle,
+            by_force: lever.value + force * lever.by_force,
+        };
+        Some(Self { root: varied(0), along: varied(2), lever, moment, bends_left })
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2 as Column};
 
-use crate::geometry::{Pose, Vector2, rotate, unit};
+use crate::geometry::{Pose, Vector2, perpendicular, rotate, unit};
 use crate::mechanics::{Bend, Elastica};
 use crate::rig::{Sensing, Shaft, Whisker};
 use crate::signal::Reading;
@@ -32,8 +32,6 @@ pub(super) struct MomentAndShear {
 
 /// The spread of the shear that is worth a longer line through the readings, and what the mechanics leave out of it, over `EI / L²`.
 const WANTED_SHEAR: f64 = 5e-4;
-/// The share of an unknown by which it is changed to find what it changes.
-const CHANGE: f64 = 1e-4;
 
 impl MomentAndShear {
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
@@ -68,24 +66,12 @@ impl MomentAndShear {
         bend.contact_base - radius * unit(bend.force_direction)
     }
 
-    /// Covariance of the place of a bend to the left (m², frame of the base), by what the readings may be off. `None` at
-    /// the brink of springing over, where the place hangs on nothing.
+    /// Covariance of the place touched (m², frame of the base), by what the readings may be off. `None` where it hangs on nothing.
     fn covariance(&self, bend: &Bend) -> Option<Matrix2<f64>> {
-        let on_shaft = bend.contact_length < self.shaft.length;
-        let angle = bend.force_direction - bend.tip_angle;
-        let changed = |place: f64, force: f64| {
-            let (length, angle) = if on_shaft {
-                (bend.contact_length * (1.0 - place), angle)
-            } else {
-                (bend.contact_length, angle + place)
-            };
-            let changed = self.elastica.under(length, angle, bend.force * (1.0 + force))?;
-            let readings = Column::new(changed.base_angle - bend.base_angle, changed.shear - bend.shear);
-            Some((readings, self.surface(&changed) - self.surface(bend)))
-        };
-        let ((place, place_moved), (force, force_moved)) = (changed(CHANGE, 0.0)?, changed(0.0, CHANGE)?);
-        let by_readings = Matrix2::from_columns(&[place_moved, force_moved])
-            * Matrix2::from_columns(&[place, force]).try_inverse()?;
+        let changes = self.elastica.changes(bend)?;
+        let radius = self.shaft.radius_at(bend.contact_length / self.shaft.length);
+        let turned = -radius * perpendicular(unit(bend.force_direction));
+        let by_readings = changes.fixed_rows::<2>(0) + turned * changes.row(2);
         let spread = by_readings * Matrix2::from_diagonal(&self.spreads);
         let covariance = spread * spread.transpose() + Matrix2::identity() * CONTACT_SPREAD.powi(2);
         covariance.trace().is_finite().then_some(covariance)
@@ -115,11 +101,7 @@ impl TipModel for MomentAndShear {
             return None;
         };
         self.near = bend;
-        let is_left = bend.base_angle > 0.0;
-        let mut covariance = self.covariance(&if is_left { bend } else { bend.mirrored() })?;
-        if !is_left {
-            (covariance.m12, covariance.m21) = (-covariance.m12, -covariance.m21);
-        }
+        let covariance = self.covariance(&bend)?;
         let normal = unit(bend.force_direction);
         Some(Touch {
             point_world: base.position + rotate(self.surface(&bend), base.heading),

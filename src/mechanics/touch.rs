@@ -1,0 +1,162 @@
+//! A touch without friction, as two numbers.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Matrix2, Matrix3x2, Vector2};
+
+use crate::geometry::{perpendicular, unit};
+
+use super::bend::Bend;
+use super::elastica::Elastica;
+use super::shot::{Load, Shot, Varied};
+
+/// A touch without friction as two numbers, so that all touches are one plane without a gap.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    /// Below 0 the logarithm of the length to the touch, over that of the shaft; from 0 on the tip is touched, and it tells how far the
+    /// force is from straight against the shaft: by π/2 at 0, and by a part e less for every π/2.
+    pub(super) place: f64,
+    /// Logarithm of the force, in the unit of [`Load`].
+    pub(super) force: f64,
+}
+
+/// A quantity of a touch, with its changes with the two numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Change {
+    pub(super) value: f64,
+    pub(super) by_place: f64,
+    pub(super) by_force: f64,
+}
+
+/// A touch, and what it makes of a shaft.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LoadedTouch {
+    pub(super) touch: Touch,
+    pub(super) shot: Shot,
+    /// Bending moment at the base, and force across the shaft there.
+    pub(super) moment: Change,
+    pub(super) shear: Change,
+    /// Direction of the force in the frame of the base (rad).
+    direction: Change,
+    /// Place of the touch, in a frame with its origin at the base and its first axis in the direction that the force has here.
+    along: Change,
+    left: Change,
+}
+
+impl Touch {
+    pub(super) fn of(bend: &Bend, elastica: &Elastica) -> Self {
+        let length = bend.contact_length / elastica.length;
+        let place = if length < 1.0 {
+            length.ln()
+        } else {
+            let from_against = PI - (bend.force_direction - bend.tip_angle);
+            FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0)
+        };
+        Self { place, force: (bend.force / elastica.force_unit).ln() }
+    }
+
+    /// About the touch with a moment, and a shear of so many times that: that of a uniform shaft that hardly bends, which is
+    /// a cantilever on the shaft, and a strut at the tip, for which shear over moment is `k cot k` with the square `k²` of the force.
+    pub(super) fn about(moment: f64, ratio: f64, taper: f64) -> Self {
+        let softer = taper * taper;
+        if ratio >= 1.0 {
+            let contact = ratio.recip().min(softer / moment);
+            return Self { place: contact.ln(), force: (moment / contact).ln() };
+        }
+        // 1 − π² k² / 3 / (π² − k²) has the same value and slope at 0 and the same pole, and is 0.1 off at most above −1.
+        let square = PI * PI * (1.0 - ratio) / (PI * PI / 3.0 + 1.0 - ratio);
+        let k = square.sqrt();
+        let from_against = moment / (k * k.sin() * softer);
+        Self { place: FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0), force: (square * softer).ln() }
+    }
+
+    pub(super) fn load(self) -> Load {
+        let angle = PI - FRAC_PI_2 * (-self.place.max(0.0) / FRAC_PI_2).exp();
+        Load { contact: self.place.min(0.0).exp(), angle, force: self.force.exp() }
+    }
+}
+
+impl Elastica {
+    /// What a touch makes of the shaft; `None` if it does not bend it to the left all along.
+    pub(super) fn loaded(&self, touch: Touch) -> Option<LoadedTouch> {
+        let load = touch.load();
+        let shot = Shot::of(&load, self.taper)?;
+        if !shot.bends_left {
+            return None;
+        }
+        let is_at_tip = touch.place >= 0.0;
+        let by_place = if is_at_tip { (PI - load.angle) / FRAC_PI_2 } else { load.contact };
+        let change = |varied: &Varied| Change {
+            value: varied.value,
+            by_place: by_place * if is_at_tip { varied.by_angle } else { varied.by_contact },
+            by_force: load.force * varied.by_force,
+        };
+        let (root, moment, lever) = (change(&shot.root), change(&shot.moment), change(&shot.lever));
+        let angle_by_place = if is_at_tip { by_place } else { 0.0 };
+        // The angle of the force to the shaft at the base.
+        let at_base = Change {
+            value: load.angle - root.value,
+            by_place: angle_by_place - root.by_place,
+            by_force: -root.by_force,
+        };
+        let (sin, cos) = at_base.value.sin_cos();
+        let turned = load.force * cos;
+        Some(LoadedTouch {
+            touch,
+            shear: Change {
+                value: load.force * sin,
+                by_place: turned * at_base.by_place,
+                by_force: load.force * sin + turned * at_base.by_force,
+            },
+            direction: Change {
+                value: self.hinge_compliance * moment.value + at_base.value,
+                by_place: self.hinge_compliance * moment.by_place + at_base.by_place,
+                by_force: self.hinge_compliance * moment.by_force + at_base.by_force,
+            },
+            along: change(&shot.along),
+            left: Change { value: -lever.value, by_place: -lever.by_place, by_force: -lever.by_force },
+            moment,
+            shot,
+        })
+    }
+}
+
+impl LoadedTouch {
+    /// Changes of the place in the direction that the force has here and to the left of that, by the two numbers.
+    fn moved(&self) -> Matrix2<f64> {
+        let Self { along, left, direction, .. } = self;
+        Matrix2::new(
+            along.by_place - left.value * direction.by_place,
+            along.by_force - left.value * direction.by_force,
+            left.by_place + along.value * direction.by_place,
+            left.by_force + along.value * direction.by_force,
+        )
+    }
+
+    /// Whether it stays if what touches stays where it is. It does up to where it could move away without that: of the tip the direction of
+    /// a surface and its distance along that are kept, on the shaft a point. From the unbent shaft on these have changed with the two
+    /// numbers by a matrix whose determinant is above 0.
+    pub(super) fn stays(&self) -> bool {
+        if self.touch.place >= 0.0 {
+            let Self { along, direction, .. } = self;
+            direction.by_place * along.by_force - direction.by_force * along.by_place > 0.0
+        } else {
+            self.moved().determinant() > 0.0
+        }
+    }
+
+    /// See [`Elastica::changes`]; `bend` is the touch itself.
+    pub(super) fn by_readings(&self, elastica: &Elastica, bend: &Bend) -> Option<Matrix3x2<f64>> {
+        let readings = Matrix2::new(
+            elastica.hinge_compliance * self.moment.by_place,
+            elastica.hinge_compliance * self.moment.by_force,
+            elastica.force_unit * self.shear.by_place,
+            elastica.force_unit * self.shear.by_force,
+        );
+        let way: Vector2<f64> = unit(bend.force_direction);
+        let place = Matrix2::from_columns(&[way, perpendicular(way)]) * self.moved() * elastica.length;
+        let direction = [self.direction.by_place, self.direction.by_force];
+        let all = Matrix3x2::new(place.m11, place.m12, place.m21, place.m22, direction[0], direction[1]);
+        Some(all * readings.try_inverse()?)
+    }
+}
