@@ -1,5 +1,7 @@
 //! The base angle as a polynomial in the place of the touch.
 
+use std::f64::consts::{PI, SQRT_2};
+
 use serde::Deserialize;
 
 use super::contact_set::{ContactSet, MOST};
@@ -10,11 +12,15 @@ use crate::geometry::Vector2;
 const ORDER: usize = 5;
 /// Its coefficients.
 const COUNT: usize = (ORDER + 1) * (ORDER + 2) / 2;
+/// How much nearer than a mesh is wide a place may be to another to be left out.
+const APART: f64 = 0.25;
 
 /// The base angle that a touch by the tip makes, as a polynomial of order five in its place: `z = f(x, y)`, for a bend to the left.
 ///
-/// For a touch by the tip the place says all, since a place has one shape of the shaft. It holds near the places that it was fitted to,
-/// which fill a crescent and not their hull.
+/// For a touch by the tip the place says all, since a place has one shape of the shaft. It holds between the places that it was fitted to,
+/// which fill a crescent and not their hull: where a place lies in the hull of those that are within reach of it. A straight way to all of
+/// them leads along a net, whose meshes are no wider than a step from place to place that cannot be avoided; who reaches from corner to
+/// corner of such a mesh, and no farther, leaves no hole between them, and does not go beyond the outermost.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AngleSurface {
@@ -26,9 +32,9 @@ pub struct AngleSurface {
     pub coefficients: [f64; COUNT],
     /// Standard deviation of the sets' base angles about it (rad).
     pub spread: f64,
-    /// How far from a place it holds (m): halfway from the loneliest set to its neighbour.
+    /// How far off (m) the places are that one between them needs: the diagonal of the widest mesh of their net.
     pub reach: f64,
-    /// The places (m, frame of the base), but for those that are nearer to another than half of that.
+    /// The places (m, frame of the base), but for those that are nearer to another than a quarter of a mesh.
     pub places: Vec<[f64; 2]>,
 }
 
@@ -37,18 +43,14 @@ impl AngleSurface {
     #[must_use]
     pub fn fit(sets: &[ContactSet]) -> Option<Self> {
         let places: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
-        let apart = |a: &Vector2, b: &Vector2| (a - b).norm();
-        let from_neighbour = |(index, place): (usize, &Vector2)| {
-            let others = places.iter().enumerate().filter(|(other, _)| *other != index);
-            others.map(|(_, other)| apart(place, other)).fold(f64::INFINITY, f64::min)
-        };
-        let reach = 0.5 * places.iter().enumerate().map(from_neighbour).fold(0.0, f64::max);
+        let least = APART * widest_mesh(&places);
         let mut kept: Vec<Vector2> = Vec::new();
         for place in &places {
-            if kept.iter().all(|other| apart(place, other) >= 0.5 * reach) {
+            if kept.iter().all(|other| (place - other).norm() >= least) {
                 kept.push(*place);
             }
         }
+        let reach = SQRT_2 * widest_mesh(&kept);
         let centre = places.iter().sum::<Vector2>() / places.len() as f64;
         let scale = places.iter().map(|place| (place - centre).norm()).fold(0.0, f64::max);
         let places = kept.into_iter().map(Into::into).collect();
@@ -73,11 +75,30 @@ impl AngleSurface {
         (sums[0], Vector2::new(sums[1], sums[2]) / self.scale)
     }
 
-    /// Whether it holds at a place (m, frame of the base).
+    /// Whether it holds at a place (m, frame of the base): between places within reach of it, or as near to one as those that were left out.
     #[must_use]
     pub fn contains(&self, place: Vector2) -> bool {
-        let square = self.reach * self.reach;
-        self.places.iter().any(|&known| (place - Vector2::from(known)).norm_squared() <= square)
+        let (far, near) = (self.reach.powi(2), (APART / SQRT_2 * self.reach).powi(2));
+        // Seen from the place, how far to the left and to the right of the first the others are: it is in their hull if that is half a
+        // turn together.
+        let mut seen: Option<(Vector2, f64, f64)> = None;
+        for &known in &self.places {
+            let off = Vector2::from(known) - place;
+            let square = off.norm_squared();
+            if square <= near {
+                return true;
+            }
+            if square <= far {
+                let (first, left, right) = seen.get_or_insert((off, 0.0, 0.0));
+                let angle = first.perp(&off).atan2(first.dot(&off));
+                *left = left.max(angle);
+                *right = right.max(-angle);
+                if *left + *right >= PI {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     /// The terms of the polynomial with their changes by u and v.
@@ -112,4 +133,25 @@ impl AngleSurface {
             && self.spread >= 0.0
             && (1..=MOST).contains(&self.places.len())
     }
+}
+
+/// The longest step of the net of the shortest ways from place to place that holds all of them together (Prim, Bell System Technical
+/// Journal 36 (1957), 1389).
+fn widest_mesh(places: &[Vector2]) -> f64 {
+    let mut outside: Vec<(Vector2, f64)> = places.iter().map(|place| (*place, f64::INFINITY)).collect();
+    let (mut newest, mut widest) = (outside.pop().map(|(place, _)| place), 0.0_f64);
+    while let Some(place) = newest {
+        let mut nearest = (0, f64::INFINITY);
+        for (index, (other, step)) in outside.iter_mut().enumerate() {
+            *step = step.min((*other - place).norm());
+            if *step < nearest.1 {
+                nearest = (index, *step);
+            }
+        }
+        newest = (!outside.is_empty()).then(|| outside.swap_remove(nearest.0).0);
+        if newest.is_some() {
+            widest = widest.max(nearest.1);
+        }
+    }
+    widest
 }

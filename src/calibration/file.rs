@@ -47,7 +47,7 @@ pub enum CalibrationError {
 }
 
 /// The format that is written and read.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// What files of all formats have.
 #[derive(Deserialize)]

@@ -13,6 +13,9 @@ pub(super) struct BaseAngle {
     delay: f64,
     /// Standard deviation (rad).
     pub(super) spread: f64,
+    /// The same for who takes one value after the other to be off by chance: as lines have readings in common, many of their values
+    /// together are no better than as many readings.
+    pub(super) lasting_spread: f64,
 }
 
 /// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
@@ -27,7 +30,9 @@ impl BaseAngle {
         let delay = whisker.hinge.damping / whisker.hinge.stiffness;
         let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
         let line = RecentLine::new(sensing.sample_rate.recip(), delay, noise, WANTED_SPREAD);
-        Self { spread: MODEL_SPREAD.hypot(noise * line.noise_gain(delay)), delay, line }
+        let gain = line.noise_gain(delay);
+        let spread = |gain: f64| MODEL_SPREAD.hypot(noise * gain);
+        Self { spread: spread(gain), lasting_spread: spread(gain.max(1.0)), delay, line }
     }
 
     /// Takes a reading (rad).

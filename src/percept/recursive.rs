@@ -54,7 +54,7 @@ const ANGLES: usize = 40;
 /// The polynomial of a whisker that nobody has measured, from its mechanics; `None` if they give too few places.
 pub(super) fn surface(whisker: &Whisker, table: &TipTable) -> Option<AngleSurface> {
     let (first, last, step) = DIRECTIONS;
-    let places = (first..=last).step_by(step).flat_map(|degrees| (1..=ANGLES).map(move |angle| (degrees, angle)));
+    let places = (first..=last).step_by(step).flat_map(|degrees| (0..=ANGLES).map(move |angle| (degrees, angle)));
     let sets = places.filter_map(|(degrees, angle)| {
         let (normal, base_angle) = ((degrees as f64).to_radians(), table.range() * angle as f64 / (2 * ANGLES) as f64);
         let tip = table.at(base_angle, normal)?.tip_base;

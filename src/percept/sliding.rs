@@ -68,6 +68,11 @@ struct Contact {
     covariance: Matrix2<f64>,
     /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
     tip: TipPlace,
+    /// Where it came to touch (m, world frame), how far it has been from there since (m), and the variance of the place (m²) by which it
+    /// may not have been the tip that touched there.
+    first: Point2,
+    farthest: f64,
+    first_variance: f64,
 }
 
 /// Variance of a surface's direction for every way along it (rad²/m): a bend of 0.1 rad within 10 mm.
@@ -80,6 +85,9 @@ const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
 /// Standard deviation of a centre's place at a light touch (m).
 const FIRST_PLACE: f64 = 2e-5;
+/// How far off the place of a tip may be (m, standard deviation) where it came to touch and nothing was known of the surface: an edge may
+/// have met the shaft before it. And the way of the tip (m) on which that variance falls by a factor e, as it comes to the edge.
+const SHAFT_FIRST: (f64, f64) = (2.7e-4, 3e-3);
 /// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// An innovation farther off than this many standard deviations is not sliding.
@@ -133,7 +141,8 @@ impl Sliding {
         let normal = base.heading + bend * self.usual_normal;
         let unsettled = State::Unsettled { left: None, bend };
         let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
-        State::Settled(Contact::begun(bend, &tip, normal, FIRST_DIRECTION.powi(2)))
+        let contact = Contact::begun(bend, &tip, normal, FIRST_DIRECTION.powi(2));
+        State::Settled(Contact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
     }
 
     /// One step of sliding.
@@ -157,7 +166,7 @@ impl Sliding {
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
-        let noise = (tip.by_angle.dot(&normal) * self.angle.spread).powi(2) + SMOOTHNESS.powi(2);
+        let noise = (tip.by_angle.dot(&normal) * self.angle.lasting_spread).powi(2) + SMOOTHNESS.powi(2);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
         if !is_sliding {
@@ -166,12 +175,13 @@ impl Sliding {
         let gain = covariance * measured.transpose() / variance;
         let centre = along - gain.y * innovation * normal;
         State::Settled(Contact {
-            bend: last.bend,
             centre,
             before: [last.before[1], last.before[2], last.centre],
             normal: direction - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
             tip,
+            farthest: last.farthest.max((centre - last.first).norm()),
+            ..*last
         })
     }
 
@@ -283,12 +293,14 @@ impl Contact {
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
             + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
-        Self { bend, centre, before: [centre; 3], normal, covariance, tip: *tip }
+        let before = [centre; 3];
+        Self { bend, centre, before, normal, covariance, tip: *tip, first: centre, farthest: 0.0, first_variance: 0.0 }
     }
 
     /// Standard deviation of the place along the normal (m).
     fn place_spread(&self) -> f64 {
-        self.covariance.m22.max(0.0).sqrt().hypot(CONTACT_SPREAD)
+        let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
+        (self.covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
     }
 
     /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by

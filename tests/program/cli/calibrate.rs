@@ -30,7 +30,7 @@ fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
         assert!(printed.contains(wanted), "{printed}");
     }
     let calibration = std::fs::read_to_string(out.join("calibration.yaml")).unwrap();
-    assert!(calibration.contains("vibrissa_calibration: 1") && calibration.contains("l0, measured"), "{calibration}");
+    assert!(calibration.contains("vibrissa_calibration: 2") && calibration.contains("l0, measured"), "{calibration}");
     let picture = std::fs::read_to_string(out.join("profile.svg")).unwrap();
     assert!(picture.starts_with("<svg") && picture.matches("<circle").count() == 120);
     assert_eq!(std::fs::read_to_string(out.join("sets.csv")).unwrap().lines().count(), 121);

@@ -245,7 +245,7 @@ fn the_world_can_vary_and_is_that_of_the_result() {
 fn results_stand_for_the_files_that_values_name_too() {
     let directory = directory("sweep-files");
     let calibration = |stiffness: &str| {
-        let text = format!("vibrissa_calibration: 1\nabout: a test\nhinge_stiffness: {stiffness}\n");
+        let text = format!("vibrissa_calibration: 2\nabout: a test\nhinge_stiffness: {stiffness}\n");
         fs::write(directory.join("r0.yaml"), text).unwrap();
     };
     calibration("1.1");
