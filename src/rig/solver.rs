@@ -4,11 +4,11 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Solver {
     /// Conjugate gradients: the same forces as Newton's method to a millionth, without factoring a matrix of all joints.
-    #[default]
     ConjugateGradients,
     /// Newton's method.
     Newton,
     /// Projected Gauss and Seidel's, in the dual problem. It delays the servos by a step.
+    #[default]
     ProjectedGaussSeidel,
 }
 
