@@ -116,7 +116,7 @@ results() { python3 -c '
 import json, sys
 for line in open(sys.argv[1]):
     result = json.loads(line)
-    for key in ("wall_s", "realtime", "tick_us"):
+    for key in ("start_s", "wall_s", "realtime", "tick_us"):
         result.pop(key, None)
     print(json.dumps(result, sort_keys=True))' "$1"; }
 results "$work/sharded/results.jsonl" >"$work/sharded.txt"

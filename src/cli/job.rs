@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::{Digest, Sha256};
@@ -29,6 +30,8 @@ pub(super) struct Job {
     pub(super) world: WorldSetup,
     pub(super) seed: u64,
     pub(super) identity: Identity,
+    /// What reading its files and compiling its policy took.
+    preparation: Duration,
 }
 
 /// The files that have been read, and those of them whose warnings have been told.
@@ -62,6 +65,7 @@ impl Job {
 
     /// Prepares one run. Tells the warnings of its policy, unless that has been done.
     fn new(path: &Path, arguments: &RunArguments, files: &mut Files) -> Result<Self, Failure> {
+        let before = Instant::now();
         files.read.insert(path.to_owned());
         let scenario = input::scenario_with_files(path, |file| {
             files.read.insert(file);
@@ -94,7 +98,8 @@ impl Job {
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
         let world = arguments.pruning.of(arguments.world, &scene);
-        Ok(Self::with(path, scene, program, world, seed, hashes))
+        let job = Self::with(path, scene, program, world, seed, hashes);
+        Ok(Self { preparation: before.elapsed(), ..job })
     }
 
     /// A run of `program` in a `scene` that was read from `path`, with the hashes of both.
@@ -118,7 +123,8 @@ impl Job {
                 engine: input::short(&engine),
             },
         };
-        Self { path: path.to_owned(), scene, program: Arc::new(program), world, seed, identity }
+        let (path, program) = (path.to_owned(), Arc::new(program));
+        Self { path, scene, program, world, seed, identity, preparation: Duration::ZERO }
     }
 
     /// Runs it, and shows a bar on standard error if that is a terminal.
@@ -148,7 +154,9 @@ impl Job {
             each_second(trace)
         };
         let run = execute(&self.scene, Arc::clone(&self.program), self.world, self.seed, progress);
-        run.map_err(|cause| Failure::Execute { scenario: self.path.clone(), cause })
+        let mut run = run.map_err(|cause| Failure::Execute { scenario: self.path.clone(), cause })?;
+        run.start += self.preparation;
+        Ok(run)
     }
 
     /// The result of its run.

@@ -64,7 +64,7 @@ fn tell(job: &Job, trace: &Trace) -> Result<(), Failure> {
     let now = seconds(trace);
     let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
     let surfaces = &job.scene.truth.surfaces;
-    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| surfaces.nearest(tip).distance);
+    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| surfaces.distance(tip));
     let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
         format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
     });

@@ -1,8 +1,11 @@
 //! Circular pieces.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{BoundingBox, Point2, Pose, Vector2, perpendicular, unit};
+
+/// How near to a spoke (rad, about) rounding might decide on which side of it a point is.
+const SIDE_SLACK: f64 = 1e-9;
 
 /// A circular piece of a contour.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -51,7 +54,7 @@ impl Arc {
     /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
     #[must_use]
     pub fn nearest(&self, point: Point2) -> f64 {
-        let travelled = self.angle_travelled(point);
+        let travelled = self.angle_travelled(point - self.centre);
         if travelled < self.sweep.abs() {
             self.radius * travelled
         } else if (point - self.start()).norm_squared() <= (point - self.end()).norm_squared() {
@@ -64,10 +67,34 @@ impl Arc {
     /// Distance (m) from a point to the nearest point of the arc.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
-        if self.angle_travelled(point) < self.sweep.abs() {
-            ((point - self.centre).norm() - self.radius).abs()
+        self.distance_by(self.spokes(), point)
+    }
+
+    /// The same, for who keeps the arc's [spokes](Self::spokes).
+    pub(super) fn distance_by(&self, spokes: [Vector2; 2], point: Point2) -> f64 {
+        let outward = point - self.centre;
+        if self.is_beside(spokes, outward) {
+            (outward.norm() - self.radius).abs()
         } else {
-            (point - self.start()).norm().min((point - self.end()).norm())
+            let [to_start, to_end] = spokes.map(|spoke| (point - (self.centre + self.radius * spoke)).norm());
+            to_start.min(to_end)
+        }
+    }
+
+    /// The directions from the centre to the start and to the end, unit vectors.
+    pub(super) fn spokes(&self) -> [Vector2; 2] {
+        [unit(self.start_angle), unit(self.start_angle + self.sweep)]
+    }
+
+    /// Whether a ray from the centre goes through the arc. The sides of its spokes tell, and next to those the angle.
+    fn is_beside(&self, [start, end]: [Vector2; 2], outward: Vector2) -> bool {
+        let (after_start, before_end) = (start.perp(&outward), outward.perp(&end));
+        if after_start.abs().min(before_end.abs()) > SIDE_SLACK * (outward.x.abs() + outward.y.abs()) {
+            let is_after_start = after_start * self.sweep > 0.0;
+            let is_before_end = before_end * self.sweep > 0.0;
+            if self.sweep.abs() <= PI { is_after_start && is_before_end } else { is_after_start || is_before_end }
+        } else {
+            self.angle_travelled(outward) < self.sweep.abs()
         }
     }
 
@@ -89,7 +116,7 @@ impl Arc {
         let mut bounds = BoundingBox::around(self.start(), self.end());
         for quarter in 0..4_u8 {
             let extreme = self.at_angle(f64::from(quarter) * FRAC_PI_2);
-            if self.angle_travelled(extreme) < self.sweep.abs() {
+            if self.angle_travelled(extreme - self.centre) < self.sweep.abs() {
                 bounds = bounds.union(&BoundingBox::around(extreme, extreme));
             }
         }
@@ -104,9 +131,8 @@ impl Arc {
         self.start_angle + (s / self.radius).clamp(0.0, self.sweep.abs()) * self.sweep.signum()
     }
 
-    /// The angle in [0, 2π) from the start to the ray through `point`, in the direction of travel.
-    fn angle_travelled(&self, point: Point2) -> f64 {
-        let outward = point - self.centre;
+    /// The angle in [0, 2π) from the start to a ray from the centre, in the direction of travel.
+    fn angle_travelled(&self, outward: Vector2) -> f64 {
         let start = unit(self.start_angle);
         // The angle between two vectors, rather than a difference of two angles, keeps its digits near the start.
         let from_start = start.perp(&outward).atan2(start.dot(&outward)) * self.sweep.signum();
@@ -116,7 +142,7 @@ impl Arc {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
+    use proptest::prelude::*;
 
     use super::*;
 
@@ -143,6 +169,18 @@ mod tests {
             let back = QUARTER.reversed();
             assert!((back.point_at(QUARTER.length() - s) - QUARTER.point_at(s)).norm() < 1e-15);
             assert!((back.tangent_at(QUARTER.length() - s) + QUARTER.tangent_at(s)).norm() < 1e-15);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_sides_of_the_spokes_tell_what_the_angle_tells(
+            start_angle in -7.0..7.0_f64, sweep in -TAU..TAU, direction in -PI..PI, near in -1e-8..1e-8_f64, kind in 0..3,
+        ) {
+            let arc = Arc { start_angle, sweep, ..QUARTER };
+            let angle = match kind { 0 => direction, 1 => start_angle + near, _ => start_angle + sweep + near };
+            let outward = 1.7 * unit(angle);
+            prop_assert_eq!(arc.is_beside(arc.spokes(), outward), arc.angle_travelled(outward) < sweep.abs());
         }
     }
 }

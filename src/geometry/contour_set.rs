@@ -55,6 +55,13 @@ impl ContourSet {
         nearest
     }
 
+    /// Distance (m) of a point from the nearest of the contours, never negative; infinite where the point is no number. It is that of
+    /// [`nearest`](Self::nearest), and quicker.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        self.contours().fold(f64::INFINITY, |within, contour| contour.distance_within(point, within))
+    }
+
     /// The box around all.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {

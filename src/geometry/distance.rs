@@ -2,7 +2,7 @@
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
-use super::{Contour, Piece, Point2, Vector2, joint};
+use super::{Contour, Piece, Point2, Vector2, joint, least_distance};
 
 /// The point of a contour nearest to a given one.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -39,6 +39,12 @@ impl Contour {
             distance: piece.distance(point),
             tangent: piece.tangent_at(along),
         }
+    }
+
+    /// Distance (m) of a point from the contour, never negative, or `within` (m) if it is not nearer than that. It is that of
+    /// [`nearest`](Self::nearest), and quicker.
+    pub(super) fn distance_within(&self, point: Point2, within: f64) -> f64 {
+        least_distance(&self.tree, point, within, |leaf| leaf.distance(point))
     }
 
     /// Distance (m) from the contour: positive on the right of the direction of travel, which is the outside of a closed
@@ -111,6 +117,8 @@ impl Contour {
 pub(super) struct Leaf {
     pub(super) index: usize,
     pub(super) piece: Piece,
+    /// Those of an arc, which are asked for at every distance.
+    spokes: [Vector2; 2],
     envelope: AABB<[f64; 2]>,
 }
 
@@ -119,9 +127,19 @@ impl Leaf {
         let leaf = |(index, piece): (usize, &Piece)| {
             let bounds = piece.bounding_box();
             let envelope = AABB::from_corners(bounds.min.into(), bounds.max.into());
-            Self { index, piece: *piece, envelope }
+            let spokes = if let Piece::Arc(arc) = piece { arc.spokes() } else { [Vector2::zeros(); 2] };
+            Self { index, piece: *piece, spokes, envelope }
         };
         RTree::bulk_load(pieces.iter().enumerate().map(leaf).collect())
+    }
+}
+
+impl Leaf {
+    fn distance(&self, point: Point2) -> f64 {
+        match &self.piece {
+            Piece::Segment(segment) => segment.distance(point),
+            Piece::Arc(arc) => arc.distance_by(self.spokes, point),
+        }
     }
 }
 
@@ -135,6 +153,6 @@ impl RTreeObject for Leaf {
 
 impl PointDistance for Leaf {
     fn distance_2(&self, point: &[f64; 2]) -> f64 {
-        self.piece.distance(Point2::from(*point)).powi(2)
+        self.distance(Point2::from(*point)).powi(2)
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::machine::{BodyScalar, ContourVector, Mark, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
-use crate::rig::{Rig, Whisker};
+use crate::rig::Rig;
 use crate::signal::Sample;
 
 use super::low_pass::{CutoffError, LowPass};
@@ -57,6 +57,16 @@ pub enum PerceptionError {
 }
 
 impl Perception {
+    /// Makes what takes longest of the perception of `rig` by these tip models, and keeps it for [`new`](Self::new): for who has other
+    /// things to do meanwhile.
+    pub fn prepare(rig: &Rig, tip_models: &[TipModelKind]) {
+        if tip_models.iter().any(|kind| matches!(kind, TipModelKind::Sliding | TipModelKind::Recursive)) {
+            for whisker in &rig.whiskers {
+                drop(TipTable::shared(&whisker.perceived()));
+            }
+        }
+    }
+
     /// Perception of `rig` by the whiskers with these indices, each by its tip model, or else by the usual one.
     ///
     /// # Errors
@@ -66,17 +76,6 @@ impl Perception {
     /// If the rig has no whisker with such an index.
     pub fn new(rig: &Rig, whiskers: &[usize], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
         let sensing = &rig.sensing;
-        // Whiskers that differ by their place alone have the same table.
-        let mut tables: Vec<(Whisker, Arc<TipTable>)> = Vec::new();
-        let mut table = |whisker: &Whisker| {
-            let same = |(other, _): &&(Whisker, _)| bends_alike(other, whisker);
-            if let Some((_, table)) = tables.iter().find(same) {
-                return Arc::clone(table);
-            }
-            let table = Arc::new(TipTable::new(whisker));
-            tables.push((whisker.clone(), Arc::clone(&table)));
-            table
-        };
         let perceived =
             whiskers.iter().zip(tip_models.iter().copied().chain(std::iter::repeat(TipModelKind::default())));
         let perceived = perceived.map(|(&index, kind)| {
@@ -91,7 +90,7 @@ impl Perception {
                 TipModelKind::OneChannel => {
                     Box::new(OneChannel::new(Arc::clone(&curve), deflection_spread(sensing), whisker.shaft.length))
                 }
-                TipModelKind::Sliding => Box::new(Sliding::new(&whisker, table(&whisker), sensing)),
+                TipModelKind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
                 TipModelKind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
                 TipModelKind::MomentAndShear => {
                     return Err(PerceptionError::NoForces { whisker: whisker.name });
@@ -99,7 +98,7 @@ impl Perception {
                 TipModelKind::Recursive => {
                     let surface = match calibration.and_then(|calibration| calibration.recursive.clone()) {
                         Some(measured) => measured,
-                        None => recursive::surface(&whisker, &table(&whisker))
+                        None => recursive::surface(&whisker, &TipTable::shared(&whisker))
                             .ok_or_else(|| PerceptionError::NoSurface { whisker: whisker.name.clone() })?,
                     };
                     Box::new(Recursive::new(&whisker, Arc::new(surface), Arc::clone(&curve), sensing))
@@ -235,9 +234,4 @@ impl Senses for Perception {
     fn mark(&mut self, whisker: usize, mark: Mark) {
         self.whiskers[whisker].mark(mark);
     }
-}
-
-/// Whether two whiskers have the same mechanics.
-fn bends_alike(a: &Whisker, b: &Whisker) -> bool {
-    a.shaft == b.shaft && a.hinge == b.hinge
 }

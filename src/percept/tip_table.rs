@@ -1,11 +1,13 @@
 //! Where a whisker's tip is, by its base angle and the direction of the contact force.
 
+use std::collections::VecDeque;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector2;
 
 use crate::mechanics::{Equilibrium, ShaftChain};
-use crate::rig::Whisker;
+use crate::rig::{Hinge, Shaft, Whisker};
 
 /// Where a whisker's tip is, by its base angle and the direction of the force at the tip: a table of equilibria of the whisker's own
 /// chain, with cubics through four of them each way in between.
@@ -40,6 +42,8 @@ const FIRST_DIRECTION: f64 = 50.0 * PI / 180.0;
 const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
 /// Directions in the table, up to 230°.
 const DIRECTIONS: usize = 91;
+/// Tables that are kept, of 100 kB each.
+const MOST_KEPT: usize = 16;
 /// Directions that a straight whisker bends under from the beginning, up to 174°.
 const FROM_STRAIGHT: usize = 63;
 
@@ -65,6 +69,24 @@ impl TipTable {
         let tips_base =
             columns.iter().flatten().map(|solution| solution.map_or(none, |found| found.tip_base)).collect();
         Self { angle_step, tips_base }
+    }
+
+    /// The table of `whisker`. Those made last are kept: whiskers that differ by their place alone have the same, and so have most
+    /// runs of a process.
+    #[must_use]
+    pub fn shared(whisker: &Whisker) -> Arc<Self> {
+        static KEPT: Mutex<VecDeque<(Shaft, Hinge, Arc<TipTable>)>> = Mutex::new(VecDeque::new());
+        // A table is complete before it is kept, so that no panic leaves one that is not.
+        let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_same = |(shaft, hinge, _): &&(Shaft, Hinge, _)| (shaft, hinge) == (&whisker.shaft, &whisker.hinge);
+        if let Some((.., table)) = kept().iter().find(is_same) {
+            return Arc::clone(table);
+        }
+        let table = Arc::new(Self::new(whisker));
+        let mut kept = kept();
+        kept.truncate(MOST_KEPT - 1);
+        kept.push_front((whisker.shaft.clone(), whisker.hinge.clone(), Arc::clone(&table)));
+        table
     }
 
     /// The tip at a base angle (rad, 0 or more) under a force in a direction (rad). `None` beyond the table, and where there is no

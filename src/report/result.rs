@@ -28,6 +28,8 @@ pub struct RunResult {
     pub final_state: String,
     /// Simulated time.
     pub sim_s: f64,
+    /// Wall time from when the run was asked for to the end of its first tick: reading, compiling, building.
+    pub start_s: f64,
     /// Wall time of the loop alone.
     pub wall_s: f64,
     /// Simulated time over wall time; `None` if the clock saw none pass.
@@ -208,6 +210,7 @@ impl RunResult {
             reason: run.reason.clone(),
             final_state: run.final_state.clone(),
             sim_s,
+            start_s: run.start.as_secs_f64(),
             wall_s,
             realtime: (wall_s > 0.0).then(|| sim_s / wall_s),
             error_mm: ErrorMm {

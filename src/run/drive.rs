@@ -28,6 +28,9 @@ pub struct Run {
     pub trace: Trace,
     /// Wall time of the loop alone.
     pub wall: Duration,
+    /// Wall time from where the run was asked for to the end of its first tick. Of the loop alone it is the time of the first samples
+    /// and their tick; who reads, compiles and builds before adds to it.
+    pub start: Duration,
     /// Wall time of each control tick: perception, machine and steering.
     pub tick_times: Vec<Duration>,
 }
@@ -59,7 +62,7 @@ pub fn drive(
     let mut watches = [LoopWatch::default(); MAX_WHISKERS];
     let mut stall_watch = stop.stalled.map(StallWatch::new);
     let mut command = Command::STOP;
-    let start = Instant::now();
+    let (start, mut first_tick) = (Instant::now(), Duration::ZERO);
     let (outcome, reason) = loop {
         let samples = match world.advance(&command) {
             Ok(samples) => samples,
@@ -72,6 +75,9 @@ pub fn drive(
         let before_tick = Instant::now();
         let (next, ticked) = control.tick(samples);
         tick_times.push(before_tick.elapsed());
+        if trace.ticks.is_empty() {
+            first_tick = start.elapsed();
+        }
         command = next;
 
         let tick = record(&control, command, ticked.failsafe, world.body_touches());
@@ -108,7 +114,7 @@ pub fn drive(
         }
     };
     let final_state = control.machine().state_name().to_owned();
-    Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), tick_times })
+    Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), start: first_tick, tick_times })
 }
 
 /// Whether the platform is where it is to get to.

@@ -4,7 +4,7 @@ use rstar::RTree;
 use rstar::primitives::Line;
 
 use super::tip::{valid_tips, whiskers};
-use crate::geometry::Point2;
+use crate::geometry::{Point2, least_distance};
 use crate::run::Trace;
 
 /// How many ticks after a tip the next one of its stroke comes at the latest.
@@ -48,16 +48,8 @@ impl Estimate {
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
         let query = point.into();
-        // Not `nearest_neighbor`: it prunes by a bound that holds only without rounding, as `geometry` found.
-        self.lines
-            .nearest_neighbor_iter(query)
-            .next()
-            .map(|line| (point - Point2::from(line.nearest_point(&query))).norm())
-    }
-
-    /// The straight lines that the strokes are made of; a single tip is a line of no length.
-    pub(super) fn lines(&self) -> impl Iterator<Item = (Point2, Point2)> {
-        self.strokes.iter().flat_map(|stroke| lines(stroke))
+        let distance = |line: &Line<[f64; 2]>| (point - Point2::from(line.nearest_point(&query))).norm();
+        (self.lines.size() > 0).then(|| least_distance(&self.lines, point, f64::INFINITY, distance))
     }
 }
 
@@ -77,6 +69,7 @@ fn strokes(tips: impl Iterator<Item = (usize, Point2)>) -> Vec<Vec<Point2>> {
     strokes
 }
 
+/// The straight lines that a stroke is made of; a single tip is a line of no length.
 fn lines(stroke: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
     let single = if let [tip] = stroke { Some((*tip, *tip)) } else { None };
     stroke.windows(2).map(|ends| (ends[0], ends[1])).chain(single)

@@ -2,7 +2,7 @@
 
 use super::Estimate;
 use super::lipschitz::maximum;
-use crate::geometry::ContourSet;
+use crate::geometry::{Contour, ContourSet, Point2, Vector2};
 
 /// How much too small (m) the Hausdorff distance may come out.
 pub const HAUSDORFF_TOLERANCE: f64 = 1e-5;
@@ -13,18 +13,26 @@ pub const HAUSDORFF_TOLERANCE: f64 = 1e-5;
 /// It is too small by at most [`HAUSDORFF_TOLERANCE`].
 #[must_use]
 pub fn hausdorff(estimate: &Estimate, reference: &ContourSet) -> Option<f64> {
-    let tips = estimate.strokes().iter().flatten();
-    let at_tips = tips.map(|&tip| reference.nearest(tip).distance).reduce(f64::max)?;
-    let from_estimate = estimate.lines().fold(at_tips, |floor, (from, to)| {
-        let (along, length) = (to - from, (to - from).norm());
-        maximum(length, floor, HAUSDORFF_TOLERANCE, |s| {
-            let share = if length > 0.0 { s / length } else { 0.0 };
-            reference.nearest(from + share * along).distance
-        })
+    let distance = |point| reference.distance(point);
+    let strokes = estimate.strokes();
+    let at_tips: Vec<Vec<f64>> = strokes.iter().map(|stroke| stroke.iter().copied().map(distance).collect()).collect();
+    let floor = at_tips.iter().flatten().copied().reduce(f64::max)?;
+    // What was not traced is farthest off, most of the time, and then hardly a line of the estimate is to be looked at.
+    let contours: Vec<&Contour> = reference.contours().collect();
+    let floor = maximum(contours.iter().map(|contour| contour.length()), floor, HAUSDORFF_TOLERANCE, |contour, s| {
+        estimate.distance(contours[contour].point_at(s)).unwrap_or(f64::INFINITY)
     });
-    Some(reference.contours().fold(from_estimate, |floor, contour| {
-        maximum(contour.length(), floor, HAUSDORFF_TOLERANCE, |s| {
-            estimate.distance(contour.point_at(s)).unwrap_or(f64::INFINITY)
-        })
+    let lines = strokes.iter().zip(&at_tips).flat_map(|(stroke, at_tips)| stroke.windows(2).zip(at_tips.windows(2)));
+    // Both ends of a line bound what is between them.
+    let bound = |ends: &[Point2], at_ends: &[f64]| 0.5 * (at_ends[0] + at_ends[1] + (ends[1] - ends[0]).norm());
+    let lines: Vec<(Point2, Vector2)> = lines
+        .filter(|(ends, at_ends)| bound(ends, at_ends) > floor + HAUSDORFF_TOLERANCE)
+        .map(|(ends, _)| (ends[0], ends[1] - ends[0]))
+        .collect();
+    Some(maximum(lines.iter().map(|(_, along)| along.norm()), floor, HAUSDORFF_TOLERANCE, |line, s| {
+        let (from, along) = lines[line];
+        let length = along.norm();
+        let share = if length > 0.0 { s / length } else { 0.0 };
+        distance(from + share * along)
     }))
 }

@@ -25,7 +25,7 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet) -> Vec<Tip> {
     whiskers(trace)
         .flat_map(|whisker| valid_tips(trace, whisker).map(move |(tick, tip_world)| (tick, whisker, tip_world)))
         .map(|(tick, whisker, tip_world)| {
-            let (error, spread) = (surfaces.nearest(tip_world).distance, trace.ticks[tick].tip_spreads[whisker]);
+            let (error, spread) = (surfaces.distance(tip_world), trace.ticks[tick].tip_spreads[whisker]);
             Tip { tick, whisker, tip_world, error, spread }
         })
         .collect()

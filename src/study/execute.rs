@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::time::Instant;
 
 use sha2::{Digest, Sha256};
 
 use crate::machine::Program;
+use crate::percept::Perception;
 use crate::run::{BindError, Control, Run, Trace, drive};
 use crate::scene::{Scene, WorldKind, WorldSetup, mjcf};
 #[cfg(feature = "sim")]
@@ -45,10 +47,18 @@ pub fn execute(
     seed: u64,
     progress: impl FnMut(&Trace) -> ControlFlow<()>,
 ) -> Result<Run, ExecuteError> {
+    let before = Instant::now();
+    let world = std::thread::scope(|scope| {
+        scope.spawn(|| Perception::prepare(&scene.rig, &program.tip_models));
+        build(scene, world.into(), seed)
+    });
     let control = Control::new(&scene.rig, program)?;
-    let mut world = build(scene, world.into(), seed)?;
+    let mut world = world?;
     let period = 1.0 / scene.rig.sensing.control_rate;
-    drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
+    let built = before.elapsed();
+    let mut run = drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)?;
+    run.start += built;
+    Ok(run)
 }
 
 pub(super) fn build(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {

@@ -13,6 +13,22 @@ pub(super) struct Region<'m> {
     pub(super) parts: Vec<Part>,
     /// Whether something was asked for that no unknown stands for, so that no point of the region is the whole story.
     pub(super) is_partial: bool,
+    /// The goals, by their index, that have nothing more to narrow, until a part changes that they read.
+    settled: Vec<Option<Settled>>,
+    /// The parts that were read since a goal began, and those of them that were changed.
+    read: Parts,
+    changed: Parts,
+}
+
+/// Some of the parts of a region, one bit each; those from the 128th on share the last.
+type Parts = u128;
+
+/// A goal that narrowed nothing: as long as nothing changes of what it read, it will not the next time either.
+#[derive(Clone, Copy)]
+struct Settled {
+    read: Parts,
+    /// Operations that it took to find out.
+    work: usize,
 }
 
 /// One unknown in a region.
@@ -27,14 +43,40 @@ pub(super) struct Part {
 impl<'m> Region<'m> {
     /// All there can be.
     pub(super) fn whole(model: &'m Model<'m>) -> Self {
-        Self { model, parts: Vec::new(), is_partial: false }
+        Self { model, parts: Vec::new(), is_partial: false, settled: Vec::new(), read: 0, changed: 0 }
+    }
+
+    /// A goal begins to narrow, unless it is settled: then how many operations that would take.
+    pub(super) fn begin(&mut self, goal: usize) -> Option<usize> {
+        (self.read, self.changed) = (0, 0);
+        self.settled.get(goal).copied().flatten().map(|settled| settled.work)
+    }
+
+    /// The goal that was begun has narrowed what it could, by so many operations.
+    pub(super) fn end(&mut self, goal: usize, work: usize) {
+        if self.changed != 0 {
+            self.unsettle(self.changed);
+            return;
+        }
+        if self.settled.len() <= goal {
+            self.settled.resize(goal + 1, None);
+        }
+        self.settled[goal] = Some(Settled { read: self.read, work });
+    }
+
+    /// Some parts are no longer what they were.
+    fn unsettle(&mut self, changed: Parts) {
+        for settled in &mut self.settled {
+            settled.take_if(|settled| settled.read & changed != 0);
+        }
     }
 
     /// What a register holds that the code at hand has not written.
     pub(super) fn register(&mut self, register: Register) -> Interval {
         let unknown = Unknown::Register(register);
-        if let Some(part) = self.parts.iter().find(|part| part.unknown == unknown) {
-            return part.domain.hull();
+        if let Some(index) = self.parts.iter().position(|part| part.unknown == unknown) {
+            self.read |= bit(index);
+            return self.parts[index].domain.hull();
         }
         let Some(domain) = self.model.domain(register) else {
             let image = &self.model.program.image;
@@ -43,14 +85,22 @@ impl<'m> Region<'m> {
         // What has no name could not be shown.
         self.is_partial |= self.model.named(register).is_none();
         let range = domain.hull();
+        self.read |= bit(self.parts.len());
         self.parts.push(Part { unknown, domain, splits: 0 });
         range
     }
 
     /// Keeps of what an unknown may be only what `keep` keeps; false if that is nothing.
     fn keep(&mut self, unknown: Unknown, keep: impl FnOnce(&mut Domain) -> bool) -> bool {
-        let Some(part) = self.parts.iter_mut().find(|part| part.unknown == unknown) else { return true };
-        keep(&mut part.domain)
+        let Some(index) = self.parts.iter().position(|part| part.unknown == unknown) else { return true };
+        let domain = &mut self.parts[index].domain;
+        let before = domain.extent();
+        let has_any = keep(domain);
+        self.read |= bit(index);
+        if domain.extent() != before {
+            self.changed |= bit(index);
+        }
+        has_any
     }
 
     fn narrow(&mut self, unknown: Unknown, to: Interval) -> bool {
@@ -139,6 +189,7 @@ impl<'m> Region<'m> {
             let mut half = self.clone();
             half.parts[index].domain = domain;
             half.parts[index].splits += 1;
+            half.unsettle(bit(index));
             half
         }))
     }
@@ -151,6 +202,11 @@ impl Source for Region<'_> {
             self.parts.push(Part { unknown, domain: Domain::felt(unknown), splits: 0 });
             self.parts.len() - 1
         });
+        self.read |= bit(index);
         &self.parts[index].domain
     }
+}
+
+fn bit(part: usize) -> Parts {
+    1 << part.min(127)
 }

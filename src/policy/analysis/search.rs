@@ -82,7 +82,7 @@ impl<'m> Search<'m> {
                 return Found::Unclear;
             }
             // Twice, since what one goal narrows can tell more of the others.
-            if !goals.iter().chain(goals).all(|&goal| self.bounds.narrow(goal, &mut region)) {
+            if !goals.iter().enumerate().chain(goals.iter().enumerate()).all(|goal| self.narrow(goal, &mut region)) {
                 continue;
             }
             if !region.is_partial {
@@ -99,6 +99,19 @@ impl<'m> Search<'m> {
             }
         }
         if is_unclear { Found::Unclear } else { Found::Nothing }
+    }
+
+    /// Narrows a region to where a goal may be met; false if it is met nowhere in it. What would change nothing is counted as
+    /// work, so that limits mean the same, but not done.
+    fn narrow(&mut self, (index, &goal): (usize, &Goal<'_>), region: &mut Region<'_>) -> bool {
+        if let Some(work) = region.begin(index) {
+            self.bounds.work += work;
+            return true;
+        }
+        let before = self.bounds.work;
+        let has_any = self.bounds.narrow(goal, region);
+        region.end(index, self.bounds.work - before);
+        has_any
     }
 
     /// Whether every goal is met at a point, by the real evaluator.

@@ -79,6 +79,14 @@ impl Domain {
         }
     }
 
+    /// By what it differs from itself before it was narrowed: how many values there are, or the range.
+    pub(super) fn extent(&self) -> (usize, Option<Interval>) {
+        match self {
+            Self::Values(values) => (values.len(), None),
+            Self::Range(range) => (0, Some(*range)),
+        }
+    }
+
     /// Keeps only what lies in an interval; false if nothing does.
     pub(super) fn narrow(&mut self, to: Interval) -> bool {
         match self {

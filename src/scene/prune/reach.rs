@@ -82,7 +82,7 @@ impl Reach {
     #[must_use]
     pub fn clearance(&self, whisker: &Whisker, body: &Pose) -> f64 {
         let base = body.point_to_world(whisker.base_body);
-        self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.nearest(base).distance)
+        self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(base))
     }
 }
 

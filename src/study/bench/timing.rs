@@ -19,6 +19,8 @@ pub struct Timing {
     pub outcome: Outcome,
     /// Simulated time (s).
     pub sim: f64,
+    /// Wall time (s) from the compiled policy and the scene to the end of the first tick: world, tables of perception.
+    pub start: f64,
     /// Time of the processor (s): world, perception, policy, and score.
     pub processor: f64,
     /// Mean time of a control tick (s), if there was one.
@@ -40,6 +42,7 @@ impl Timing {
         Ok(Self {
             outcome: run.outcome,
             sim: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
+            start: run.start.as_secs_f64(),
             processor,
             tick_mean: score.latency.map(|latency| latency.mean),
             tick_p99: score.latency.map(|latency| latency.p99),
@@ -62,6 +65,8 @@ pub struct TimingRow {
     pub runs: usize,
     /// Simulated time.
     pub sim_s: f64,
+    /// Wall time from the compiled policy and the scene to the end of the first tick.
+    pub start_ms: f64,
     /// Time of the processor: world, perception, policy, and score.
     pub processor_s: f64,
     /// Simulated time over time of the processor.
@@ -97,6 +102,7 @@ impl TimingRow {
             outcome: first.outcome,
             runs: runs.len(),
             sim_s: first.sim,
+            start_ms: 1e3 * median(statistics(&|run| Some(run.start))?),
             processor_s: median(statistics(&|run| Some(run.processor))?),
             realtime: realtime.percentile(50.0),
             realtime_range: [realtime.percentile(0.0), realtime.max()],
@@ -111,8 +117,20 @@ impl TimingRow {
 /// A table, one line a scene and policy: simulated over processor's time, median, least and greatest, and the times of a control tick.
 #[must_use]
 pub fn timing_table(rows: &[TimingRow]) -> String {
-    let headings =
-        ["scene", "policy", "world", "outcome", "sim s", "processor s", "× real time", "from", "to", "tick µs", "p99"];
+    let headings = [
+        "scene",
+        "policy",
+        "world",
+        "outcome",
+        "sim s",
+        "start ms",
+        "processor s",
+        "× real time",
+        "from",
+        "to",
+        "tick µs",
+        "p99",
+    ];
     let microseconds = |time: Option<f64>| time.map_or_else(|| NONE.to_owned(), |time| format!("{time:.1}"));
     let cells = |row: &TimingRow| {
         vec![
@@ -121,6 +139,7 @@ pub fn timing_table(rows: &[TimingRow]) -> String {
             row.world.clone(),
             row.outcome.to_string(),
             format!("{:.1}", row.sim_s),
+            format!("{:.1}", row.start_ms),
             format!("{:.3}", row.processor_s),
             format!("{:.0}", row.realtime),
             format!("{:.0}", row.realtime_range[0]),

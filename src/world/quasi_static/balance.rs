@@ -14,8 +14,8 @@ use super::wire::{Shape, Wire};
 #[derive(Debug, Default)]
 pub(super) struct Balance {
     bordered: Bordered,
+    small: Small,
     diagonal: Vec<f64>,
-    beside: Vec<f64>,
     /// How far every link is to turn (rad).
     turns: Vec<f64>,
     /// How far the end of every link then moves (m), in small turns.
@@ -65,12 +65,8 @@ impl Balance {
 
     fn attempt(&mut self, wire: &Wire, shape: &Shape, contacts: &[Contact], is_newtons: bool) -> Option<Step> {
         self.fill(wire, shape, if is_newtons { contacts } else { &[] });
-        self.bordered.factor(&self.diagonal, &self.beside)?;
-        let moment = |joint: usize| {
-            let before = if joint > 0 { shape.angles[joint - 1] } else { 0.0 };
-            wire.stiffnesses.get(joint).map_or(0.0, |stiffness| stiffness * (shape.angles[joint] - before))
-        };
-        let free = self.bordered.add(|row| moment(row + 1) - moment(row))?;
+        self.bordered.factor(&self.diagonal, &wire.beside)?;
+        let free = self.bordered.add(|column| unbalanced(wire, shape, column))?;
         let mut curves = [Curve::default(); MOST];
         let (mut curve_count, mut rising) = (0, 0);
         let mut bearing = [(0, 0.0); MOST];
@@ -86,13 +82,13 @@ impl Balance {
                 rising += usize::from(is_rising);
             }
             *bearing.get_mut(count)? = (index, contact.force);
-            columns[count] = self.bordered.add(|row| lever(wire, shape, contact, contact.normal, row))?;
+            columns[count] = self.bordered.add(|column| levers(wire, shape, contact, contact.normal, column))?;
             count += 1;
         }
         let curves = &curves[..curve_count];
         for _ in 0..ROUNDS {
-            let small = self.small(free, &columns[..count], &bearing[..count], contacts, curves)?;
-            let (solution, positive) = small.solve()?;
+            self.fill_small(free, &columns[..count], &bearing[..count], contacts, curves)?;
+            let (solution, positive) = self.small.solve()?;
             let (forces, spreads) = solution.split_at(count);
             let worst = (0..count).min_by(|&a, &b| forces[a].total_cmp(&forces[b]));
             if let Some(worst) = worst.filter(|&worst| forces[worst] < -1e-12) {
@@ -120,7 +116,7 @@ impl Balance {
             };
             let contact = &contacts[index];
             *bearing.get_mut(count)? = (index, 0.0);
-            columns[count] = self.bordered.add(|row| lever(wire, shape, contact, contact.normal, row))?;
+            columns[count] = self.bordered.add(|column| levers(wire, shape, contact, contact.normal, column))?;
             count += 1;
         }
         None
@@ -128,12 +124,7 @@ impl Balance {
 
     /// The stiffness of the joints, and what forces that turn with the links add to it.
     fn fill(&mut self, wire: &Wire, shape: &Shape, contacts: &[Contact]) {
-        let links = wire.links();
-        let stiffness = |joint: usize| wire.stiffnesses.get(joint).copied().unwrap_or(0.0);
-        self.diagonal.clear();
-        self.diagonal.extend((0..links).map(|link| stiffness(link) + stiffness(link + 1)));
-        self.beside.clear();
-        self.beside.extend((1..links).map(|joint| -stiffness(joint)));
+        self.diagonal.clone_from(&wire.diagonal);
         for contact in contacts.iter().filter(|contact| contact.force > 0.0) {
             let force = contact.force * contact.normal;
             for (entry, along) in self.diagonal.iter_mut().zip(&shape.along).take(contact.link) {
@@ -154,15 +145,20 @@ impl Balance {
             Curving::None => Some(([None; 2], false)),
             Curving::Circling(curvature) => {
                 let tangent = perpendicular(contact.normal);
-                let column = self.bordered.add(|row| lever(wire, shape, contact, tangent, row))?;
+                let column = self.bordered.add(|column| levers(wire, shape, contact, tangent, column))?;
                 let inverse = -(contact.force * curvature).recip();
                 Some(([Some(Curve { column, partner: column, inverse }), None], inverse > 0.0))
             }
             Curving::Rolling(_) => {
                 let tangent = shape.along[link];
-                let slide = |row: usize| if row < link { lever(wire, shape, contact, tangent, row) } else { 0.0 };
-                let slide = self.bordered.add(slide)?;
-                let turn = self.bordered.add(|row| if row == link { 1.0 } else { 0.0 })?;
+                let slide = self.bordered.add(|column| {
+                    levers(wire, shape, contact, tangent, column);
+                    column[link] = 0.0;
+                })?;
+                let turn = self.bordered.add(|column| {
+                    column.fill(0.0);
+                    column[link] = 1.0;
+                })?;
                 let inverse = (contact.force * contact.normal.dot(&shape.left(link))).recip();
                 let pair = [(slide, turn), (turn, slide)];
                 Some((pair.map(|(column, partner)| Some(Curve { column, partner, inverse })), true))
@@ -170,18 +166,18 @@ impl Balance {
         }
     }
 
-    /// The equations of the bearing forces and of what spreads along the columns of curvature.
-    fn small(
-        &self,
+    /// Writes the equations of the bearing forces and of what spreads along the columns of curvature; `None` if there are too many.
+    fn fill_small(
+        &mut self,
         free: usize,
         columns: &[usize],
         bearing: &[(usize, f64)],
         contacts: &[Contact],
         curves: &[Curve],
-    ) -> Option<Small> {
-        let products = &self.bordered.products;
+    ) -> Option<()> {
+        let (small, products) = (&mut self.small, &self.bordered.products);
         let forces = columns.len();
-        let mut small = Small { size: forces + curves.len(), matrix: [[0.0; MOST]; MOST], right: [0.0; MOST] };
+        small.size = forces + curves.len();
         if small.size > MOST {
             return None;
         }
@@ -202,7 +198,7 @@ impl Balance {
                 small.matrix[forces + row][forces + at] = products[curve.column][other.column] + own;
             }
         }
-        Some(small)
+        Some(())
     }
 
     /// The turns: those without any contact, and so much of other columns.
@@ -235,12 +231,27 @@ impl Balance {
     }
 }
 
-/// How fast a contact's place on the whisker moves along a direction when one link turns (m/rad).
-fn lever(wire: &Wire, shape: &Shape, contact: &Contact, direction: Vector2, link: usize) -> f64 {
-    let arm = match link.cmp(&contact.link) {
-        std::cmp::Ordering::Less => wire.link,
-        std::cmp::Ordering::Equal => contact.along,
-        std::cmp::Ordering::Greater => return 0.0,
-    };
-    arm * shape.along[link].perp(&direction)
+/// How fast a contact's place on the whisker moves along a direction when each link turns (m/rad).
+fn levers(wire: &Wire, shape: &Shape, contact: &Contact, direction: Vector2, column: &mut [f64]) {
+    let lever = |arm: f64, along: &Vector2| arm * along.perp(&direction);
+    for (entry, along) in column.iter_mut().zip(&shape.along).take(contact.link) {
+        *entry = lever(wire.link, along);
+    }
+    column[contact.link] = lever(contact.along, &shape.along[contact.link]);
+    column[contact.link + 1..].fill(0.0);
+}
+
+/// The moment of the springs on every link (N m).
+fn unbalanced(wire: &Wire, shape: &Shape, column: &mut [f64]) {
+    let (mut before, mut behind) = (0.0, 0.0);
+    for (joint, (&stiffness, &angle)) in wire.stiffnesses.iter().zip(&shape.angles).enumerate() {
+        let moment = stiffness * (angle - before);
+        if joint > 0 {
+            column[joint - 1] = moment - behind;
+        }
+        (before, behind) = (angle, moment);
+    }
+    if let Some(last) = column.last_mut() {
+        *last = 0.0 - behind;
+    }
 }

@@ -8,6 +8,7 @@ pub(super) const MOST: usize = 16;
 pub(super) struct Bordered {
     size: usize,
     pivots_inverse: Vec<f64>,
+    /// What is beside the diagonal of the lower factor, between two zeros, so that every row has one before and one behind it.
     lower: Vec<f64>,
     /// How many eigenvalues of `T` are negative.
     pub(super) negative: usize,
@@ -29,28 +30,27 @@ impl Bordered {
         self.size = diagonal.len();
         self.count = 0;
         self.negative = 0;
-        for all in [&mut self.pivots_inverse, &mut self.lower] {
-            all.clear();
-        }
-        let mut pivot = *diagonal.first()?;
-        for row in 0..self.size {
-            if pivot.is_nan() || pivot.abs() <= LEAST_PIVOT * diagonal[row].abs() {
+        self.pivots_inverse.clear();
+        self.lower.clear();
+        self.lower.push(0.0);
+        let mut fill_in = 0.0;
+        for (&entry, &beside) in diagonal.iter().zip(beside.iter().chain(&[0.0])) {
+            let pivot = entry - fill_in;
+            if pivot.is_nan() || pivot.abs() <= LEAST_PIVOT * entry.abs() {
                 return None;
             }
             self.negative += usize::from(pivot < 0.0);
             let inverse = pivot.recip();
+            let lower = beside * inverse;
+            fill_in = lower * beside;
             self.pivots_inverse.push(inverse);
-            if let Some(&beside) = beside.get(row) {
-                let lower = beside * inverse;
-                self.lower.push(lower);
-                pivot = diagonal[row + 1] - lower * beside;
-            }
+            self.lower.push(lower);
         }
         Some(())
     }
 
-    /// Adds a column, of which `fill` gives every row; its index, `None` if there is no room.
-    pub(super) fn add(&mut self, fill: impl Fn(usize) -> f64) -> Option<usize> {
+    /// Adds a column, which `fill` gives all of; its index, `None` if there is no room.
+    pub(super) fn add(&mut self, fill: impl FnOnce(&mut [f64])) -> Option<usize> {
         let (index, size) = (self.count, self.size);
         if index >= MOST {
             return None;
@@ -61,21 +61,21 @@ impl Bordered {
             self.solved.resize(to, 0.0);
         }
         let (column, solved) = (&mut self.columns[from..to], &mut self.solved[from..to]);
+        fill(column);
         let mut before = 0.0;
-        for row in 0..size {
-            column[row] = fill(row);
-            before = if row > 0 { column[row] - self.lower[row - 1] * before } else { column[row] };
-            solved[row] = before;
+        for ((solved, &entry), &lower) in solved.iter_mut().zip(&*column).zip(&self.lower) {
+            before = entry - lower * before;
+            *solved = before;
         }
         let mut after = 0.0;
-        for row in (0..size).rev() {
-            let lower = self.lower.get(row).copied().unwrap_or(0.0);
-            after = solved[row] * self.pivots_inverse[row] - lower * after;
-            solved[row] = after;
+        for ((solved, &inverse), &lower) in solved.iter_mut().zip(&self.pivots_inverse).zip(&self.lower[1..]).rev() {
+            after = *solved * inverse - lower * after;
+            *solved = after;
         }
         self.count += 1;
-        for other in 0..=index {
-            let product = self.columns[from..to].iter().zip(self.solved(other)).map(|(a, b)| a * b).sum();
+        let column = &self.columns[from..to];
+        for (other, solved) in self.solved.chunks_exact(size).take(index + 1).enumerate() {
+            let product = column.iter().zip(solved).map(|(a, b)| a * b).sum();
             self.products[index][other] = product;
             self.products[other][index] = product;
         }
@@ -88,8 +88,8 @@ impl Bordered {
     }
 }
 
-/// A small symmetric system of equations.
-#[derive(Debug, Clone, Copy)]
+/// A small symmetric system of equations: of its rows and columns the first `size`.
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Small {
     pub(super) size: usize,
     pub(super) matrix: [[f64; MOST]; MOST],
@@ -97,10 +97,10 @@ pub(super) struct Small {
 }
 
 impl Small {
-    /// The solution, and how many eigenvalues of the matrix are positive; `None` if it is singular.
+    /// The solution, and how many eigenvalues of the matrix are positive; `None` if it is singular. The matrix is lost.
     ///
     /// By `L D Lᵀ` with the greatest entry of the diagonal as the next pivot, each beside the diagonal that was there.
-    pub(super) fn solve(mut self) -> Option<([f64; MOST], usize)> {
+    pub(super) fn solve(&mut self) -> Option<([f64; MOST], usize)> {
         let size = self.size;
         let mut scale = [0.0; MOST];
         for (row, scale) in scale.iter_mut().enumerate().take(size) {

@@ -10,6 +10,9 @@ pub(super) struct Wire {
     pub(super) link: f64,
     /// Stiffness (N m/rad) of the hinge at the base and the root of the shaft, one behind the other, and of the joints.
     pub(super) stiffnesses: Vec<f64>,
+    /// What the springs give the matrix of the energy: its diagonal, and what is beside it.
+    pub(super) diagonal: Vec<f64>,
+    pub(super) beside: Vec<f64>,
     /// The hinge's share of the angle of the first link.
     pub(super) hinge_share: f64,
     /// Radius (m) at the far end of every link.
@@ -38,7 +41,10 @@ impl Wire {
         let mut stiffnesses: Vec<f64> = shaft.joint_stiffnesses().collect();
         let root = stiffnesses[0];
         stiffnesses[0] = hinge * root / (hinge + root);
+        let behind = stiffnesses[1..].iter().copied().chain([0.0]);
         Self {
+            diagonal: stiffnesses.iter().zip(behind).map(|(stiffness, behind)| stiffness + behind).collect(),
+            beside: stiffnesses[1..].iter().map(|stiffness| -stiffness).collect(),
             link: shaft.link_length(),
             hinge_share: root / (hinge + root),
             end_radii: (1..=shaft.links).map(|end| shaft.radius_at(end as f64 / shaft.links as f64)).collect(),

@@ -61,6 +61,7 @@ mod with_simulation {
             "reason",
             "final_state",
             "sim_s",
+            "start_s",
             "wall_s",
             "realtime",
             "error_mm",

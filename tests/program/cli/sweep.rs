@@ -35,7 +35,7 @@ fn lines(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();
     let line = |line: &str| {
         let mut result: Value = serde_json::from_str(line).unwrap();
-        for time in ["wall_s", "realtime", "tick_us"] {
+        for time in ["start_s", "wall_s", "realtime", "tick_us"] {
             result.as_object_mut().unwrap().remove(time);
         }
         result.to_string()

@@ -17,6 +17,7 @@ proptest! {
         let least = contours.iter().map(|contour| contour.nearest(point).distance).fold(f64::INFINITY, f64::min);
         prop_assert!((nearest.distance - least).abs() < 1e-15);
         prop_assert!((nearest.point - point).norm() - least < 1e-9);
+        prop_assert_eq!(set.distance(point).to_bits(), nearest.distance.to_bits());
         let length: f64 = contours.iter().map(Contour::length).sum();
         prop_assert!((set.length() - length).abs() < 1e-12 && nearest.arc_length <= length);
     }
