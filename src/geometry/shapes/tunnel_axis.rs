@@ -68,6 +68,7 @@ impl TunnelAxis {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
     use crate::geometry::{Piece, circle};
     use proptest::prelude::*;
