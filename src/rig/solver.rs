@@ -7,7 +7,7 @@ pub enum Solver {
     ConjugateGradients,
     /// Newton's method.
     Newton,
-    /// Projected Gauss and Seidel's, in the dual problem. It delays the servos by a step.
+    /// Projected Gauss and Seidel's, in the dual problem, which is small where contacts are few. It delays the servos by a step.
     #[default]
     ProjectedGaussSeidel,
 }
