@@ -32,6 +32,9 @@ pub(super) struct MomentAndShear {
 
 /// The spread of the shear that is worth a longer line through the readings, and what the mechanics leave out of it, over `EI / L²`.
 const WANTED_SHEAR: f64 = 5e-4;
+/// How far off the shape of the shaft may be where it is touched (m), as a standard deviation: shafts are not quite as even as the exact
+/// theory has them, and a simulated one is a chain of links. Pressed along, as on a surface that a body is turned away from, they show it most.
+const SHAPE_SPREAD: f64 = 3.5e-5;
 
 impl MomentAndShear {
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
@@ -73,7 +76,8 @@ impl MomentAndShear {
         let turned = -radius * perpendicular(unit(bend.force_direction));
         let by_readings = changes.fixed_rows::<2>(0) + turned * changes.row(2);
         let spread = by_readings * Matrix2::from_diagonal(&self.spreads);
-        let covariance = spread * spread.transpose() + Matrix2::identity() * CONTACT_SPREAD.powi(2);
+        let covariance =
+            spread * spread.transpose() + Matrix2::identity() * (CONTACT_SPREAD.powi(2) + SHAPE_SPREAD.powi(2));
         covariance.trace().is_finite().then_some(covariance)
     }
 }

@@ -87,7 +87,7 @@ const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
 const FIRST_PLACE: f64 = 2e-5;
 /// How far off the place of a tip may be (m, standard deviation) where it came to touch and nothing was known of the surface: an edge may
 /// have met the shaft before it. And the way of the tip (m) on which that variance falls by a factor e, as it comes to the edge.
-const SHAFT_FIRST: (f64, f64) = (2.7e-4, 3e-3);
+const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
 /// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// An innovation farther off than this many standard deviations is not sliding.

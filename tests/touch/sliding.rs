@@ -197,9 +197,11 @@ fn errors(way: &Way, length: f64, noise: f64, change: impl Fn(usize, &mut Sample
     errors
 }
 
-/// The same over 60 mm with the noise of the real sensor.
-fn noisy_errors(way: &Way, seed: u64) -> Vec<(f64, f64, f64)> {
-    let spread = 0.5e-6;
+/// Standard deviation of the real sensor's noise (rad).
+const NOISE: f64 = 0.5e-6;
+
+/// The same over 60 mm with noise of a standard deviation (rad).
+fn noisy_errors(way: &Way, seed: u64, spread: f64) -> Vec<(f64, f64, f64)> {
     let noise = Normal::new(0.0, spread).unwrap();
     let random = RefCell::new(ChaCha8Rng::seed_from_u64(seed));
     errors(way, 0.06, spread, |_, sample| {
@@ -235,7 +237,7 @@ proptest! {
 
     #[test]
     fn noise_is_borne(way in ways(LIGHT, 0.05), seed in any::<u64>()) {
-        let errors = noisy_errors(&way, seed);
+        let errors = noisy_errors(&way, seed, NOISE);
         // Also at the first touch, where it turns the surface more than it moves it.
         prop_assert!(errors.len() > 15, "{} told", errors.len());
         for (along, error, _) in errors {
@@ -311,6 +313,36 @@ fn a_surface_that_ends_in_an_edge_is_found_again_behind_it() {
     assert!(told > 25, "{told}");
 }
 
+/// Estimates that have readings in common are wrong together.
+#[test]
+fn noise_is_told_however_strong_it_is() {
+    for factor in [1.0, 10.0] {
+        let (mut within, mut told) = (0, 0);
+        for seed in 0..12_u32 {
+            let share = f64::from(seed) / 12.0;
+            let curvature = -8.0 + 10.0 * share;
+            let way =
+                Way { whisker: 0, curvature, speed: 0.05, bend: [2.5e-5, 6e-5], turned: [0.03 - 0.06 * share, 0.01] };
+            for (_, error, spread) in noisy_errors(&way, seed.into(), factor * NOISE) {
+                told += 1;
+                within += i32::from(error < 1.96 * spread);
+            }
+        }
+        assert!(told > 250 && within > 9 * told / 10, "{factor}: {within} of {told}");
+    }
+}
+
+#[test]
+fn the_first_touch_has_room_for_an_edge_that_meets_the_shaft_until_the_tip_has_slid() {
+    let way = Way { whisker: 1, curvature: 0.0, speed: 0.01, bend: [2.5e-5, 2e-4], turned: [0.0, 0.0] };
+    let errors = errors(&way, 0.025, 0.0, |_, _| ());
+    let (_, _, first) = errors[0];
+    assert!(first > 2e-4, "{first}");
+    for (along, _, spread) in errors.into_iter().filter(|(along, ..)| *along > 0.015) {
+        assert!(spread < 5e-5, "{spread} m after {along} m");
+    }
+}
+
 #[test]
 fn noise_does_not_turn_a_surface_that_is_touched_lightly_away_from_all_forces() {
     // Draws in which the touch was lost at once, and found again 2 cm on, by up to half a millimetre off.
@@ -337,7 +369,7 @@ fn noise_does_not_turn_a_surface_that_is_touched_lightly_away_from_all_forces() 
         ),
     ];
     for (way, seed) in draws {
-        let (along, error, _) = noisy_errors(&way, seed)[0];
+        let (along, error, _) = noisy_errors(&way, seed, NOISE)[0];
         assert!(along < 5e-3 && error < 1e-4, "{error} m off after {along} m");
     }
 }

@@ -1,7 +1,6 @@
 //! Tip models on the samples of a run.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use crate::machine::{Program, Senses, TipModelKind, WhiskerScalar};
 use crate::percept::Perception;
@@ -11,6 +10,7 @@ use crate::scene::{Scene, WorldKind};
 use crate::score::{ErrorFigures, Tip};
 use crate::signal::Sample;
 use crate::study::ExecuteError;
+use crate::study::processor_time::processor_time;
 use crate::world::Sensors;
 
 use super::row::EstimatorRow;
@@ -81,9 +81,9 @@ pub(in crate::study) fn judge(
     let trace = &tape.run.trace;
     let (mut tips, mut asked, mut on_shaft, mut seconds) = (Vec::new(), 0_usize, 0_usize, 0.0);
     for (index, (samples, tick)) in tape.ticks.iter().zip(&trace.ticks).enumerate() {
-        let start = Instant::now();
+        let start = processor_time();
         perception.update(samples);
-        seconds += start.elapsed().as_secs_f64();
+        seconds += processor_time() - start;
         for (whisker, &in_rig) in whiskers.iter().enumerate() {
             if tick.tips[whisker].is_none() {
                 continue;
