@@ -41,8 +41,14 @@ impl Contour {
         }
     }
 
-    /// Distance (m) of a point from the contour, never negative, or `within` (m) if it is not nearer than that. It is that of
+    /// Distance (m) of a point from the contour, never negative; infinite where the point is no number. It is that of
     /// [`nearest`](Self::nearest), and quicker.
+    #[must_use]
+    pub fn distance(&self, point: Point2) -> f64 {
+        self.distance_within(point, f64::INFINITY)
+    }
+
+    /// The same, or `within` (m) if it is not nearer than that.
     pub(super) fn distance_within(&self, point: Point2, within: f64) -> f64 {
         least_distance(&self.tree, point, within, |leaf| leaf.distance(point))
     }

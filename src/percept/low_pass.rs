@@ -11,6 +11,9 @@ pub struct LowPass {
     rest: f64,
 }
 
+/// What is less than this (rad) from rest is at rest.
+const FADED: f64 = 1e-290;
+
 /// A cutoff that is not above zero, or not below half of the sampling rate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a filter for samples at {rate} Hz needs a cutoff above 0 Hz and below {} Hz, not {cutoff} Hz", 0.5 * rate)]
@@ -54,6 +57,13 @@ impl LowPass {
 
     /// Takes one sample and gives the filtered value.
     pub fn next(&mut self, value: f64) -> f64 {
-        self.rest + self.second.run(self.first.run(value - self.rest))
+        let off_rest = value - self.rest;
+        let filtered = self.second.run(self.first.run(off_rest));
+        // What fades is gone at last: beyond the normal numbers rounding would hold it for ever, and every tick would be slower.
+        if off_rest == 0.0 && filtered.abs() < FADED {
+            self.settle(self.rest);
+            return self.rest;
+        }
+        self.rest + filtered
     }
 }

@@ -25,6 +25,9 @@ const LEAST_REACH: f64 = 0.3;
 /// Of more tips than this on a side, only as many are taken: the work grows with their square.
 const MOST_TIPS: usize = 300;
 
+/// How far off (m) distances may come out.
+const ROUNDING: f64 = 1e-9;
+
 /// Two lines at a smaller angle (rad) do not meet in a definite place.
 const LEAST_ANGLE: f64 = 0.1;
 
@@ -71,7 +74,7 @@ pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner
     if count == 0 {
         return (Vec::new(), 0);
     }
-    let felt = felt(trace, &outlines);
+    let felt = felt(trace, &outlines, &sharp);
     let all =
         sharp.iter().enumerate().flat_map(|(outline, corners)| corners.iter().map(move |corner| (outline, *corner)));
     let all: Vec<(usize, Corner)> = all.collect();
@@ -114,13 +117,16 @@ fn sharp(outline: &Contour) -> Vec<Corner> {
 /// A tip as its nearest outline has it: arc length (m), and offset to the right (m).
 type Felt = (f64, f64);
 
-/// The tips of a run by their nearest outline.
-fn felt(trace: &Trace, outlines: &[&Contour]) -> Vec<Vec<Felt>> {
+/// The tips of a run by their nearest outline, of which these corners are `sharp`; those that may show a side of one.
+fn felt(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<Felt>> {
     let mut felt = vec![Vec::new(); outlines.len()];
     for (_, tip) in whiskers(trace).flat_map(|whisker| valid_tips(trace, whisker)) {
-        let nearest = outlines.iter().map(|outline| outline.nearest(tip)).enumerate();
-        if let Some((index, nearest)) = nearest.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance)) {
-            felt[index].push((nearest.arc_length, outlines[index].signed_distance(tip)));
+        let distances = outlines.iter().map(|outline| outline.distance(tip)).enumerate();
+        let Some((index, distance)) = distances.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { continue };
+        // What is so near along the outline is no farther straight from its nearest point on it.
+        let reach = SIDE.1 + distance + ROUNDING;
+        if sharp[index].iter().any(|corner| (tip - corner.point).norm() <= reach) {
+            felt[index].push((outlines[index].nearest(tip).arc_length, outlines[index].signed_distance(tip)));
         }
     }
     felt

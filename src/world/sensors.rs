@@ -6,6 +6,10 @@ use rand_distr::{Distribution, Normal};
 
 use crate::rig::Sensing;
 
+/// No sensor reads an angle (rad) below this. The motion of a free whisker fades beyond the normal numbers, with which processors take a
+/// hundred times as long, and so would all that is made of readings.
+const FADED: f64 = 1e-290;
+
 /// The sensors at the bases of whiskers: noise and resolution, the same in every world.
 #[derive(Debug, Clone)]
 pub(crate) struct Sensors {
@@ -29,7 +33,13 @@ impl Sensors {
     /// What is read of a base angle (rad).
     pub(crate) fn read(&mut self, base_angle: f64) -> f64 {
         let noisy = base_angle + drawn(self.noise, &mut self.random);
-        if self.resolution > 0.0 { (noisy / self.resolution).round() * self.resolution } else { noisy }
+        if self.resolution > 0.0 {
+            (noisy / self.resolution).round() * self.resolution
+        } else if noisy.abs() < FADED {
+            0.0
+        } else {
+            noisy
+        }
     }
 
     /// What is read of a force (N) at the base.

@@ -9,6 +9,9 @@ pub(super) struct Lag {
     aim: f64,
 }
 
+/// An angle (rad) below this is nothing.
+const FADED: f64 = 1e-290;
+
 impl Lag {
     /// At rest at 0, with a time constant (s): damping over stiffness.
     pub(super) fn new(time: f64) -> Self {
@@ -24,7 +27,9 @@ impl Lag {
         // Behind an even change it is late by the time constant, once what was else has faded.
         let late = (aim - self.aim) / period * self.time;
         let fading = if self.time > 0.0 { (-period / self.time).exp() } else { 0.0 };
-        self.value = aim - late + (self.value - self.aim + late) * fading;
+        let value = aim - late + (self.value - self.aim + late) * fading;
+        // A hundred times as slow would be what fades beyond the normal numbers, where rounding holds it for ever.
+        self.value = if value.abs() < FADED { 0.0 } else { value };
         self.aim = aim;
     }
 }
@@ -53,6 +58,16 @@ mod tests {
         twice.follow(0.5, 0.002);
         twice.follow(1.0, 0.002);
         assert!((once.value() - twice.value()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_fades_is_gone_at_last() {
+        let mut lag = Lag::new(0.01);
+        lag.follow(1e-3, 0.003);
+        for _ in 0..2500 {
+            lag.follow(0.0, 0.003);
+        }
+        assert!(lag.value() == 0.0);
     }
 
     #[test]
