@@ -99,10 +99,10 @@ impl Tunnel {
             let middle = line.aside(aside, opened)?;
             Ok(Strip::new(&middle.transformed(pose), thickness)?)
         };
+        let drawn = line.aside(0.0, false)?.transformed(pose);
         let (left, right) = (wall(-0.5 * width, false)?, wall(0.5 * width, true)?);
         // The axis goes on past an opening.
         let whole = if matches!(line, CentreLine::Polar { .. }) { wall(0.5 * width, false)? } else { right.clone() };
-        let drawn = line.aside(0.0, false)?.transformed(pose);
         let axis = TunnelAxis::new(drawn, left.side(Side::Right).clone(), whole.side(Side::Left).clone());
         Ok(Self { axis, left, right })
     }

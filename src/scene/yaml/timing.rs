@@ -61,17 +61,19 @@ pub(super) fn check(reader: &mut Reader<'_>, rig: &mut Rig, places: Places) {
     if let Some(place) = places.step.or(places.sample_rate) {
         fit_step(reader, &mut rig.physics, rig.sensing.sample_rate, place);
     }
-    fit_calm_step(rig);
+    fit_to_samples(rig);
     if let Some(place) = places.filter_cutoff.or(places.sample_rate) {
         check_cutoff(reader, &rig.sensing, place);
     }
 }
 
-/// A longest step that is off the sample period by as little as a step may be is taken for it.
-fn fit_calm_step(rig: &mut Rig) {
+/// A longest step or a contact's time that is off the sample period by as little as a step may be is taken for it.
+fn fit_to_samples(rig: &mut Rig) {
     let period = rig.sensing.sample_rate.recip();
-    if (rig.physics.calm_step / period - 1.0).abs() <= ROUNDED {
-        rig.physics.calm_step = period;
+    for time in [&mut rig.physics.calm_step, &mut rig.physics.contact_time] {
+        if (*time / period - 1.0).abs() <= ROUNDED {
+            *time = period;
+        }
     }
 }
 
