@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
-use svg::node::element::{Line, Text};
+use svg::node::element::{Line, Rectangle, Text, Title};
 
 /// A font that every system has.
-pub(super) const FONT: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
+const FONT: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
 
 /// A font for programs that every system has.
 pub(super) const CODE_FONT: &str = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
@@ -82,6 +82,18 @@ pub(super) fn line(from: (f64, f64), to: (f64, f64), colour: &str, width: f64) -
 /// About how wide (px) a text comes out; on the wide side, for there is no font to ask.
 pub(super) fn width_of(content: &str, size: f64) -> f64 {
     0.6 * size * content.chars().count() as f64
+}
+
+/// A white sheet of a width and a height (px), with a title for who cannot see what is drawn on it.
+pub(super) fn sheet((width, height): (f64, f64), title: &str) -> svg::Document {
+    svg::Document::new()
+        .set("width", px(width))
+        .set("height", px(height))
+        .set("viewBox", format!("0 0 {} {}", px(width), px(height)))
+        .set("font-family", FONT)
+        .set("role", "img")
+        .add(Title::new(printable(title)))
+        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
 }
 
 /// The text without the characters that XML cannot hold.

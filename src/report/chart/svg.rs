@@ -1,6 +1,6 @@
 //! The chart as a picture.
 
-use svg::node::element::{Group, Path, Rectangle, Title};
+use svg::node::element::{Group, Path};
 
 use super::caption::Caption;
 use super::label::Label;
@@ -93,14 +93,7 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| !holds_others(**symbol)) {
         drawing = drawing.add(symbol.draw(chart, centre, size.0));
     }
-    let document = svg::Document::new()
-        .set("width", px(width))
-        .set("height", px(height))
-        .set("viewBox", format!("0 0 {} {}", px(width), px(height)))
-        .set("font-family", style::FONT)
-        .set("role", "img")
-        .add(Title::new(style::printable(&format!("statechart of {}", chart.machine))))
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+    let document = style::sheet((width, height), &format!("statechart of {}", chart.machine))
         .add(text(MARGIN, 40.0, Anchor::Start, TITLE, style::INK, &chart.machine).set("font-weight", 600))
         .add(text(MARGIN, 62.0, Anchor::Start, REMARK, style::GREY, remark))
         .add(drawing);

@@ -1,7 +1,7 @@
 //! What costs how much, and how far off it is.
 
 use svg::node::element::path::Data;
-use svg::node::element::{Circle, Group, Path, Rectangle, Title};
+use svg::node::element::{Circle, Group, Path};
 
 use super::scale::Scale;
 use crate::report::style::{self, Anchor, line, px, text};
@@ -44,14 +44,7 @@ pub(crate) fn front_picture(
     let names_top = TOP + PANEL.1 + 80.0;
     let lines = points.len().div_ceil(COLUMNS);
     let height = names_top + LINE * (lines as f64 + 2.0) + 10.0;
-    let mut document = svg::Document::new()
-        .set("width", px(WIDTH))
-        .set("height", px(height))
-        .set("viewBox", format!("0 0 {} {}", px(WIDTH), px(height)))
-        .set("font-family", style::FONT)
-        .set("role", "img")
-        .add(Title::new(style::printable(title)))
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+    let mut document = style::sheet((WIDTH, height), title)
         .add(text(LEFT[0], 36.0, Anchor::Start, 20.0, style::INK, title))
         .add(text(LEFT[0], 60.0, Anchor::Start, 13.0, style::GREY, subtitle));
     for (measure, error) in errors.into_iter().enumerate() {

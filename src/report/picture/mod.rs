@@ -13,12 +13,12 @@ pub use profile::profile_picture;
 use std::iter;
 use std::ops::Range;
 
-use svg::node::element::{Rectangle, TSpan, Text, Title};
+use svg::node::element::{TSpan, Text};
 
 use self::legend::Legend;
 use self::map::Map;
 use self::timeline::Timeline;
-use super::style::{self, Anchor, px, text};
+use super::style::{self, Anchor, text};
 use crate::geometry::Contour;
 use crate::run::{Run, Trace};
 use crate::scene::{Outcome, Scene};
@@ -58,14 +58,7 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
     let height = bottom + 20.0;
-    let mut document = svg::Document::new()
-        .set("width", px(WIDTH))
-        .set("height", px(height))
-        .set("viewBox", format!("0 0 {} {}", px(WIDTH), px(height)))
-        .set("font-family", style::FONT)
-        .set("role", "img")
-        .add(Title::new(style::printable(&format!("{}, policy {policy}: {}", scene.name, run.outcome))))
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"));
+    let mut document = style::sheet((WIDTH, height), &format!("{}, policy {policy}: {}", scene.name, run.outcome));
     for line in head {
         document = document.add(line);
     }

@@ -1,7 +1,7 @@
 //! A whisker's deflection profile: where it was touched, and which base angle that made.
 
 use svg::node::element::path::Data;
-use svg::node::element::{Circle, Group, Path, Rectangle, Title};
+use svg::node::element::{Circle, Group, Path};
 
 use super::scale::Scale;
 use crate::calibration::{AngleSurface, Calibration, ContactSet};
@@ -25,14 +25,7 @@ const CELLS: usize = 120;
 pub fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
     let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();
     let plot = Plot::new(length, &sets);
-    let mut document = svg::Document::new()
-        .set("width", px(SIZE.0))
-        .set("height", px(SIZE.1))
-        .set("viewBox", format!("0 0 {} {}", px(SIZE.0), px(SIZE.1)))
-        .set("font-family", style::FONT)
-        .set("role", "img")
-        .add(Title::new(style::printable(title)))
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+    let mut document = style::sheet(SIZE, title)
         .add(text(FRAME[0], 30.0, Anchor::Start, 18.0, style::INK, title))
         .add(text(FRAME[0], 52.0, Anchor::Start, 13.0, style::GREY, &plot.subtitle(calibration)))
         .add(plot.axes());
