@@ -73,7 +73,7 @@ impl Contacts {
         let physics = &rig.physics;
         let mut contact = contact(physics, &format!("{0} {0}", physics.friction));
         if physics.friction > 0.0 {
-            // The engine takes no time constant below two steps.
+            // With most integrators the engine takes no time constant below two steps.
             let time = physics.contact_time.max(2.0 * physics.step);
             write!(contact, r#" solreffriction="{} 1""#, SLIDING * time)?;
         }

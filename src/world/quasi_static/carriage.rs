@@ -38,7 +38,7 @@ impl Twist {
 
 impl Carriage {
     pub(super) fn at_rest(pose: Pose, platform: &Platform, physics: &Physics) -> Self {
-        // MuJoCo takes no time constant below two steps. At critical damping what comes at v sinks in by v T / e.
+        // With most integrators MuJoCo takes no time constant below two steps. At critical damping what comes at v sinks in by v T / e.
         let time = physics.contact_time.max(2.0 * physics.step);
         Self {
             pose,
