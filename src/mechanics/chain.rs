@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::geometry::unit;
 use crate::rig::Whisker;
 
 /// A whisker's shaft as a chain of rigid links on planar springs, the very chain that the simulator holds.
@@ -29,6 +30,15 @@ pub struct Equilibrium {
     pub tip_base: Vector2<f64>,
 }
 
+/// An equilibrium that is sought: the base angle (rad), the direction of the force at the tip (rad), and the neighbouring solution to
+/// start from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sought {
+    pub(crate) base_angle: f64,
+    pub(crate) force_direction: f64,
+    pub(crate) guess: Equilibrium,
+}
+
 /// Steps of Newton's method after which a solution is given up.
 const NEWTON_STEPS: usize = 30;
 
@@ -51,28 +61,41 @@ impl ShaftChain {
     /// at the base: the hinge's own angle is the moment over the hinge's stiffness, and it is the one asked for.
     #[must_use]
     pub fn solve(&self, base_angle: f64, force_direction: f64, guess: &Equilibrium) -> Option<Equilibrium> {
-        let direction = Vector2::new(force_direction.cos(), force_direction.sin());
-        let (mut tip_angle, mut force) = (guess.tip_angle, guess.force);
+        let [found] = self.solve_each([Some(Sought { base_angle, force_direction, guess: *guess })]);
+        found
+    }
+
+    /// The same for several, as far as they are sought. None waits for another, so that a processor follows their chains side by side.
+    pub(crate) fn solve_each<const N: usize>(&self, sought: [Option<Sought>; N]) -> [Option<Equilibrium>; N] {
+        let mut unknowns =
+            sought.map(|sought| sought.map_or((0.0, 0.0), |Sought { guess, .. }| (guess.tip_angle, guess.force)));
+        let directions = sought.map(|sought| unit(sought.map_or(0.0, |sought| sought.force_direction)));
+        let (mut open, mut found) = (sought, [None; N]);
         for _ in 0..NEWTON_STEPS {
-            let shot = self.shoot(tip_angle, force, direction);
-            let residual = Vector2::new(shot.root.value - shot.hinge.value, shot.hinge.value - base_angle);
-            let slope = Matrix2::new(
-                shot.root.by_angle - shot.hinge.by_angle,
-                shot.root.by_force - shot.hinge.by_force,
-                shot.hinge.by_angle,
-                shot.hinge.by_force,
-            );
-            let step = slope.lu().solve(&residual)?;
-            tip_angle -= step.x;
-            force -= step.y;
-            if !(tip_angle.is_finite() && force.is_finite()) {
-                return None;
+            if open.iter().all(Option::is_none) {
+                break;
             }
-            if step.x.abs() < 1e-12 && step.y.abs() <= 1e-12 * force.abs() {
-                return Some(Equilibrium { base_angle, tip_angle, force, tip_base: shot.tip_base });
+            let shots = self.shoot(unknowns, directions);
+            for (((open, found), (tip_angle, force)), shot) in
+                open.iter_mut().zip(&mut found).zip(&mut unknowns).zip(shots)
+            {
+                let Some(Sought { base_angle, .. }) = *open else { continue };
+                let Some(step) = shot.step(base_angle) else {
+                    *open = None;
+                    continue;
+                };
+                *tip_angle -= step.x;
+                *force -= step.y;
+                if !(tip_angle.is_finite() && force.is_finite()) {
+                    *open = None;
+                } else if step.x.abs() < 1e-12 && step.y.abs() <= 1e-12 * force.abs() {
+                    *open = None;
+                    let (tip_angle, force) = (*tip_angle, *force);
+                    *found = Some(Equilibrium { base_angle, tip_angle, force, tip_base: shot.tip_base });
+                }
             }
         }
-        None
+        found
     }
 
     /// The straight chain.
@@ -82,30 +105,36 @@ impl ShaftChain {
         Equilibrium { base_angle: 0.0, tip_angle: 0.0, force: 0.0, tip_base: Vector2::new(length, 0.0) }
     }
 
-    /// Follows the chain from its free end to the base.
-    fn shoot(&self, tip_angle: f64, force: f64, direction: Vector2<f64>) -> Shot {
-        let mut angle = Dual { value: tip_angle, by_angle: 1.0, by_force: 0.0 };
-        let mut moment = Dual::default();
-        let mut tip_base = Vector2::zeros();
+    /// Follows chains from their free ends to the base, for the angle of each last link and each force.
+    fn shoot<const N: usize>(&self, unknowns: [(f64, f64); N], directions: [Vector2<f64>; N]) -> [Shot; N] {
+        let mut shots = unknowns.map(|(tip_angle, _)| Shot {
+            root: Dual { value: tip_angle, by_angle: 1.0, by_force: 0.0 },
+            hinge: Dual::default(),
+            tip_base: Vector2::zeros(),
+        });
         for &stiffness in self.joint_stiffnesses.iter().rev() {
-            let (sin, cos) = angle.value.sin_cos();
-            tip_base += self.link_length * Vector2::new(cos, sin);
-            // The link's share of the lever, crossed with the force, and its change with the link's angle.
-            let lever = self.link_length * (cos * direction.y - sin * direction.x);
-            let turned = -self.link_length * force * (sin * direction.y + cos * direction.x);
-            moment.value += force * lever;
-            moment.by_angle += turned * angle.by_angle;
-            moment.by_force += turned * angle.by_force + lever;
-            angle.value -= moment.value / stiffness;
-            angle.by_angle -= moment.by_angle / stiffness;
-            angle.by_force -= moment.by_force / stiffness;
+            for ((Shot { root: angle, hinge: moment, tip_base }, (_, force)), direction) in
+                shots.iter_mut().zip(unknowns).zip(directions)
+            {
+                let (sin, cos) = angle.value.sin_cos();
+                *tip_base += self.link_length * Vector2::new(cos, sin);
+                // The link's share of the lever, crossed with the force, and its change with the link's angle.
+                let lever = self.link_length * (cos * direction.y - sin * direction.x);
+                let turned = -self.link_length * force * (sin * direction.y + cos * direction.x);
+                moment.value += force * lever;
+                moment.by_angle += turned * angle.by_angle;
+                moment.by_force += turned * angle.by_force + lever;
+                angle.value -= moment.value / stiffness;
+                angle.by_angle -= moment.by_angle / stiffness;
+                angle.by_force -= moment.by_force / stiffness;
+            }
         }
-        let hinge = Dual {
-            value: moment.value / self.hinge_stiffness,
-            by_angle: moment.by_angle / self.hinge_stiffness,
-            by_force: moment.by_force / self.hinge_stiffness,
-        };
-        Shot { root: angle, hinge, tip_base }
+        for Shot { hinge: moment, .. } in &mut shots {
+            moment.value /= self.hinge_stiffness;
+            moment.by_angle /= self.hinge_stiffness;
+            moment.by_force /= self.hinge_stiffness;
+        }
+        shots
     }
 }
 
@@ -121,8 +150,42 @@ struct Dual {
 struct Shot {
     /// The angle that the base would have to have.
     root: Dual,
-    /// The angle that the moment gives the base hinge.
+    /// The angle that the moment gives the base hinge; on the way there, the moment (N m).
     hinge: Dual,
     /// Place of the tip.
     tip_base: Vector2<f64>,
+}
+
+impl Shot {
+    /// The step of Newton's method towards the base angle (rad): by how much less the tip's angle and the force are to be.
+    fn step(&self, base_angle: f64) -> Option<Vector2<f64>> {
+        let residual = Vector2::new(self.root.value - self.hinge.value, self.hinge.value - base_angle);
+        let slope = Matrix2::new(
+            self.root.by_angle - self.hinge.by_angle,
+            self.root.by_force - self.hinge.by_force,
+            self.hinge.by_angle,
+            self.hinge.by_force,
+        );
+        slope.lu().solve(&residual)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ShaftChain, Sought};
+    use crate::rig::Rig;
+
+    #[test]
+    fn side_by_side_chains_are_solved_as_each_by_itself_to_the_same_bit() {
+        let chain = ShaftChain::new(&Rig::default().whiskers[0]);
+        let guess = chain.solve(1e-4, 2.0, &super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() });
+        let guess = guess.unwrap_or_else(|| chain.straight());
+        let sought = [(1.1e-4, 2.0), (2e-4, 1.2), (9e-5, 2.6), (f64::NAN, 2.0)]
+            .map(|(base_angle, force_direction)| Some(Sought { base_angle, force_direction, guess }));
+        let [a, b, c, d] = sought;
+        let found = chain.solve_each([a, None, b, c, d]);
+        let alone = |sought: Option<Sought>| chain.solve_each([sought])[0];
+        assert_eq!(found, [alone(a), None, alone(b), alone(c), None]);
+        assert!(found.iter().flatten().count() >= 2, "{found:?}");
+    }
 }

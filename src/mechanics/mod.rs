@@ -12,6 +12,7 @@ mod shot;
 mod touch;
 
 pub use bend::Bend;
+pub(crate) use chain::Sought;
 pub use chain::{Equilibrium, ShaftChain};
 pub use elastica::Elastica;
 pub use locate::LocateError;

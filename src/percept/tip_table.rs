@@ -1,12 +1,13 @@
 //! Where a whisker's tip is, by its base angle and the direction of the contact force.
 
+use std::array;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector2;
 
-use crate::mechanics::{Equilibrium, ShaftChain};
+use crate::mechanics::{Equilibrium, ShaftChain, Sought};
 use crate::rig::{Hinge, Shaft, Whisker};
 
 /// Where a whisker's tip is, by its base angle and the direction of the force at the tip: a table of equilibria of the whisker's own
@@ -44,6 +45,8 @@ const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
 const DIRECTIONS: usize = 91;
 /// Tables that are kept, of 100 kB each.
 const MOST_KEPT: usize = 16;
+/// Equilibria that are solved for side by side.
+const SIDE_BY_SIDE: usize = 4;
 /// Directions that a straight whisker bends under from the beginning, up to 174°.
 const FROM_STRAIGHT: usize = 63;
 
@@ -55,15 +58,13 @@ impl TipTable {
         let angle_step =
             MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / ANGLE_STEPS as f64;
         let mut columns: Vec<Vec<Option<Equilibrium>>> = Vec::with_capacity(DIRECTIONS);
-        for index in 0..DIRECTIONS {
-            let direction = direction(index);
-            let column = if index < FROM_STRAIGHT {
-                from_straight(&chain, whisker, angle_step, direction)
-            } else {
-                let before = [&columns[index - 1], &columns[index - 2]];
-                (0..=ANGLE_STEPS).map(|row| goes_on(&chain, direction, before.map(|column| column[row]))).collect()
-            };
-            columns.push(column);
+        for first in (0..FROM_STRAIGHT).step_by(SIDE_BY_SIDE) {
+            let directions = array::from_fn(|lane| direction(first + lane));
+            columns.extend(from_straight(&chain, whisker, angle_step, directions));
+        }
+        columns.truncate(FROM_STRAIGHT);
+        for index in FROM_STRAIGHT..DIRECTIONS {
+            columns.push(goes_on(&chain, direction(index), [&columns[index - 1], &columns[index - 2]]));
         }
         let none = Vector2::repeat(f64::NAN);
         let tips_base =
@@ -124,39 +125,75 @@ fn direction(index: usize) -> f64 {
     FIRST_DIRECTION + DIRECTION_STEP * index as f64
 }
 
-/// Equilibria under a force of one direction, from the straight whisker on.
-fn from_straight(chain: &ShaftChain, whisker: &Whisker, angle_step: f64, direction: f64) -> Vec<Option<Equilibrium>> {
+/// Equilibria under forces of some directions, from the straight whisker on.
+fn from_straight(
+    chain: &ShaftChain,
+    whisker: &Whisker,
+    angle_step: f64,
+    directions: [f64; SIDE_BY_SIDE],
+) -> [Vec<Option<Equilibrium>>; SIDE_BY_SIDE] {
     let shaft = &whisker.shaft;
-    let mut solutions = Vec::with_capacity(ANGLE_STEPS + 1);
-    let (mut solution, mut before) = (Some(chain.straight()), None);
-    solutions.push(solution);
+    let straight = chain.straight();
+    let mut columns = directions.map(|_| {
+        let mut column = Vec::with_capacity(ANGLE_STEPS + 1);
+        column.push(Some(straight));
+        column
+    });
+    let mut before = [None; SIDE_BY_SIDE];
+    let mut last = [Some(straight); SIDE_BY_SIDE];
     for index in 1..=ANGLE_STEPS {
         let base_angle = angle_step * index as f64;
-        let guess = match (solution, before) {
-            (Some(last), Some(before)) => Some(beyond(&last, &before)),
-            // The first step is that of a cantilever under a small force.
-            (Some(straight), None) => {
-                let force = base_angle * whisker.hinge.stiffness / (shaft.length * direction.sin());
-                let tip_angle = force * direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
-                Some(Equilibrium { tip_angle, force, ..straight })
-            }
-            (None, _) => None,
-        };
-        before = solution;
-        solution = guess.and_then(|guess| chain.solve(base_angle, direction, &guess));
-        solutions.push(solution);
+        let sought = array::from_fn(|lane| {
+            let force_direction = directions[lane];
+            let guess = match (last[lane], before[lane]) {
+                (Some(last), Some(before)) => beyond(&last, &before),
+                // The first step is that of a cantilever under a small force.
+                (Some(straight), None) => {
+                    let force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
+                    let tip_angle =
+                        force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
+                    Equilibrium { tip_angle, force, ..straight }
+                }
+                (None, _) => return None,
+            };
+            Some(Sought { base_angle, force_direction, guess })
+        });
+        before = last;
+        last = chain.solve_each(sought);
+        for (column, &solution) in columns.iter_mut().zip(&last) {
+            column.push(solution);
+        }
     }
-    solutions
+    columns
 }
 
-/// The equilibrium under a force that is turned by one step more, from those before it at the same base angle; none if what is
-/// found belongs to another shape.
-fn goes_on(chain: &ShaftChain, direction: f64, [last, before]: [Option<Equilibrium>; 2]) -> Option<Equilibrium> {
-    let last = last?;
-    let guess = before.map_or(last, |before| beyond(&last, &before));
-    let found = chain.solve(last.base_angle, direction, &guess)?;
-    let is_near = (found.tip_angle - last.tip_angle).abs() < 0.2 && found.force > 0.0 && found.force < 1.5 * last.force;
-    (is_near && last.base_angle > 0.0).then_some(found)
+/// Equilibria under a force that is turned by one step more, from those before it at the same base angles; none where what is found
+/// belongs to another shape.
+fn goes_on(
+    chain: &ShaftChain,
+    force_direction: f64,
+    [last, before]: [&[Option<Equilibrium>]; 2],
+) -> Vec<Option<Equilibrium>> {
+    let mut column = Vec::with_capacity(last.len());
+    for (last, before) in last.chunks(SIDE_BY_SIDE).zip(before.chunks(SIDE_BY_SIDE)) {
+        let sought = array::from_fn(|lane| {
+            let last = last.get(lane).copied().flatten()?;
+            let guess = before[lane].map_or(last, |before| beyond(&last, &before));
+            Some(Sought { base_angle: last.base_angle, force_direction, guess })
+        });
+        let found = chain.solve_each::<SIDE_BY_SIDE>(sought);
+        column.extend(last.iter().zip(found).map(|(last, found)| found.filter(|found| is_next(last.as_ref(), found))));
+    }
+    column
+}
+
+/// Whether an equilibrium may be the one that the last becomes when the force is turned a little.
+fn is_next(last: Option<&Equilibrium>, found: &Equilibrium) -> bool {
+    last.is_some_and(|last| {
+        let is_near =
+            (found.tip_angle - last.tip_angle).abs() < 0.2 && found.force > 0.0 && found.force < 1.5 * last.force;
+        is_near && last.base_angle > 0.0
+    })
 }
 
 /// Straight on from two solutions.
