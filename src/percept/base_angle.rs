@@ -45,13 +45,9 @@ impl BaseAngle {
         self.line.clear();
     }
 
-    /// The base angle (rad).
-    pub(super) fn value(&self) -> f64 {
-        self.line.value(self.delay)
-    }
-
-    /// Whether it changes no faster than that of a whisker which touches.
-    pub(super) fn is_calm(&self) -> bool {
-        self.line.slope().abs() < CALM_RATE
+    /// The base angle (rad), and whether it changes no faster than that of a whisker which touches.
+    pub(super) fn value(&self) -> (f64, bool) {
+        let (value, rate) = self.line.at(self.delay);
+        (value, rate.abs() < CALM_RATE)
     }
 }

@@ -58,9 +58,9 @@ impl MomentAndShear {
 
     /// The bend by the newest readings.
     fn find(&self) -> Option<Bend> {
-        let angle = self.angle.value();
-        let is_felt = self.has_readings && angle.abs() > self.contact_threshold && self.angle.is_calm();
-        if is_felt { self.elastica.locate(angle, self.shear.value(0.0), &self.near).ok() } else { None }
+        let (angle, is_calm) = self.angle.value();
+        let is_felt = self.has_readings && angle.abs() > self.contact_threshold && is_calm;
+        if is_felt { self.elastica.locate(angle, self.shear.at(0.0).0, &self.near).ok() } else { None }
     }
 
     /// Where the surface is (m, frame of the base): the wire's radius beside its axis.

@@ -51,23 +51,19 @@ impl RecentLine {
         if self.count == 0 {
             self.readings = [reading; LONGEST];
         }
-        self.readings.rotate_left(1);
+        // Older ones are not asked for.
+        self.readings[LONGEST - self.window..].rotate_left(1);
         self.readings[LONGEST - 1] = reading;
         self.count = (self.count + 1).min(LONGEST);
     }
 
-    /// The line's change with time (1/s).
-    pub(super) fn slope(&self) -> f64 {
+    /// The line's value `ahead` (s) of the newest reading, and its change with time (1/s).
+    pub(super) fn at(&self, ahead: f64) -> (f64, f64) {
         let middle = 0.5 * (self.window as f64 - 1.0);
         let newest = &self.readings[LONGEST - self.window..];
         let sum: f64 = newest.iter().enumerate().map(|(index, reading)| (index as f64 - middle) * reading).sum();
-        sum / self.moment() / self.period
-    }
-
-    /// The line's value `ahead` (s) of the newest reading.
-    pub(super) fn value(&self, ahead: f64) -> f64 {
-        let newest = &self.readings[LONGEST - self.window..];
+        let slope = sum / self.moment() / self.period;
         let mean = newest.iter().sum::<f64>() / self.window as f64;
-        mean + self.slope() * (ahead + 0.5 * (self.window as f64 - 1.0) * self.period)
+        (mean + slope * (ahead + middle * self.period), slope)
     }
 }

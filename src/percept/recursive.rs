@@ -102,7 +102,7 @@ impl Recursive {
 impl TipModel for Recursive {
     fn take(&mut self, reading: &Reading, base: Pose) {
         self.angle.take(reading.base_angle);
-        let angle = self.angle.value();
+        let (angle, _) = self.angle.value();
         let (bend, base_angle) = (angle.signum(), angle.abs());
         let way = self.base_before.map_or(0.0, |before| {
             (base.position - before.position).norm() + self.length * (base.heading - before.heading).abs()

@@ -192,15 +192,25 @@ impl Sliding {
         let usual = base.heading + bend * self.usual_normal;
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
         let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
+        let turned = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
         // The tip, and how far the surface through it is from where the tip left, in standard deviations and with the direction's.
         let judged = |normal: f64| {
             let tip = self.tip(angle, base, normal)?;
             let miss = unit(normal).dot(&(tip.tip_base - left.coords));
-            Some((tip, miss, (miss / off).powi(2) + ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2)))
+            Some((tip, miss, (miss / off).powi(2) + turned(normal)))
         };
-        let candidates = (-LANDING_STEPS..=LANDING_STEPS).map(|step| usual + f64::from(step) * LANDING_STEP);
-        let judgements = candidates.filter_map(|normal| Some((normal, judged(normal)?.2)));
-        let Some((mut normal, _)) = judgements.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { return unsettled };
+        // From the usual direction on either way, as far as one may still be nearer than the nearest so far.
+        let mut nearest: Option<(f64, f64)> = None;
+        for step in std::iter::once(0).chain((1..=LANDING_STEPS).flat_map(|steps| [-steps, steps])) {
+            let normal = usual + f64::from(step) * LANDING_STEP;
+            if nearest.is_none_or(|(_, least)| turned(normal) <= least)
+                && let Some((.., apart)) = judged(normal)
+                && nearest.is_none_or(|(at, least)| apart.total_cmp(&least).then(normal.total_cmp(&at)).is_lt())
+            {
+                nearest = Some((normal, apart));
+            }
+        }
+        let Some((mut normal, _)) = nearest else { return unsettled };
         let prior = DIRECTION_BEHIND_EDGE.powi(-2);
         for _ in 0..LANDING_ITERATIONS {
             let Some((tip, miss, _)) = judged(normal) else { return unsettled };
@@ -218,8 +228,8 @@ impl Sliding {
 impl TipModel for Sliding {
     fn take(&mut self, reading: &Reading, base: Pose) {
         self.angle.take(reading.base_angle);
-        self.calm_for = if self.angle.is_calm() { self.calm_for + 1 } else { 0 };
-        let angle = self.angle.value();
+        let (angle, is_calm) = self.angle.value();
+        self.calm_for = if is_calm { self.calm_for + 1 } else { 0 };
         let bend = angle.signum();
         let way = self.base_before.map_or(0.0, |(place, heading)| {
             (base.position - place).norm() + self.length * (base.heading - heading).abs()
