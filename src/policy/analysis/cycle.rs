@@ -8,7 +8,7 @@ use crate::machine::{CHAIN_LIMIT, Cause, Failure, Machine, WhiskerScalar};
 use super::model::{Edge, Model};
 use super::point::Point;
 use super::reach::reachable;
-use super::search::{Found, Goal, Search};
+use super::search::{Goal, Search};
 use super::unknown::{Domain, Unknown};
 
 /// Steps of the walk that looks for cycles among the states.
@@ -44,7 +44,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
             }
         };
         for goals in goals(model, path) {
-            if let Found::Witness(point) = search.find_such(&goals, Some(&fails)) {
+            if let Some(point) = search.witness(&goals, Some(&fails)) {
                 let witness = search.describe_such(&goals, point, Some(&fails));
                 for &(state, _) in path {
                     told[state] = true;

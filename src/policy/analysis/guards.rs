@@ -7,7 +7,7 @@ use crate::policy::ast;
 use super::interval::Interval;
 use super::model::Edge;
 use super::region::Region;
-use super::search::{Found, Goal, Search};
+use super::search::{Goal, Search};
 
 /// Warns of guards whose condition never or always holds, and of times that have passed when they begin. Tells of each
 /// transition whether it can ever be due.
@@ -17,7 +17,7 @@ pub(super) fn guards(search: &mut Search<'_>, edges: &[Edge<'_>], warnings: &mut
 
 fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic>) -> bool {
     if let Some(condition) = edge.condition() {
-        if search.find(&[Goal::holds(condition)]) == Found::Nothing {
+        if search.excludes(&[Goal::holds(condition)]) {
             warnings.push(
                 Diagnostic::warning("P0508", "this guard never holds", edge.guard_span(), "never holds").hint(
                     "it fails for all that can be felt; a parameter counts with its range, or with its value if it \
@@ -26,7 +26,7 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
             );
             return false;
         }
-        if !is_true(edge) && search.find(&[Goal::fails(condition)]) == Found::Nothing {
+        if !is_true(edge) && search.excludes(&[Goal::fails(condition)]) {
             warnings.push(
                 Diagnostic::warning("P0509", "this guard always holds", edge.guard_span(), "always holds")
                     .hint("it holds for every value that can be felt; write `true` if it is meant to"),

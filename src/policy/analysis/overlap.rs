@@ -5,7 +5,7 @@ use crate::machine::Program;
 use crate::policy::ast::{Expression, Kind};
 
 use super::model::Edge;
-use super::search::{Found, Goal, Search};
+use super::search::{Goal, Search};
 use super::shadow::comes_first;
 
 /// Warns if a transition's guard can hold together with that of one that is tried before it, so that the order alone
@@ -36,8 +36,8 @@ pub(super) fn overlap(
             earlier.iter().enumerate().filter(|&(other, _)| other != at).filter_map(|(_, edge)| edge.condition());
         let goals: Vec<Goal<'_>> =
             [Goal::holds(first), Goal::holds(second)].into_iter().chain(others.map(Goal::fails)).collect();
-        let Found::Witness(point) = search.find(&goals) else { continue };
-        if !matches!(search.find(&[Goal::holds(first), Goal::fails(second)]), Found::Witness(_)) {
+        let Some(point) = search.witness(&goals, None) else { continue };
+        if search.witness(&[Goal::holds(first), Goal::fails(second)], None).is_none() {
             continue;
         }
         let witness = search.describe(&goals, point);

@@ -39,14 +39,22 @@ impl<'a> Goal<'a> {
 pub(super) type Accept<'a> = dyn Fn(&Point, Vec<f64>) -> bool + 'a;
 
 /// What a search found.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Found {
+enum Found {
     /// A point at which every goal is met.
     Witness(Point),
     /// There is none.
     Nothing,
     /// There may be one.
     Unclear,
+}
+
+/// What a search is for.
+#[derive(Clone, Copy)]
+enum Purpose<'a> {
+    /// A proof that no point meets the goals.
+    Proof,
+    /// A point that meets them and is accepted, if that is asked for.
+    Witness(Option<&'a Accept<'a>>),
 }
 
 /// The search for values at which conditions hold.
@@ -66,13 +74,20 @@ impl<'m> Search<'m> {
         self.bounds.work > WORK_LIMIT
     }
 
-    /// Looks for a point at which every goal is met.
-    pub(super) fn find(&mut self, goals: &[Goal<'_>]) -> Found {
-        self.find_such(goals, None)
+    /// Whether it is proved that no point meets every goal.
+    pub(super) fn excludes(&mut self, goals: &[Goal<'_>]) -> bool {
+        matches!(self.find(goals, Purpose::Proof), Found::Nothing)
     }
 
-    /// Looks for a point at which every goal is met and that is accepted, if that is asked for.
-    pub(super) fn find_such(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Found {
+    /// A point at which every goal is met, and that is accepted, if that is asked for; `None` also where there may be one.
+    pub(super) fn witness(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Option<Point> {
+        match self.find(goals, Purpose::Witness(accept)) {
+            Found::Witness(point) => Some(point),
+            Found::Nothing | Found::Unclear => None,
+        }
+    }
+
+    fn find(&mut self, goals: &[Goal<'_>], purpose: Purpose<'_>) -> Found {
         let mut open = VecDeque::from([Region::whole(self.model)]);
         let (mut looked_at, mut is_unclear) = (0, false);
         while let Some(mut region) = open.pop_front() {
@@ -85,6 +100,15 @@ impl<'m> Search<'m> {
             if !goals.iter().enumerate().chain(goals.iter().enumerate()).all(|goal| self.narrow(goal, &mut region)) {
                 continue;
             }
+            let accept = match purpose {
+                // No point of it, nor of any part of it, is the whole story.
+                Purpose::Witness(_) if region.is_partial => {
+                    is_unclear = true;
+                    continue;
+                }
+                Purpose::Witness(accept) => accept,
+                Purpose::Proof => None,
+            };
             if !region.is_partial {
                 for choice in [Choice::Plain, Choice::Inside, Choice::Middle, Choice::Low, Choice::High] {
                     let point = Point::of(&region, self.model, choice);

@@ -6,7 +6,7 @@ use crate::machine::{Guard, Program, Register, TIME_SLACK};
 use super::guards::delay;
 use super::interval::Interval;
 use super::model::{Edge, Model};
-use super::search::{Found, Goal, Search};
+use super::search::{Goal, Search};
 
 /// Warns of a transition that is never taken because others of its state, or of the `outer` ones, always come before it, and
 /// tells whether it did. `outer` are the transitions of its outer states that can be due.
@@ -48,7 +48,7 @@ pub(super) fn shadowed(
     let goals = edge.condition().map(Goal::holds).into_iter();
     let goals: Vec<Goal<'_>> =
         goals.chain(immediate.iter().filter_map(|edge| edge.condition()).map(Goal::fails)).collect();
-    if immediate.len() < 2 || search.find(&goals) != Found::Nothing {
+    if immediate.len() < 2 || !search.excludes(&goals) {
         return false;
     }
     let notes = immediate.iter().map(|before| before.span());
@@ -93,7 +93,7 @@ fn comes_before(
     }
     let goals: Vec<Goal<'_>> =
         edge.condition().map(Goal::holds).into_iter().chain(before.condition().map(Goal::fails)).collect();
-    search.find(&goals) == Found::Nothing
+    search.excludes(&goals)
 }
 
 /// The register of a transition's time, if what it holds does not change while the state lasts.
