@@ -11,7 +11,7 @@ use crate::diagnostic::{Diagnostic, Source, suggest};
 use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
 use crate::policy::chart::Chart;
-use crate::policy::{self, Compiled, PolicyTest, compile_with_warnings};
+use crate::policy::{self, Compiled, Library, PolicyTest, gather_and_compile};
 use crate::scene::Scene;
 use crate::study::bench::TextFile;
 
@@ -198,7 +198,7 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
-        PolicyFile::Text(source) => compiled(with_libraries(&source)),
+        PolicyFile::Text(source) => compiled(&source, &mut library),
     }
 }
 
@@ -219,12 +219,13 @@ pub(super) fn program(path: &Path) -> Result<Loaded<Program>, Failure> {
 /// A policy that is part of the program. It uses the standard library alone.
 pub(super) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, Failure> {
     let source = Source::new(file.path, file.text);
-    compiled(policy::gather(&source, &mut |_| Err("it is no part of the program".to_owned())))
+    compiled(&source, &mut |_| Err("it is no part of the program".to_owned()))
 }
 
-fn compiled(source: Source) -> Result<Loaded<Policy>, Failure> {
+fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>, Failure> {
+    let (source, compiled) = gather_and_compile(source, library);
     let hash = Sha256::new().chain_update(&source.text);
-    match compile_with_warnings(&source) {
+    match compiled {
         Ok(Compiled { artifact, tests, warnings }) => {
             let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests }) };
             Ok(Loaded { value, hash })

@@ -93,6 +93,11 @@ impl Loaded {
         Some(index)
     }
 
+    /// Whether the first file is a library, as far as it can be read.
+    pub(super) fn is_library(&self) -> bool {
+        self.files.first().into_iter().flatten().any(|file| file.is_library)
+    }
+
     /// Whether the syntax of the first file has no fault.
     pub(super) fn is_read(&self) -> bool {
         !self.recovery.has_syntax_fault(self.source.part_span(0))

@@ -35,8 +35,7 @@ pub use test::{Expectation, PolicyTest, RunFigure};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::machine::{Artifact, Program};
-use load::Files;
-use recover::Recovery;
+use load::{Files, Loaded};
 
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,7 +99,7 @@ pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
-    Ok(optimise::optimise(front(source)?.2.program))
+    Ok(optimise::optimise(front(source, load(source))?.2.program))
 }
 
 /// Compiles the text of a policy, and looks for what is probably not meant.
@@ -115,7 +114,19 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
-    let (source, files, lowered) = front(source)?;
+    compile_loaded(source, load(source))
+}
+
+/// The source that [`gather`] makes, and what [`compile_with_warnings`] makes of that; every text is read once.
+pub fn gather_and_compile(source: &Source, library: &mut Library<'_>) -> (Source, Result<Compiled, Vec<Diagnostic>>) {
+    let loaded = load::load(source, library);
+    let whole = loaded.source.clone();
+    let compiled = compile_loaded(&whole, loaded);
+    (whole, compiled)
+}
+
+fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagnostic>> {
+    let (source, files, lowered) = front(source, loaded)?;
     let warnings = analysis::warnings(&files, &lowered);
     // Behind the analysis, which takes conditions as they are written.
     let program = optimise::optimise(lowered.program);
@@ -128,10 +139,12 @@ pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic
 /// # Errors
 /// As [`compile`].
 pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
-    let (whole, files, recovery) = load(source);
-    let Some(files) = files.filter(|files| files.main.is_library) else {
-        return compile_with_warnings(source).map(|compiled| Checked::Machine(Box::new(compiled)));
-    };
+    let loaded = load(source);
+    if !loaded.is_library() {
+        return compile_loaded(source, loaded).map(|compiled| Checked::Machine(Box::new(compiled)));
+    }
+    let (whole, files, recovery) = loaded.files();
+    let Some(files) = files else { return Err(within(source, &whole, recovery.join(&whole, Vec::new()))) };
     let faults = recovery.join(&whole, lower::check(&files).err().unwrap_or_default());
     if !faults.is_empty() {
         return Err(within(source, &whole, faults));
@@ -157,18 +170,18 @@ pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn chart(source: &Source) -> Result<chart::Chart, Vec<Diagnostic>> {
-    let (source, files, _) = lowered(source)?;
+    let (source, files, _) = lowered(source, load(source))?;
     Ok(chart::build(&source, &files.main))
 }
 
-fn front(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
-    let (whole, files, lowered) = lowered(source)?;
+fn front(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
+    let (whole, files, lowered) = lowered(source, loaded)?;
     let errors = analysis::errors(&files.main, &lowered);
     if errors.is_empty() { Ok((whole, files, lowered)) } else { Err(errors) }
 }
 
-fn lowered(source: &Source) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
-    let (whole, files, recovery) = load(source);
+fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
+    let (whole, files, recovery) = loaded.files();
     let mut faults = Vec::new();
     if let Some(files) = files {
         let lowered = if files.main.is_library { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
@@ -191,11 +204,9 @@ fn library(file: &ast::File) -> Diagnostic {
     fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both")
 }
 
-/// A source with all that it uses, as far as that is in it or in the standard library; the files, if they fit together; and
-/// what was left out of them.
-fn load(source: &Source) -> (Source, Option<Files>, Recovery) {
-    let refuse = &mut |_: &str| Err("there is no such file among those given".to_owned());
-    load::load(source, refuse).files()
+/// A source with all that it uses, as far as that is in it or in the standard library.
+fn load(source: &Source) -> Loaded {
+    load::load(source, &mut |_: &str| Err("there is no such file among those given".to_owned()))
 }
 
 /// Faults as they can be shown in `source`, which may lack parts that `whole` has.
