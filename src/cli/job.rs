@@ -29,7 +29,8 @@ pub(super) struct Job {
     pub(super) program: Arc<Program>,
     pub(super) world: WorldSetup,
     pub(super) seed: u64,
-    pub(super) identity: Identity,
+    /// Hashes of the scenario and of the policy with its parameters.
+    hashes: [String; 2],
     /// What reading its files and compiling its policy took.
     preparation: Duration,
 }
@@ -55,8 +56,8 @@ impl Job {
         let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
         // Reports are named after scenarios, so that two of one name would overwrite each other.
         for (index, job) in jobs.iter().enumerate() {
-            if let Some(first) = jobs[..index].iter().find(|first| first.identity.scenario == job.identity.scenario) {
-                let name = job.identity.scenario.clone();
+            if let Some(first) = jobs[..index].iter().find(|first| first.scene.name == job.scene.name) {
+                let name = job.scene.name.clone();
                 return Err(Failure::SameName { first: first.path.clone(), second: job.path.clone(), name });
             }
         }
@@ -111,20 +112,9 @@ impl Job {
         seed: u64,
         (scenario_hash, policy_hash): (impl AsRef<[u8]>, impl AsRef<[u8]>),
     ) -> Self {
-        let engine = engine_hash(&scene, world);
-        let identity = Identity {
-            scenario: scene.name.clone(),
-            policy: program.name.clone(),
-            world: world.kind.to_string(),
-            seed,
-            hash: Hashes {
-                scenario: input::short(scenario_hash.as_ref()),
-                policy: input::short(policy_hash.as_ref()),
-                engine: input::short(&engine),
-            },
-        };
+        let hashes = [input::short(scenario_hash.as_ref()), input::short(policy_hash.as_ref())];
         let (path, program) = (path.to_owned(), Arc::new(program));
-        Self { path, scene, program, world, seed, identity, preparation: Duration::ZERO }
+        Self { path, scene, program, world, seed, hashes, preparation: Duration::ZERO }
     }
 
     /// Runs it, and shows a bar on standard error if that is a terminal.
@@ -133,7 +123,7 @@ impl Job {
         if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} % of at most {prefix}, {elapsed}") {
             bar.set_style(style);
         }
-        bar.set_message(self.identity.scenario.clone());
+        bar.set_message(self.scene.name.clone());
         bar.set_prefix(format!("{} s", self.scene.stop.time));
         let run = self.execute(|trace| {
             bar.set_position(milliseconds(seconds(trace)));
@@ -161,7 +151,20 @@ impl Job {
 
     /// The result of its run.
     pub(super) fn result(&self, run: &Run, score: &Score) -> RunResult {
-        RunResult::new(self.identity.clone(), run, score)
+        RunResult::new(self.identity(), run, score)
+    }
+
+    /// What its result is called by. The engine's hash is that of the whole model, which no run has to wait for.
+    fn identity(&self) -> Identity {
+        let [scenario, policy] = self.hashes.clone();
+        let engine = input::short(&engine_hash(&self.scene, self.world));
+        Identity {
+            scenario: self.scene.name.clone(),
+            policy: self.program.name.clone(),
+            world: self.world.kind.to_string(),
+            seed: self.seed,
+            hash: Hashes { scenario, policy, engine },
+        }
     }
 
     /// Writes a picture and the result of its run to `stem` with their extensions.

@@ -52,7 +52,7 @@ pub(super) fn finish(job: &Job, run: &crate::run::Run, directory: Option<&Path>)
     let mut held = true;
     for expectation in &job.scene.expect {
         if let Some(violation) = expectation.violation(run.outcome, |metric| score.figure(metric)) {
-            output::message(format_args!("{}: {violation}", job.identity.scenario));
+            output::message(format_args!("{}: {violation}", job.scene.name));
             held = false;
         }
     }

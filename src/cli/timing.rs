@@ -16,7 +16,7 @@ pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: NonZeroUsize, json: bo
     let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats.get()); jobs.len()];
     for _ in 0..repeats.get() {
         for ((_, job), times) in jobs.iter().zip(&mut times) {
-            bar.set_message(job.identity.scenario.clone());
+            bar.set_message(job.scene.name.clone());
             let timing = Timing::take(&job.scene, &job.program, job.world, job.seed);
             times.push(timing.map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?);
             bar.inc(1);
@@ -24,8 +24,7 @@ pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: NonZeroUsize, json: bo
     }
     bar.finish_and_clear();
     let row = |((conditions, job), times): (&(Conditions, Job), &Vec<Timing>)| {
-        let identity = &job.identity;
-        TimingRow::new(conditions.named(&identity.scenario), identity.policy.clone(), identity.world.clone(), times)
+        TimingRow::new(conditions.named(&job.scene.name), job.program.name.clone(), job.world.kind.to_string(), times)
     };
     let rows: Vec<TimingRow> = jobs.iter().zip(&times).filter_map(row).collect();
     if json {

@@ -68,7 +68,7 @@ fn tell(job: &Job, trace: &Trace) -> Result<(), Failure> {
     let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
         format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
     });
-    output::result(format_args!("{} {now:>5.0} s  {state}  {error}", job.identity.scenario))
+    output::result(format_args!("{} {now:>5.0} s  {state}  {error}", job.scene.name))
 }
 
 /// Eyes on files.
