@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-use nalgebra::Matrix2;
+use nalgebra::{DMatrix, Matrix2};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -92,6 +92,22 @@ fn arc(radius: f64, step: f64, start: f64, centre: Point2) -> impl Iterator<Item
     (0..7).map(move |index| centre + radius * unit(start + step * f64::from(index) / radius))
 }
 
+/// End and direction there of the parabola, in the length along them, that fits the newest seven points best: by orthogonal factors
+/// of the lengths' powers. `None` before there are seven.
+fn least_squares(points: &[Point2]) -> Option<(Point2, Vector2)> {
+    let newest = points.last_chunk::<7>()?;
+    let lengths: Vec<f64> =
+        (0..7).map(|first| -newest[first..].windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>()).collect();
+    // Powers of the share of the whole, so that all columns are of one size.
+    let share = |row: usize| lengths[row] / lengths[0];
+    let powers = DMatrix::from_fn(7, 3, |row, power| [1.0, share(row), share(row).powi(2)][power]);
+    let places = DMatrix::from_fn(7, 2, |row, axis| newest[row][axis] - newest[6][axis]);
+    let (q, r) = powers.qr().unpack();
+    let fitted = r.solve_upper_triangular(&(q.transpose() * places))?;
+    let row = |index: usize| Vector2::new(fitted[(index, 0)], fitted[(index, 1)]);
+    Some((newest[6] + row(0), row(1) / lengths[0]))
+}
+
 proptest! {
     #[test]
     fn a_straight_contour_has_its_own_direction_and_no_curvature(
@@ -124,6 +140,23 @@ proptest! {
         let angle = 6.0 * step / radius.abs();
         prop_assert!((spline.tangent().unwrap() - tangent).norm() < 0.2 * angle * angle, "{angle}");
         prop_assert!((spline.curvature().unwrap() * radius - 1.0).abs() < 0.2 * angle + 0.2 * angle * angle);
+    }
+
+    #[test]
+    fn a_contour_is_the_parabola_of_least_squares_through_its_newest_keypoints_however_many_were_before(
+        steps in prop::collection::vec((prop_oneof![9 => 1.0001e-3..4e-3_f64, 1 => 4e-3..3e-2_f64], -0.5..0.5_f64), 6..120),
+    ) {
+        let (mut at, mut course, mut points) = (Point2::new(0.7, -0.4), 1.0, vec![Point2::new(0.7, -0.4)]);
+        let mut contour = spline(points.iter().copied());
+        for (step, turn) in steps {
+            course += turn;
+            at += step * unit(course);
+            points.push(at);
+            contour.add(at);
+            let Some((end, along)) = least_squares(&points) else { continue };
+            prop_assert!((contour.point_at(0.0).unwrap() - end).norm() < 1e-9);
+            prop_assert!((contour.tangent().unwrap() - along.normalize()).norm() < 1e-8 / along.norm());
+        }
     }
 
     #[test]
