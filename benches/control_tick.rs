@@ -1,39 +1,38 @@
-//! The latency of one control tick: perception, machine and steering, on the samples of a real run.
+//! The latency of a control tick: perception, machine and steering, on the samples of real runs.
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
-mod disk;
+mod stage;
 
 use std::error::Error;
 use std::hint::black_box;
 
-use criterion::{BatchSize, Criterion};
-use disk::Disk;
-use vibrissa::signal::Command;
-use vibrissa::world::World;
+use criterion::{BatchSize, Criterion, Throughput};
+use stage::{SETTLED, Stage, Tape};
+
+/// Ticks after which the platform goes along the middle of the tunnel.
+const IN_TUNNEL: usize = 600;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let disk = Disk::load()?;
-    let swiping = disk.swiping()?;
-
+    let (disk, tunnel) = (Stage::disk()?, Stage::tunnel()?);
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("control_tick");
-    group.bench_function("swiping", |bencher| {
-        bencher.iter_batched_ref(
-            || swiping.control.clone(),
-            |control| black_box(control.tick(black_box(&swiping.samples))),
-            BatchSize::SmallInput,
-        );
-    });
-    let (exploring, mut world) = (disk.control()?, disk.world()?);
-    let samples = world.advance(&Command::STOP)?;
-    group.bench_function("exploring", |bencher| {
-        bencher.iter_batched_ref(
-            || exploring.clone(),
-            |control| black_box(control.tick(black_box(samples))),
-            BatchSize::SmallInput,
-        );
-    });
+    for (name, stage, settled) in [("exploring", &disk, 0), ("swiping", &disk, SETTLED), ("tunnel", &tunnel, IN_TUNNEL)]
+    {
+        let Tape { control, ticks } = stage.swiping(settled)?.recorded()?;
+        group.throughput(Throughput::Elements(ticks.len() as u64));
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched_ref(
+                || control.clone(),
+                |control| {
+                    for samples in &ticks {
+                        black_box(control.tick(black_box(samples)));
+                    }
+                },
+                BatchSize::SmallInput,
+            );
+        });
+    }
     group.finish();
     criterion.final_summary();
     Ok(())

@@ -1,19 +1,19 @@
-//! The policy language: compiling the thesis's policy, and a tick of it beside the same law written in Rust by hand.
+//! The policy language: compiling the thesis's policy and our own, and a tick of it beside the same law written in Rust by hand.
 //!
 //! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand.
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
-mod disk;
 mod recorded;
+mod stage;
 mod thesis;
 
 use std::error::Error;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use disk::{Disk, SETTLED};
 use recorded::{Felt, Recorded};
+use stage::{SETTLED, Stage};
 use vibrissa::machine::{Action, Turn};
 use vibrissa::policy::{compile, compile_with_warnings};
 use vibrissa::signal::Command;
@@ -23,13 +23,17 @@ use vibrissa::world::World;
 const TICKS: usize = 32;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let disk = Disk::load()?;
+    let disk = Stage::disk()?;
     let mut criterion = Criterion::default().configure_from_args();
 
-    let source = Disk::policy()?;
     let mut group = criterion.benchmark_group("compile");
-    group.bench_function("program", |bencher| bencher.iter(|| compile(black_box(&source))));
-    group.bench_function("warnings too", |bencher| bencher.iter(|| compile_with_warnings(black_box(&source))));
+    for (name, path) in [("", "policies/thesis.fsm"), ("vibrissa ", "policies/vibrissa.fsm")] {
+        let source = stage::read(path)?;
+        group.bench_function(format!("{name}program"), |bencher| bencher.iter(|| compile(black_box(&source))));
+        group.bench_function(format!("{name}warnings too"), |bencher| {
+            bencher.iter(|| compile_with_warnings(black_box(&source)));
+        });
+    }
     group.finish();
 
     let parameter = |name: &str| {

@@ -2,18 +2,18 @@
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
-mod disk;
+mod stage;
 
 use std::error::Error;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use disk::Disk;
+use stage::{SETTLED, Stage};
 use vibrissa::signal::Command;
 use vibrissa::world::World;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let disk = Disk::load()?;
+    let disk = Stage::disk()?;
     let sensing = &disk.scene.rig.sensing;
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("sim_step");
@@ -26,8 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         bencher.iter(|| assert!(black_box(free.advance(&Command::STOP)).is_ok()));
     });
     // Round and round the disk: the control tick between is a thousandth of the time.
-    let disk::Swiping { mut world, mut control, samples } = disk.swiping()?;
-    let (mut command, _) = control.tick(&samples);
+    let stage::Swiping { mut world, mut control, mut command } = disk.swiping(SETTLED)?;
     group.bench_function("swiping", |bencher| {
         bencher.iter(|| {
             let samples = world.advance(&command);

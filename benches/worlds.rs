@@ -2,17 +2,17 @@
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
 
-mod disk;
+mod stage;
 
 use std::error::Error;
 
 use criterion::{Criterion, Throughput};
-use disk::Disk;
+use stage::{SETTLED, Stage};
 use vibrissa::signal::Command;
 use vibrissa::world::{QuasiStaticWorld, World};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let disk = Disk::load()?;
+    let disk = Stage::disk()?;
     let scene = &disk.scene;
     let quasi_static = QuasiStaticWorld::new(&scene.rig, &scene.solids, scene.start, 0)?;
     let worlds: [(&str, Box<dyn World>); 2] =
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             assert!(samples.is_ok());
             (command, _) = control.tick(samples.unwrap_or_default());
         };
-        (0..disk::SETTLED).for_each(|_| tick());
+        (0..SETTLED).for_each(|_| tick());
         group.bench_function(name, |bencher| bencher.iter(&mut tick));
     }
     group.finish();
