@@ -17,6 +17,8 @@ Commands:
             --wheel FILE   take it from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
+  bench   run all benches and compare them with benches/baseline.csv
+            --save         make them the baseline
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
 
@@ -27,6 +29,7 @@ pub(crate) enum Command {
     Setup(Options),
     Demo,
     Test,
+    Bench { save: bool },
     Fuzz(u64),
 }
 
@@ -53,16 +56,26 @@ impl Command {
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
             "test" => Self::Test,
+            "bench" => {
+                let mut arguments = arguments.peekable();
+                let save = arguments.next_if(|argument| argument == "--save").is_some();
+                return end("bench", arguments, Self::Bench { save });
+            }
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
                 Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)
             }
             _ => return Err(ArgumentError::UnknownCommand(name)),
         };
-        match arguments.next() {
-            None => Ok(command),
-            Some(argument) => Err(unexpected(&name, &argument)),
-        }
+        end(&name, arguments, command)
+    }
+}
+
+/// A command, if its arguments end here.
+fn end(name: &str, mut arguments: impl Iterator<Item = OsString>, command: Command) -> Result<Command, ArgumentError> {
+    match arguments.next() {
+        None => Ok(command),
+        Some(argument) => Err(unexpected(name, &argument)),
     }
 }
 
@@ -106,7 +119,14 @@ mod tests {
     }
 
     #[test]
+    fn benches_are_compared_unless_they_are_to_be_saved() {
+        assert_eq!(parse(&["bench"]), Ok(Command::Bench { save: false }));
+        assert_eq!(parse(&["bench", "--save"]), Ok(Command::Bench { save: true }));
+    }
+
+    #[test]
     fn what_is_not_understood_is_named() {
+        assert!(parse(&["bench", "--save", "--save"]).is_err());
         assert_eq!(parse(&["tset"]), Err(ArgumentError::UnknownCommand("tset".to_owned())));
         assert_eq!(
             parse(&["demo", "box"]),

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 
 mod arguments;
+mod bench;
 mod cargo;
 mod checkout;
 mod checks;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
+        Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }
