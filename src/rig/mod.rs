@@ -6,8 +6,10 @@ mod hinge;
 mod integrator;
 mod physics;
 mod platform;
+mod preset;
 mod sensing;
 mod shaft;
+mod shaft_model;
 mod solver;
 mod whisker;
 
@@ -15,8 +17,10 @@ pub use hinge::Hinge;
 pub use integrator::Integrator;
 pub use physics::Physics;
 pub use platform::{Platform, YawController};
+pub use preset::Preset;
 pub use sensing::Sensing;
 pub use shaft::Shaft;
+pub use shaft_model::ShaftModel;
 pub use solver::Solver;
 pub use whisker::Whisker;
 

@@ -1,10 +1,12 @@
 //! How the simulator steps and resolves contact.
 
-use super::{Integrator, Solver};
+use super::{Integrator, ShaftModel, Solver};
 
 /// How the simulator steps and resolves contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Physics {
+    /// What a whisker's shaft is made of.
+    pub shafts: ShaftModel,
     /// Length of one simulation step (s); a whole number of them makes up a sample.
     pub step: f64,
     /// How it goes from step to step.
@@ -41,6 +43,7 @@ impl Physics {
 impl Default for Physics {
     fn default() -> Self {
         Self {
+            shafts: ShaftModel::default(),
             step: 1.0 / 300.0,
             integrator: Integrator::default(),
             solver: Solver::default(),

@@ -4,11 +4,14 @@
 //! planar hinges whose springs stand for the shaft's bending stiffness. The springs follow the trapezoid rule: `EI / l`
 //! between two links of length `l`, and twice that at the root, where only half a link bends; sixteen links then come within
 //! 0.1 % of the elastica's base moment. Where the wire tapers, each link is as thick as it is in its middle.
+//!
+//! A cable is laid out as MuJoCo's composite of that name: its first link is clamped to the base, the others are on ball joints,
+//! and MuJoCo's plugin for cables takes the place of the springs.
 
 use std::fmt::{self, Write};
 
 use crate::geometry::Pose;
-use crate::rig::{Platform, Rig, Shaft, Whisker};
+use crate::rig::{Platform, Rig, Shaft, ShaftModel, Whisker};
 
 use super::contacts::{Contacts, hold};
 use super::part::Part;
@@ -26,11 +29,17 @@ pub(super) const LEAST_INERTIA: f64 = 1e-15;
 const BASE_MASS: f64 = 1e-6;
 const BASE_INERTIA: f64 = 1e-9;
 
+/// The name of MuJoCo's plugin for cables.
+const CABLE: &str = "mujoco.elasticity.cable";
+
+/// Young's modulus over the shear modulus, for a Poisson's ratio of 0.3. Nothing twists in the plane, whatever this is.
+const YOUNG_OVER_SHEAR: f64 = 2.6;
+
 /// Writes the MuJoCo model of `rig` at `start` before `solids`.
 ///
 /// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
 /// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
-/// the shaft; the geom `object`, or where the solids have several convex parts the geoms `object/0`, `object/1`, …; the keyframe
+/// the shaft, of which a cable has no joint `w.0`, but an instance `w` of the plugin; the geom `object`, or where the solids have several convex parts the geoms `object/0`, `object/1`, …; the keyframe
 /// `start`.
 #[must_use]
 pub fn mjcf(rig: &Rig, solids: &[Solid], start: Pose) -> String {
@@ -68,6 +77,9 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Po
     // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
     writeln!(xml, r"  </option>")?;
+    if physics.shafts == ShaftModel::Cable {
+        write_extension(xml, rig, scope)?;
+    }
     let contacts = Contacts::with(parts.len(), physics);
     contacts.write_defaults(xml, physics)?;
     write_assets(xml, &rig.platform, parts)?;
@@ -90,6 +102,19 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Po
     }
     write_start(xml, rig, start, scope)?;
     writeln!(xml, r"</mujoco>")
+}
+
+fn write_extension(xml: &mut String, rig: &Rig, scope: &Scope) -> fmt::Result {
+    writeln!(xml, "  <extension>\n    <plugin plugin=\"{CABLE}\">")?;
+    for (_, whisker) in scope.flexible(rig) {
+        let young = whisker.shaft.young_modulus;
+        writeln!(xml, r#"      <instance name="{}">"#, whisker.name)?;
+        for (key, value) in [("twist", young / YOUNG_OVER_SHEAR), ("bend", young)] {
+            writeln!(xml, r#"        <config key="{key}" value="{value}"/>"#)?;
+        }
+        writeln!(xml, "      </instance>")?;
+    }
+    writeln!(xml, "    </plugin>\n  </extension>")
 }
 
 fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]) -> fmt::Result {
@@ -142,7 +167,7 @@ fn write_platform(xml: &mut String, rig: &Rig, contacts: Contacts, scope: &Scope
         if scope.is_rigid(index) {
             write_rigid(xml, whisker)?;
         } else {
-            write_whisker(xml, whisker, mask)?;
+            write_whisker(xml, whisker, rig.physics.shafts, mask)?;
         }
     }
     writeln!(xml, r"    </body>")
@@ -165,7 +190,7 @@ fn write_rigid(xml: &mut String, whisker: &Whisker) -> fmt::Result {
     writeln!(xml, "      </body>")
 }
 
-fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result {
+fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &str) -> fmt::Result {
     let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
     let length = shaft.link_length();
     writeln!(
@@ -186,11 +211,23 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, mask: &str) -> fmt::Result
             r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
             length / 2.0
         )?;
-        writeln!(
-            xml,
-            r#"          <joint name="{name}.{link}" type="hinge" axis="0 0 1" stiffness="{stiffness}" damping="{}"/>"#,
-            stiffness * shaft.damping
-        )?;
+        let damping = stiffness * shaft.damping;
+        match model {
+            ShaftModel::Chain => writeln!(
+                xml,
+                r#"          <joint name="{name}.{link}" type="hinge" axis="0 0 1" stiffness="{stiffness}" damping="{damping}"/>"#
+            )?,
+            ShaftModel::Cable => {
+                if link > 0 {
+                    let armature = hinge.armature;
+                    writeln!(
+                        xml,
+                        r#"          <joint name="{name}.{link}" type="ball" damping="{damping}" armature="{armature}"/>"#
+                    )?;
+                }
+                writeln!(xml, r#"          <plugin instance="{name}"/>"#)?;
+            }
+        }
         writeln!(
             xml,
             r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" {mask}/>"#,
@@ -220,14 +257,17 @@ fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
 }
 
 fn write_start(xml: &mut String, rig: &Rig, start: Pose, scope: &Scope) -> fmt::Result {
-    let straight: usize = scope.flexible(rig).map(|(_, whisker)| 1 + whisker.shaft.links).sum();
+    let straight = scope.flexible(rig).map(|(_, whisker)| match (rig.physics.shafts, whisker.shaft.links) {
+        (ShaftModel::Chain, links) => " 0".repeat(1 + links),
+        (ShaftModel::Cable, links) => format!(" 0{}", " 1 0 0 0".repeat(links.saturating_sub(1))),
+    });
     writeln!(
         xml,
         "  <keyframe>\n    <key name=\"start\" qpos=\"{} {} {}{}\"/>\n  </keyframe>",
         start.position.x,
         start.position.y,
         start.heading,
-        " 0".repeat(straight)
+        straight.collect::<String>()
     )
 }
 

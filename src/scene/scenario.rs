@@ -82,7 +82,9 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Colour, terminal};
     use crate::geometry::Point2;
-    use crate::rig::{Hinge, Integrator, Physics, Platform, Sensing, Shaft, Solver, Whisker, YawController};
+    use crate::rig::{
+        Hinge, Integrator, Physics, Platform, Preset, Sensing, Shaft, ShaftModel, Solver, Whisker, YawController,
+    };
     use crate::scene::{LoopClosed, Metric, Outcome, Stalled};
     use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -155,11 +157,23 @@ mod tests {
         assert!((left.shaft.length - 0.075).abs() < 1e-15);
         assert_eq!(front.shaft, reference.shaft);
         assert_eq!(with_rig("{}"), Rig::default());
+        assert_eq!(with_rig("{preset: reference}"), Rig::default());
+    }
+
+    #[test]
+    fn what_a_rig_with_a_preset_leaves_out_is_as_in_that() {
+        let preset = Preset::PeerCable.rig();
+        assert_eq!(with_rig("{preset: peer_cable}"), preset);
+        let whiskers = "{l0: {length: 75 mm}, front: {base: [108 mm, 0 mm], direction: 0 deg}, r0: {links: 9}}";
+        let rig = with_rig(&format!("{{whiskers: {whiskers}, physics: {{friction: 1}}, preset: peer_cable}}"));
+        assert_eq!(rig.whiskers.iter().map(|whisker| whisker.shaft.links).collect::<Vec<_>>(), [40, 40, 9]);
+        assert_eq!(rig.physics, Physics { friction: 1.0, ..preset.physics });
     }
 
     #[test]
     fn every_key_of_a_rig_can_be_set() {
         let text = "
+  preset: peer_cable
   platform:
     {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms,
      speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
@@ -200,6 +214,7 @@ mod tests {
                 calibration: None,
             }],
             physics: Physics {
+                shafts: ShaftModel::Cable,
                 step: 1e-3,
                 integrator: Integrator::ImplicitFast,
                 solver: Solver::ProjectedGaussSeidel,

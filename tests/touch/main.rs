@@ -1,6 +1,8 @@
 //! From contact to command: mechanics, readings, perception, steering, worlds.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(feature = "sim")]
+mod cable;
 mod calibration;
 #[path = "../common/mod.rs"]
 mod common;

@@ -12,9 +12,9 @@ pub(crate) const USAGE: &str = "\
 Usage: cargo x COMMAND
 
 Commands:
-  setup   fetch MuJoCo's library into .mujoco, unless it is there already
-            --force        fetch it again
-            --wheel FILE   take it from this wheel, on a machine without network
+  setup   fetch MuJoCo's library and plugin into .mujoco, unless they are there already
+            --force        fetch them again
+            --wheel FILE   take them from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
   bench   run all benches and compare them with benches/baseline.csv

@@ -5,9 +5,9 @@ use std::env::consts::{ARCH, OS};
 /// The release of MuJoCo that the package's version of mujoco-rs is bound to.
 pub(crate) const MUJOCO_VERSION: &str = "3.17.0";
 
-/// One platform's wheel and the library within it.
+/// One platform's wheel, and the library and the plugin within it.
 ///
-/// The wheels of all Python versions carry the same library; the one for CPython 3.11 is pinned, whichever Python
+/// The wheels of all Python versions carry the same ones; the one for CPython 3.11 is pinned, whichever Python
 /// runs.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Platform {
@@ -21,6 +21,8 @@ pub(crate) struct Platform {
     pub(crate) library: &'static str,
     /// The file name that the linker looks for.
     pub(crate) link_name: &'static str,
+    /// The file name of MuJoCo's plugin for cables.
+    pub(crate) plugin: &'static str,
 }
 
 const PLATFORMS: [Platform; 3] = [
@@ -31,6 +33,7 @@ const PLATFORMS: [Platform; 3] = [
         wheel_sha256: "d66928d86a2d1b601bbaa4dc11db50214d17d5301bb8afd84721313b67ff0874",
         library: "libmujoco.so.3.17.0",
         link_name: "libmujoco.so",
+        plugin: "libelasticity.so",
     },
     Platform {
         os: "linux",
@@ -39,6 +42,7 @@ const PLATFORMS: [Platform; 3] = [
         wheel_sha256: "91a70ed9979c383ff1f5c03f25cc2e1280a8254c1a8e558d5dd7f4184f01efc9",
         library: "libmujoco.so.3.17.0",
         link_name: "libmujoco.so",
+        plugin: "libelasticity.so",
     },
     Platform {
         os: "macos",
@@ -47,6 +51,7 @@ const PLATFORMS: [Platform; 3] = [
         wheel_sha256: "6c324addca24a24a7b0beff2ec49300e9d4481fd8ccd611514ba7ea8e4a5e870",
         library: "libmujoco.3.17.0.dylib",
         link_name: "libmujoco.dylib",
+        plugin: "libelasticity.dylib",
     },
 ];
 
@@ -70,6 +75,11 @@ impl Platform {
     /// The library's path within the wheel.
     pub(crate) fn library_in_wheel(&self) -> String {
         format!("mujoco/{}", self.library)
+    }
+
+    /// The plugin's path within the wheel.
+    pub(crate) fn plugin_in_wheel(&self) -> String {
+        format!("mujoco/plugin/{}", self.plugin)
     }
 }
 

@@ -1,4 +1,4 @@
-//! MuJoCo's library in the checkout.
+//! MuJoCo's library and its plugin for cables in the checkout.
 
 use std::fs::{self, File};
 use std::io;
@@ -51,9 +51,9 @@ impl Store {
 
 const STAMP: &str = "stamp";
 
-/// Makes sure that the checkout at `root` holds MuJoCo's library, whole and of the right version.
+/// Makes sure that the checkout at `root` holds MuJoCo's library and the plugin, whole and of the right version.
 ///
-/// The library is prepared aside and renamed into place, so that no part of one ever stands where builds look.
+/// Both are prepared aside and renamed into place, so that no part of them ever stands where builds look.
 pub(crate) fn setup(root: &Path, options: &Options) -> Result<(), SetupError> {
     let (os, arch) = Platform::host();
     let platform = Platform::find(os, arch).ok_or(SetupError::NoPlatform { os, arch })?;
@@ -81,14 +81,18 @@ fn lock(path: &Path) -> Result<File, SetupError> {
     Ok(file)
 }
 
-/// Holds if the library is the one that the stamp speaks of, and the stamp speaks of the pinned wheel.
+/// Holds if library and plugin are those that the stamp speaks of, and the stamp speaks of the pinned wheel.
 fn is_ready(platform: &Platform, lib: &Path) -> bool {
     let Ok(Ok(stamp)) = fs::read_to_string(lib.join(STAMP)).map(|text| text.parse::<Stamp>()) else { return false };
     stamp.mujoco_version == MUJOCO_VERSION
         && stamp.wheel_sha256 == platform.wheel_sha256
-        && [platform.library, platform.link_name]
-            .iter()
-            .all(|name| sha256(&lib.join(name)).is_ok_and(|hash| hash == stamp.library_sha256))
+        && [
+            (platform.library, &stamp.library_sha256),
+            (platform.link_name, &stamp.library_sha256),
+            (platform.plugin, &stamp.plugin_sha256),
+        ]
+        .into_iter()
+        .all(|(name, expected)| sha256(&lib.join(name)).is_ok_and(|hash| hash == *expected))
 }
 
 /// Fills a library directory within `staging`, and gives its path.
@@ -104,14 +108,16 @@ fn prepare(platform: &Platform, options: &Options, staging: &Path) -> Result<Pat
     };
     wheel::verify(platform, &wheel)?;
 
-    let library = lib.join(platform.library);
-    wheel::unpack(platform, &wheel, &library)?;
+    let [library, plugin] = [platform.library, platform.plugin].map(|name| lib.join(name));
+    wheel::unpack(&wheel, &platform.library_in_wheel(), &library)?;
+    wheel::unpack(&wheel, &platform.plugin_in_wheel(), &plugin)?;
     let link = lib.join(platform.link_name);
     fs::hard_link(&library, &link).map_err(disk("link", &link))?;
     let stamp = Stamp {
         mujoco_version: MUJOCO_VERSION.to_owned(),
         wheel_sha256: platform.wheel_sha256.to_owned(),
         library_sha256: sha256(&library).map_err(disk("read", &library))?,
+        plugin_sha256: sha256(&plugin).map_err(disk("read", &plugin))?,
     };
     let stamp_path = lib.join(STAMP);
     fs::write(&stamp_path, stamp.to_string()).map_err(disk("write", &stamp_path))?;

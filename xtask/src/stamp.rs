@@ -1,4 +1,4 @@
-//! The note that set-up leaves beside the library.
+//! The note that set-up leaves beside library and plugin.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,10 +7,12 @@ use std::str::FromStr;
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Stamp {
     pub(crate) mujoco_version: String,
-    /// SHA-256 of the wheel that the library came from.
+    /// SHA-256 of the wheel that both came from.
     pub(crate) wheel_sha256: String,
     /// SHA-256 of the library.
     pub(crate) library_sha256: String,
+    /// SHA-256 of the plugin.
+    pub(crate) plugin_sha256: String,
 }
 
 /// A stamp's text cannot be read, so what it stands for is not known.
@@ -21,7 +23,8 @@ impl fmt::Display for Stamp {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "mujoco {}", self.mujoco_version)?;
         writeln!(f, "wheel-sha256 {}", self.wheel_sha256)?;
-        writeln!(f, "library-sha256 {}", self.library_sha256)
+        writeln!(f, "library-sha256 {}", self.library_sha256)?;
+        writeln!(f, "plugin-sha256 {}", self.plugin_sha256)
     }
 }
 
@@ -38,6 +41,7 @@ impl FromStr for Stamp {
             mujoco_version: value_of("mujoco")?,
             wheel_sha256: value_of("wheel-sha256")?,
             library_sha256: value_of("library-sha256")?,
+            plugin_sha256: value_of("plugin-sha256")?,
         })
     }
 }
@@ -47,7 +51,9 @@ mod tests {
     use super::*;
 
     fn stamp() -> Stamp {
-        Stamp { mujoco_version: "3.17.0".to_owned(), wheel_sha256: "aa".to_owned(), library_sha256: "bb".to_owned() }
+        let [mujoco_version, wheel_sha256, library_sha256, plugin_sha256] =
+            ["3.17.0", "aa", "bb", "cc"].map(str::to_owned);
+        Stamp { mujoco_version, wheel_sha256, library_sha256, plugin_sha256 }
     }
 
     #[test]
@@ -65,6 +71,12 @@ mod tests {
 
     #[test]
     fn a_stamp_with_its_lines_exchanged_is_unreadable() {
-        assert_eq!("wheel-sha256 aa\nmujoco 3.17.0\nlibrary-sha256 bb\n".parse::<Stamp>(), Err(UnreadableStamp));
+        let text = "wheel-sha256 aa\nmujoco 3.17.0\nlibrary-sha256 bb\nplugin-sha256 cc\n";
+        assert_eq!(text.parse::<Stamp>(), Err(UnreadableStamp));
+    }
+
+    #[test]
+    fn the_stamp_of_a_library_without_the_plugin_is_unreadable_so_that_both_are_fetched() {
+        assert_eq!("mujoco 3.17.0\nwheel-sha256 aa\nlibrary-sha256 bb\n".parse::<Stamp>(), Err(UnreadableStamp));
     }
 }

@@ -43,7 +43,7 @@ pub(crate) enum WheelError {
     WrongHash { file: String, expected: &'static str, found: String, tag: &'static str },
     #[error("the wheel {path} cannot be read: {source}.\nGive the path of a wheel that exists: `--wheel FILE`.")]
     Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("the library cannot be taken out of the wheel.\nLook at the free space. python3 said:\n{0}")]
+    #[error("MuJoCo cannot be taken out of the wheel.\nLook at the free space. python3 said:\n{0}")]
     NotUnpacked(String),
     #[error("`python3` cannot be run: {0}.\nLook at what `python3 --version` says.")]
     PythonFailed(std::io::Error),
@@ -106,14 +106,13 @@ pub(crate) fn verify(platform: &Platform, wheel: &Path) -> Result<(), WheelError
     Err(WheelError::WrongHash { file, expected: platform.wheel_sha256, found, tag: platform.pip_tag })
 }
 
-/// Writes the library within a wheel to `target`.
-pub(crate) fn unpack(platform: &Platform, wheel: &Path, target: &Path) -> Result<(), WheelError> {
+/// Writes a file within a wheel to `target`.
+pub(crate) fn unpack(wheel: &Path, member: &str, target: &Path) -> Result<(), WheelError> {
     const SCRIPT: &str = "\
 import shutil, sys, zipfile
 with zipfile.ZipFile(sys.argv[1]) as wheel, wheel.open(sys.argv[2]) as source, open(sys.argv[3], 'xb') as target:
     shutil.copyfileobj(source, target)
 ";
-    let member = platform.library_in_wheel();
     let arguments = ["-c".as_ref(), SCRIPT.as_ref(), wheel.as_os_str(), member.as_ref(), target.as_os_str()];
     let unpacked = python(&arguments, Stdio::piped())?;
     if unpacked.status.success() { Ok(()) } else { Err(WheelError::NotUnpacked(last_lines(&unpacked.stderr))) }

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::geometry::Pose;
-use crate::rig::Rig;
+use crate::rig::{Rig, Whisker};
 use crate::scene::{Solid, WorldKind};
 
 use super::reach::{Reach, first_link_in_reach, may_be_rigid};
@@ -103,8 +103,9 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, solids: &[Solid], start: 
     }
     if rig.physics.rigid_in_air {
         let is_rigid = |whisker: &&_| may_be_rigid(whisker, reach.clearance(whisker, &start), 0.0, false);
-        let joints: usize = rig.whiskers.iter().filter(is_rigid).map(|whisker| 1 + whisker.shaft.links).sum();
-        let all = 3 + links + rig.whiskers.len();
+        let freedom = |whisker: &Whisker| 1 + rig.physics.shafts.degrees_of_freedom(whisker.shaft.links);
+        let joints: usize = rig.whiskers.iter().filter(is_rigid).map(freedom).sum();
+        let all = 3 + rig.whiskers.iter().map(freedom).sum::<usize>();
         decisions.push(Decision {
             verdict: Verdict::Setting,
             subject: "`rigid_in_air`: whiskers that hang at rest in the air do not bend".to_owned(),

@@ -7,7 +7,7 @@ use super::node::Entry;
 use super::reader::Reader;
 use super::{timing, whisker};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::rig::{Integrator, Physics, Platform, Rig, Solver, YawController};
+use crate::rig::{Integrator, Physics, Platform, Preset, Rig, Solver, YawController};
 use crate::units::{Dimension, format_si};
 
 const TAIL_WIDTH: Key = Key::new("tail_width", Dimension::LENGTH, (1e-3, 2.0), "120 mm");
@@ -30,16 +30,20 @@ const IMPEDANCE_DEPTH: Key = Key::new("contact_impedance", Dimension::LENGTH, (1
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
 const PENETRATION_LIMIT: Key = Key::new("penetration_limit", Dimension::LENGTH, (1e-6, 0.1), "1 mm");
 
-/// Reads `rig`. What is left out is as in the reference rig.
+/// Reads `rig`. What is left out is as in its preset, the reference rig unless there is another.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Rig> {
     let fault_count = reader.fault_count();
-    let mut rig = Rig::default();
     let mut fields = Fields::of(reader, &entry.value, "a rig", entry.key.span)?;
+    let preset = fields.entry("preset").and_then(|entry| {
+        let index = reader.choice(&entry.value, "a preset", &Preset::ALL.map(Preset::name));
+        index.and_then(|index| Preset::ALL.get(index)).copied()
+    });
+    let mut rig = preset.unwrap_or_default().rig();
     if let Some(entry) = fields.entry("platform") {
         platform(reader, entry, &mut rig.platform);
     }
     if let Some(entry) = fields.entry("whiskers") {
-        rig.whiskers = whisker::read_all(reader, entry).unwrap_or_default();
+        rig.whiskers = whisker::read_all(reader, entry, &rig.whiskers).unwrap_or_default();
     }
     let mut places = timing::Places::default();
     if let Some(entry) = fields.entry("physics") {

@@ -7,7 +7,7 @@ use super::node::{Entry, Node};
 use super::reader::Reader;
 use crate::calibration::Calibration;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::rig::{Hinge, Rig, Shaft, Whisker};
+use crate::rig::{Hinge, Shaft, Whisker};
 use crate::scene::mjcf::{LEAST_INERTIA, link_inertia};
 use crate::signal::MAX_WHISKERS;
 use crate::units::{Dimension, format_si};
@@ -29,9 +29,9 @@ const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS,
 const HINGE_DAMPING: Key = Key::new("damping", Dimension::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad");
 const HINGE_ARMATURE: Key = Key::new("armature", Dimension::INERTIA, (0.0, 1.0), "1e-5 kg m^2");
 
-/// Reads the whiskers. What one leaves out is as in the whisker of that name of the reference rig; a whisker of another
+/// Reads the whiskers. What one leaves out is as in the whisker of that name of the `preset` rig; a whisker of another
 /// name must tell where it sits and where it points.
-pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Whisker>> {
+pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Vec<Whisker>> {
     let entries = match &entry.value.value {
         Node::Mapping(entries) if !entries.is_empty() => entries,
         Node::Mapping(_) => {
@@ -54,11 +54,11 @@ pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Whi
         reader.report(Diagnostic::error(fault::RIG, message, extra.key.span, "one too many").hint("leave some out"));
         return None;
     }
-    let whiskers: Vec<Option<Whisker>> = entries.iter().map(|entry| read(reader, entry)).collect();
+    let whiskers: Vec<Option<Whisker>> = entries.iter().map(|entry| read(reader, entry, preset)).collect();
     whiskers.into_iter().collect()
 }
 
-fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
+fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Whisker> {
     let name = &entry.key;
     let is_identifier = name.value.starts_with(|first: char| first.is_ascii_alphabetic())
         && name.value.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
@@ -69,17 +69,17 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
         reader.report(fault.hint("policies bind to whiskers by name, such as r0 for the first on the right"));
     }
 
-    let reference = Rig::default().whiskers.into_iter().find(|whisker| whisker.name == name.value);
+    let reference = preset.iter().find(|whisker| whisker.name == name.value);
     let mut fields = Fields::of(reader, &entry.value, "a whisker", name.span)?;
     let base = match reference {
         Some(_) => fields.entry(BASE.name),
         None => fields.required(BASE.name, BASE.example),
     };
-    let base_body = match (base, &reference) {
+    let base_body = match (base, reference) {
         (Some(entry), _) => reader.point(&entry.value, &BASE).map(|point| point.value),
-        (None, reference) => reference.as_ref().map(|whisker| whisker.base_body),
+        (None, reference) => reference.map(|whisker| whisker.base_body),
     };
-    let direction_body = match &reference {
+    let direction_body = match reference {
         Some(whisker) => {
             let mut direction = whisker.direction_body;
             fields.set(reader, &DIRECTION, &mut direction);
@@ -87,7 +87,9 @@ fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Whisker> {
         }
         None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
     };
-    let shaft = shaft(reader, &mut fields, name.span);
+    // All of a preset's whiskers have the same shaft.
+    let usual = preset.first().map_or_else(Shaft::default, |whisker| whisker.shaft.clone());
+    let shaft = shaft(reader, &mut fields, usual, name.span);
     let hinge = match fields.entry("hinge") {
         Some(entry) => hinge(reader, entry),
         None => Some(Hinge::default()),
@@ -122,10 +124,10 @@ fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
         .ok()
 }
 
-/// Reads the keys of the shaft of the whisker whose name stands at `place`.
-fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, place: Span) -> Shaft {
+/// Reads the keys of the shaft of the whisker whose name stands at `place`, as far as it is not the `usual` one.
+fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: Span) -> Shaft {
     let fault_count = reader.fault_count();
-    let mut shaft = Shaft::default();
+    let mut shaft = usual;
     fields.set(reader, &LENGTH, &mut shaft.length);
     fields.set(reader, &RADIUS, &mut shaft.radius);
     let mut tip_radius = 0.0;

@@ -6,7 +6,7 @@ use mujoco_rs::prelude::{MjData, MjModel};
 use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::rig::Rig;
+use crate::rig::{Rig, ShaftModel};
 use crate::scene::{Scope, Solid, mjcf_within};
 use crate::world::Fault;
 
@@ -24,6 +24,13 @@ struct State {
     accelerations: Vec<f64>,
 }
 
+/// Where a whisker's joints stand in the state: its hinge, then those along the shaft.
+#[derive(Debug, Clone)]
+struct Joints {
+    positions: Range<usize>,
+    velocities: Range<usize>,
+}
+
 /// A compiled model of as much of a scene as its scope says, and its state.
 pub(super) struct Engine {
     data: MjData<Box<MjModel>>,
@@ -31,8 +38,9 @@ pub(super) struct Engine {
     spare: Option<Box<MjModel>>,
     kept: State,
     pub(super) scope: Scope,
-    /// The joints of every whisker that bends: its hinge, then one a link.
-    joints: Vec<Option<Range<usize>>>,
+    /// The joints of every whisker that bends.
+    joints: Vec<Option<Joints>>,
+    shafts: ShaftModel,
     /// The geom of the first link of every whisker that bends; those of the others come one after the other.
     first_links: Vec<Option<usize>>,
     platform_geom: i32,
@@ -54,11 +62,20 @@ impl Engine {
         let platform_geom = i32::try_from(geom("platform/body")?).map_err(|error| refused(&error))?;
         let mut joints = vec![None; rig.whiskers.len()];
         let mut first_links = joints.iter().map(|_| None).collect::<Vec<_>>();
-        let mut next = PLATFORM_JOINTS;
+        let shafts = rig.physics.shafts;
+        let (mut position, mut velocity) = (PLATFORM_JOINTS, PLATFORM_JOINTS);
         for (index, whisker) in scope.flexible(rig) {
             first_links[index] = Some(geom(&format!("{}.0", whisker.name))?);
-            joints[index] = Some(next..next + 1 + whisker.shaft.links);
-            next += 1 + whisker.shaft.links;
+            let freedom = shafts.degrees_of_freedom(whisker.shaft.links);
+            let numbers = match shafts {
+                ShaftModel::Chain => freedom,
+                // A ball joint's position is a quaternion.
+                ShaftModel::Cable => freedom / 3 * 4,
+            };
+            let positions = position..position + 1 + numbers;
+            let velocities = velocity..velocity + 1 + freedom;
+            (position, velocity) = (positions.end, velocities.end);
+            joints[index] = Some(Joints { positions, velocities });
         }
         let by_masks = model.pair_margin().is_empty();
         let spare = Some(model.clone());
@@ -70,24 +87,27 @@ impl Engine {
             accelerations: data.qacc_warmstart().to_vec(),
         };
         let touching_from = vec![0; rig.whiskers.len()];
-        Ok(Self { data, spare, kept, scope, joints, first_links, platform_geom, by_masks, touching_from })
+        Ok(Self { data, spare, kept, scope, joints, shafts, first_links, platform_geom, by_masks, touching_from })
     }
 
     /// Goes on from another's state. A whisker that was rigid there is straight and at rest; one that is rigid here was.
     pub(super) fn resume(&mut self, other: &Self) {
-        let platform = 0..PLATFORM_JOINTS;
+        let platform = Joints { positions: 0..PLATFORM_JOINTS, velocities: 0..PLATFORM_JOINTS };
         let own = std::iter::once(Some(platform.clone())).chain(self.joints.iter().cloned()).collect::<Vec<_>>();
         let others = std::iter::once(Some(platform)).chain(other.joints.iter().cloned());
         for (own, other_joints) in own.into_iter().zip(others) {
             let Some(own) = own else { continue };
             if let Some(from) = other_joints {
-                self.data.qpos_mut()[own.clone()].copy_from_slice(&other.data.qpos()[from.clone()]);
-                self.data.qvel_mut()[own.clone()].copy_from_slice(&other.data.qvel()[from.clone()]);
-                self.data.qacc_warmstart_mut()[own].copy_from_slice(&other.data.qacc_warmstart()[from]);
+                self.data.qpos_mut()[own.positions].copy_from_slice(&other.data.qpos()[from.positions]);
+                self.data.qvel_mut()[own.velocities.clone()]
+                    .copy_from_slice(&other.data.qvel()[from.velocities.clone()]);
+                self.data.qacc_warmstart_mut()[own.velocities]
+                    .copy_from_slice(&other.data.qacc_warmstart()[from.velocities]);
             } else {
-                self.data.qpos_mut()[own.clone()].fill(0.0);
-                self.data.qvel_mut()[own.clone()].fill(0.0);
-                self.data.qacc_warmstart_mut()[own].fill(0.0);
+                let straight = self.data.model().qpos0()[own.positions.clone()].to_vec();
+                self.data.qpos_mut()[own.positions].copy_from_slice(&straight);
+                self.data.qvel_mut()[own.velocities.clone()].fill(0.0);
+                self.data.qacc_warmstart_mut()[own.velocities].fill(0.0);
             }
         }
     }
@@ -186,19 +206,39 @@ impl Engine {
         (Vector2::new(velocities[0], velocities[1]), velocities[2])
     }
 
-    /// The angles (rad) of a whisker's joints: its hinge, then one a link; none if it is rigid.
-    pub(super) fn angles(&self, whisker: usize) -> &[f64] {
-        self.joints[whisker].clone().map_or(&[], |joints| &self.data.qpos()[joints])
+    /// The angle (rad) of a whisker's hinge; 0 if it is rigid.
+    pub(super) fn base_angle(&self, whisker: usize) -> f64 {
+        self.joints[whisker].as_ref().map_or(0.0, |joints| self.data.qpos()[joints.positions.start])
+    }
+
+    /// How far (rad) every link of a whisker is turned against what it is on, of so many links.
+    pub(super) fn turns(&self, whisker: usize, links: usize) -> Vec<f64> {
+        let Some(joints) = &self.joints[whisker] else { return vec![0.0; links] };
+        let along = &self.data.qpos()[joints.positions.start + 1..joints.positions.end];
+        match self.shafts {
+            ShaftModel::Chain => along.to_vec(),
+            ShaftModel::Cable => {
+                let about_vertical = |quaternion: &[f64]| 2.0 * quaternion[3].atan2(quaternion[0]);
+                std::iter::once(0.0).chain(along.chunks_exact(4).map(about_vertical)).collect()
+            }
+        }
     }
 
     /// A bound on the speed (m/s) of a whisker's points against its base: no joint moves the tip faster than the shaft behind it is long.
     pub(super) fn speed(&self, rig: &Rig, whisker: usize) -> f64 {
-        let Some(joints) = self.joints[whisker].clone() else { return 0.0 };
+        let Some(joints) = &self.joints[whisker] else { return 0.0 };
         let shaft = &rig.whiskers[whisker].shaft;
-        let turning = self.data.qvel()[joints].iter().enumerate();
-        turning
-            .map(|(joint, rate)| rate.abs() * (shaft.length - joint.saturating_sub(1) as f64 * shaft.link_length()))
-            .sum()
+        let behind = |link: usize| shaft.length - link as f64 * shaft.link_length();
+        let rates = &self.data.qvel()[joints.velocities.clone()];
+        let Some((hinge, along)) = rates.split_first() else { return 0.0 };
+        let of_shaft: f64 = match self.shafts {
+            ShaftModel::Chain => along.iter().enumerate().map(|(link, rate)| rate.abs() * behind(link)).sum(),
+            ShaftModel::Cable => {
+                let norm = |rates: &[f64]| rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+                along.chunks_exact(3).enumerate().map(|(joint, rates)| norm(rates) * behind(joint + 1)).sum()
+            }
+        };
+        hinge.abs() * shaft.length + of_shaft
     }
 
     /// Axial force and shear (N) that act on a whisker's shaft at its base. Needs forces to be sensed.

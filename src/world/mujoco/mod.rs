@@ -2,6 +2,7 @@
 
 mod engine;
 mod messages;
+mod plugin;
 mod pruner;
 mod world;
 

@@ -111,6 +111,5 @@ impl Pruner {
 
 /// Whether a whisker hangs in the air as still as if it were rigid.
 fn is_at_rest(rig: &Rig, engine: &Engine, whisker: usize) -> bool {
-    let reading = engine.angles(whisker).first().map_or(0.0, |angle| angle.abs());
-    reading < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
+    engine.base_angle(whisker).abs() < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
 }

@@ -1,7 +1,9 @@
 //! A rig before solids, simulated by MuJoCo.
 
+use std::path::PathBuf;
+
 use crate::geometry::{Point2, Pose, unit};
-use crate::rig::{Rig, Whisker};
+use crate::rig::{Rig, ShaftModel, Whisker};
 use crate::scene::Solid;
 use crate::signal::{Command, Sample};
 use crate::world::sensors::{Sensors, whole};
@@ -9,6 +11,7 @@ use crate::world::{Fault, World};
 
 use super::engine::Engine;
 use super::messages::{WARNINGS, route_engine_messages};
+use super::plugin::load_cable_plugin;
 use super::pruner::Pruner;
 
 /// A whisker of which everything moves slower than this (m/s) against its base is calm: in a step of 3.3 ms it goes a third of a
@@ -21,6 +24,15 @@ pub enum MujocoError {
     /// MuJoCo refused the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
     Model(String),
+    /// There is no plugin for the cables of the rig.
+    #[error(
+        "MuJoCo's plugin for cables is not there ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
+        path.display()
+    )]
+    NoPlugin {
+        /// Where it should be.
+        path: PathBuf,
+    },
 }
 
 /// A rig before solids, simulated by MuJoCo.
@@ -60,6 +72,9 @@ impl MujocoWorld {
 
     fn with(rig: &Rig, solids: &[Solid], start: Pose, seed: u64, prune: bool) -> Result<Self, MujocoError> {
         route_engine_messages();
+        if rig.physics.shafts == ShaftModel::Cable {
+            load_cable_plugin()?;
+        }
         let mut pruner = Pruner::new(rig, solids, prune);
         let engine = pruner.first(rig, start)?;
         let sensing = &rig.sensing;
@@ -102,10 +117,10 @@ impl MujocoWorld {
     fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
         let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
         let body = self.engine.body();
-        let joints = self.engine.angles(whisker);
+        let turns = self.engine.turns(whisker, shaft.links);
         let mut start = body.point_to_world(*base_body);
-        let mut direction = body.heading + direction_body + joints[0] + joints[1];
-        for turn in &joints[2..2 + link] {
+        let mut direction = body.heading + direction_body + self.engine.base_angle(whisker) + turns[0];
+        for turn in &turns[1..=link] {
             start += shaft.link_length() * unit(direction);
             direction += turn;
         }
@@ -179,8 +194,7 @@ impl MujocoWorld {
         }
         let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
         for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
-            let base_angle = self.engine.angles(index).first().copied().unwrap_or(0.0);
-            reading.base_angle = self.sensors.read(base_angle);
+            reading.base_angle = self.sensors.read(self.engine.base_angle(index));
             if self.rig.sensing.forces {
                 let (axial, shear) = self.engine.base_forces(index);
                 (reading.axial, reading.shear) =

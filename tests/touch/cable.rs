@@ -1,0 +1,104 @@
+//! The peer's cable in the MuJoCo world, against the elastica.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Matrix2, Vector2};
+use vibrissa::geometry::{Point2, Pose, circle, rotate, unit, wrap};
+use vibrissa::mechanics::{Bend, Elastica};
+use vibrissa::rig::{Preset, Rig};
+use vibrissa::scene::Solid;
+use vibrissa::signal::{Command, Sample};
+use vibrissa::world::{MujocoWorld, World};
+
+const CENTRE: Point2 = Point2::new(0.4, 0.4);
+const RADIUS: f64 = 0.3;
+/// A little before the right whisker touches the disk.
+const START: Pose = Pose { position: Point2::new(0.0, 0.25), heading: FRAC_PI_2 };
+
+fn disk() -> [Solid; 1] {
+    [Solid::inside(circle(CENTRE, RADIUS).unwrap()).unwrap()]
+}
+
+/// The peer's rig, whose cables have so many links.
+fn rig(links: usize) -> Rig {
+    let mut rig = Preset::PeerCable.rig();
+    for whisker in &mut rig.whiskers {
+        whisker.shaft.links = links;
+    }
+    rig
+}
+
+/// Goes ahead for a second and a half, which bends the right whisker, and stands still for a second.
+fn press(world: &mut MujocoWorld) -> Sample {
+    let ahead = Command { velocity_world: 0.05 * unit(FRAC_PI_2), yaw_rate: 0.0 };
+    let mut last = None;
+    for tick in 0..75 {
+        let samples = world.advance(if tick < 45 { &ahead } else { &Command::STOP }).unwrap();
+        last = samples.last().copied();
+    }
+    last.unwrap()
+}
+
+/// How far the tip of a pressed cable is from the elastica's against the same disk (m), and by which share its base moment is off.
+fn off_the_elastica(links: usize) -> (f64, f64) {
+    let rig = rig(links);
+    let whisker = &rig.whiskers[0];
+    let mut world = MujocoWorld::pruned(&rig, &disk(), START, 0).unwrap();
+    let sample = press(&mut world);
+    let (touched, along) = world.whisker_contact(0).unwrap();
+    assert!(along > whisker.shaft.length - 1e-3, "it is the tip that touches");
+
+    // The middle of the wire's end is this far from the disk's; the place of a contact is half as deep as the contact.
+    let depth = 2.0 * (RADIUS - (touched - CENTRE).norm());
+    let from_centre = RADIUS - depth + whisker.shaft.radius;
+    assert!((0.05e-3..0.4e-3).contains(&depth), "it sinks in by {depth} m");
+
+    // A frame at the base in which the whisker bends to the left.
+    let heading = sample.body.heading + whisker.direction_body;
+    let base = sample.body.point_to_world(whisker.base_body);
+    let to_base = |vector: Vector2<f64>| rotate(vector, -heading).component_mul(&Vector2::new(1.0, -1.0));
+    let centre = to_base(CENTRE - base);
+    let normal = to_base(touched - CENTRE);
+    let elastica = Elastica::new(whisker);
+    let shape = |angle: f64, direction: f64| -> Bend {
+        let mut bend = elastica.straight();
+        for share in 1..=10 {
+            bend = elastica.solve_tip(angle * f64::from(share) / 10.0, wrap(direction), &bend).unwrap();
+        }
+        bend
+    };
+    let gap = |angle: f64, direction: f64| shape(angle, direction).tip_base - (centre + from_centre * unit(direction));
+    let (mut angle, mut direction) = (-sample.whiskers[0].base_angle, normal.y.atan2(normal.x));
+    let cable = (angle, centre + from_centre * unit(direction));
+    for _ in 0..8 {
+        let here = gap(angle, direction);
+        let by_angle = (gap(angle + 1e-7, direction) - here) / 1e-7;
+        let by_direction = (gap(angle, direction + 1e-4) - here) / 1e-4;
+        let step = Matrix2::from_columns(&[by_angle, by_direction]).try_inverse().unwrap() * here;
+        (angle, direction) = (angle - step.x, direction - step.y);
+    }
+    assert!(gap(angle, direction).norm() < 1e-9);
+    ((shape(angle, direction).tip_base - cable.1).norm(), cable.0 / angle - 1.0)
+}
+
+#[test]
+fn a_clamped_cable_is_off_the_elastica_by_half_as_much_with_twice_the_links() {
+    let [(tip_20, moment_20), (tip_40, moment_40)] = [20, 40].map(off_the_elastica);
+    assert!((0.05e-3..0.4e-3).contains(&tip_40) && (0.01..0.04).contains(&moment_40), "{tip_40} m, {moment_40}");
+    assert!((1.7..2.3).contains(&(tip_20 / tip_40)), "{tip_20} m, {tip_40} m");
+    assert!((1.7..2.3).contains(&(moment_20 / moment_40)), "{moment_20}, {moment_40}");
+}
+
+#[test]
+fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
+    let rig = rig(12);
+    let mut bending = rig.clone();
+    bending.physics.rigid_in_air = false;
+    let base_angle = |rig: &Rig, pruned: bool| {
+        let build = if pruned { MujocoWorld::pruned } else { MujocoWorld::new };
+        press(&mut build(rig, &disk(), START, 0).unwrap()).whiskers[0].base_angle
+    };
+    let rigid = base_angle(&rig, true);
+    assert_eq!(rigid.to_bits(), base_angle(&rig, false).to_bits(), "what is left out changes nothing");
+    assert!((rigid / base_angle(&bending, true) - 1.0).abs() < 1e-3);
+}
