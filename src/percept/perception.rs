@@ -136,6 +136,12 @@ impl Perception {
         }
     }
 
+    /// The index in the rig of one of the policy's whiskers.
+    #[must_use]
+    pub fn in_rig(&self, whisker: usize) -> usize {
+        self.in_sample[whisker]
+    }
+
     /// Time of the newest sample (s).
     #[must_use]
     pub fn time(&self) -> f64 {

@@ -38,6 +38,8 @@ pub struct WhiskerLine<'a> {
     pub deflection_rad: f64,
     /// Whether that is beyond the contact threshold.
     pub touching: bool,
+    /// Whether it sprang since the last tick, as one does that slips off a corner; no policy sees this.
+    pub springs: bool,
     /// Where the tip is perceived to be.
     pub tip_m: Option<[f64; 2]>,
     /// How far off that may be: a standard deviation.
@@ -72,6 +74,7 @@ fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<W
         whisker: name,
         deflection_rad: tick.deflections[whisker],
         touching: tick.touches[whisker].is_touching,
+        springs: tick.springs[whisker],
         tip_m: tick.touches[whisker].tip_world.map(|tip| tip.coords.into()),
         tip_spread_m: tick.tip_spreads[whisker],
         tangent: tick.touches[whisker].tangent_world.map(Into::into),

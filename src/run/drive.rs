@@ -80,7 +80,7 @@ pub fn drive(
         }
         command = next;
 
-        let tick = record(&control, command, ticked.failsafe, world.body_touches());
+        let tick = record(&control, command, ticked.failsafe, world);
         trace.marks.extend(marks(&control, trace.ticks.len()));
         trace.ticks.push(tick);
         if progress(&trace).is_break() {
@@ -130,7 +130,7 @@ fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
     })
 }
 
-fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_touches: bool) -> TickRecord {
+fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world: &dyn World) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
     let mut tick = TickRecord {
         time: perception.time(),
@@ -142,9 +142,11 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, body_
         tip_spreads: [0.0; MAX_WHISKERS],
         command,
         failsafe,
-        body_touches,
+        body_touches: world.body_touches(),
+        springs: [false; MAX_WHISKERS],
     };
     for whisker in 0..machine.program().whiskers.len() {
+        tick.springs[whisker] = world.springs(perception.in_rig(whisker));
         tick.deflections[whisker] = perception.deflection(whisker);
         tick.tips[whisker] = perception.recorded_tip(whisker);
         tick.touches[whisker] = touch(perception, whisker);

@@ -90,6 +90,7 @@ mod tests {
                 command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
                 failsafe: None,
                 body_touches: false,
+                springs: [false; MAX_WHISKERS],
             }
         });
         ticks.find(|tick| watch.stalls(tick).is_some()).map(|tick| tick.time)

@@ -57,6 +57,8 @@ pub struct TickRecord {
     pub failsafe: Option<Failsafe>,
     /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
     pub body_touches: bool,
+    /// Whether each whisker sprang since the last tick, as one does that slips off a corner; no policy sees this either.
+    pub springs: [bool; MAX_WHISKERS],
 }
 
 /// What a whisker's tip touches, as perceived.

@@ -154,6 +154,14 @@ impl World for Stage {
     fn body_touches(&self) -> bool {
         false
     }
+
+    fn springs(&self, _whisker: usize) -> bool {
+        false
+    }
+
+    fn tip(&self, _whisker: usize) -> Point2 {
+        self.body.position
+    }
 }
 
 #[test]

@@ -33,6 +33,7 @@ fn there_is_a_line_for_every_tick_with_its_time_state_pose_and_command() {
         assert_eq!(line["yaw_rate_rad_s"], 0.0);
         assert_eq!(line["whiskers"][0]["whisker"], "w0");
         assert_eq!(line["whiskers"][0]["deflection_rad"], 3e-4);
+        assert_eq!(line["whiskers"][0]["springs"], tick.springs[0]);
         assert_eq!(line["whiskers"][0]["recorded"], tick.tips[0].is_some());
     }
 }

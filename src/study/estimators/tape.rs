@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use crate::geometry::Point2;
 use crate::machine::Program;
 use crate::rig::Rig;
 use crate::run::{Control, Run, drive};
@@ -50,5 +51,13 @@ impl World for Recorder {
 
     fn body_touches(&self) -> bool {
         self.world.body_touches()
+    }
+
+    fn springs(&self, whisker: usize) -> bool {
+        self.world.springs(whisker)
+    }
+
+    fn tip(&self, whisker: usize) -> Point2 {
+        self.world.tip(whisker)
     }
 }

@@ -7,16 +7,12 @@ use crate::rig::{Rig, ShaftModel, Whisker};
 use crate::scene::Solid;
 use crate::signal::{Command, Sample};
 use crate::world::sensors::{Sensors, whole};
-use crate::world::{Fault, World};
+use crate::world::{Fault, SPRINGING, World};
 
 use super::engine::Engine;
 use super::messages::{WARNINGS, route_engine_messages};
 use super::plugin::load_cable_plugin;
 use super::pruner::Pruner;
-
-/// A whisker of which everything moves slower than this (m/s) against its base is calm: in a step of 3.3 ms it goes a third of a
-/// millimetre.
-const CALM: f64 = 0.1;
 
 /// Why a MuJoCo world could not be built.
 #[derive(Debug, thiserror::Error)]
@@ -50,6 +46,8 @@ pub struct MujocoWorld {
     steps_done: u64,
     sensors: Sensors,
     body_touched: bool,
+    /// Of every whisker, whether it sprang since the last tick.
+    sprung: Vec<bool>,
 }
 
 impl MujocoWorld {
@@ -90,6 +88,7 @@ impl MujocoWorld {
             steps_done: 0,
             sensors: Sensors::new(sensing, seed),
             body_touched: false,
+            sprung: vec![false; rig.whiskers.len()],
             rig: rig.clone(),
         })
     }
@@ -113,7 +112,7 @@ impl MujocoWorld {
         self.engine.energy()
     }
 
-    /// Where a link of a whisker that bends begins (m, world frame), and its direction (rad).
+    /// Where a link of a whisker begins (m, world frame), and its direction (rad).
     fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
         let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
         let body = self.engine.body();
@@ -151,9 +150,13 @@ impl MujocoWorld {
         Ok(())
     }
 
-    /// Whether no whisker moves fast, and the body touches nothing.
+    /// Whether no whisker moves fast, and the body touches nothing. A calm whisker goes a third of a millimetre in a step of 3.3 ms.
     fn is_calm(&self) -> bool {
-        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| self.engine.speed(&self.rig, whisker) < CALM)
+        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_springing(whisker))
+    }
+
+    fn is_springing(&self, whisker: usize) -> bool {
+        self.engine.speed(&self.rig, whisker) >= SPRINGING
     }
 
     fn diverged(&self, cause: &'static str) -> Result<(), Fault> {
@@ -165,7 +168,12 @@ impl MujocoWorld {
         let mut done = 0;
         while done < self.steps_per_sample {
             if self.steps_in_calm == 1 || !self.passes_calmly()? {
-                (0..self.steps_in_calm).try_for_each(|_| self.step(1))?;
+                for _ in 0..self.steps_in_calm {
+                    self.step(1)?;
+                    for whisker in 0..self.sprung.len() {
+                        self.sprung[whisker] |= self.is_springing(whisker);
+                    }
+                }
             }
             done += self.steps_in_calm;
         }
@@ -210,6 +218,7 @@ impl World for MujocoWorld {
         self.pruner.fit(&self.rig, &mut self.engine, command)?;
         self.engine.command(command.velocity_world, command.yaw_rate);
         self.body_touched = false;
+        self.sprung.fill(false);
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
             self.pass()?;
@@ -224,5 +233,15 @@ impl World for MujocoWorld {
 
     fn body_touches(&self) -> bool {
         self.body_touched
+    }
+
+    fn springs(&self, whisker: usize) -> bool {
+        self.sprung[whisker]
+    }
+
+    fn tip(&self, whisker: usize) -> Point2 {
+        let shaft = &self.rig.whiskers[whisker].shaft;
+        let (start, direction) = self.link(whisker, shaft.links - 1);
+        start + shaft.link_length() * unit(direction)
     }
 }

@@ -1,6 +1,6 @@
 //! One whisker, from equilibrium to equilibrium.
 
-use crate::geometry::{Point2, Pose, Vector2};
+use crate::geometry::{Point2, Pose, Vector2, unit};
 use crate::rig::Whisker;
 
 use super::balance::{Balance, Step};
@@ -26,6 +26,8 @@ pub(super) struct Follower {
     /// Samples for which it has been on its way.
     restless: usize,
     force: Vector2,
+    /// How far (m) something of it went against its base in the last sample, at most.
+    went: f64,
 }
 
 /// Why a whisker cannot be followed.
@@ -70,6 +72,7 @@ impl Follower {
             before: vec![0.0; wire.links()],
             restless: 0,
             force: Vector2::zeros(),
+            went: 0.0,
             wire,
         }
     }
@@ -77,6 +80,18 @@ impl Follower {
     /// Angle of the base hinge (rad), which its damper makes late.
     pub(super) fn base_angle(&self) -> f64 {
         self.hinge.value()
+    }
+
+    /// How far (m) something of it went against its base in the last sample, at most.
+    pub(super) fn went(&self) -> f64 {
+        self.went
+    }
+
+    /// Where the tip is (m, world frame).
+    pub(super) fn tip(&self) -> Point2 {
+        // Of a straight whisker in the air the links are not kept in their places.
+        let along = self.shape.angles.iter().map(|angle| unit(self.shape.base.heading + angle)).sum::<Vector2>();
+        self.shape.base.position + self.wire.link * along
     }
 
     /// The force (N) that the whisker passes on to its base, in the world.
@@ -101,6 +116,7 @@ impl Follower {
         let is_straight = self.restless == 0 && self.shape.is_straight();
         if is_straight && self.pairs.is_empty() && self.clear > way {
             self.clear -= way;
+            self.went = 0.0;
             self.shape.base = base;
             self.hinge.follow(0.0, period);
             return Ok(());
@@ -226,8 +242,8 @@ impl Follower {
         let pace = self.pace.get_or_insert_with(Vec::new);
         pace.clear();
         pace.extend(self.shape.angles.iter().zip(&self.before).map(|(now, before)| now - before));
-        let farthest = self.wire.length() * pace.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
-        if !settled || farthest > EVEN * way || self.shape.is_straight() {
+        self.went = self.wire.length() * pace.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
+        if !settled || self.went > EVEN * way || self.shape.is_straight() {
             self.pace = None;
         }
     }

@@ -5,7 +5,7 @@ use crate::rig::Rig;
 use crate::scene::{Overlap, Solid, overlap};
 use crate::signal::{Command, Sample};
 use crate::world::sensors::{Sensors, whole};
-use crate::world::{Fault, World};
+use crate::world::{Fault, SPRINGING, World};
 
 use super::carriage::Carriage;
 use super::surface::Surfaces;
@@ -43,6 +43,8 @@ pub struct QuasiStaticWorld {
     samples_done: u64,
     sensors: Sensors,
     body_touched: bool,
+    /// Of every whisker, whether it sprang since the last tick.
+    sprung: Vec<bool>,
 }
 
 impl QuasiStaticWorld {
@@ -78,6 +80,7 @@ impl QuasiStaticWorld {
             samples_done: 0,
             sensors: Sensors::new(sensing, seed),
             body_touched: false,
+            sprung: vec![false; rig.whiskers.len()],
             rig: rig.clone(),
         })
     }
@@ -104,13 +107,15 @@ impl QuasiStaticWorld {
         if let Some(depth) = touch.filter(|&depth| depth > limit) {
             return Err(Fault::Crash { time, depth });
         }
-        for (whisker, part) in self.whiskers.iter_mut().zip(&self.rig.whiskers) {
+        let parts = self.rig.whiskers.iter().zip(&mut self.sprung);
+        for (whisker, (part, sprung)) in self.whiskers.iter_mut().zip(parts) {
             let position: Point2 = body.point_to_world(part.base_body);
             let base = Pose { position, heading: body.heading + part.direction_body };
             whisker.follow(base, self.period, &self.surfaces, limit).map_err(|lost| match lost {
                 Lost::Inside(depth) => Fault::Penetration { time, depth, limit },
                 Lost::Restless => Fault::Diverged { time, cause: "a whisker finds no rest; go slower" },
             })?;
+            *sprung |= whisker.went() > SPRINGING * self.period;
         }
         Ok(())
     }
@@ -132,6 +137,7 @@ impl QuasiStaticWorld {
 impl World for QuasiStaticWorld {
     fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
         self.body_touched = false;
+        self.sprung.fill(false);
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
             self.step(command)?;
@@ -143,5 +149,13 @@ impl World for QuasiStaticWorld {
 
     fn body_touches(&self) -> bool {
         self.body_touched
+    }
+
+    fn springs(&self, whisker: usize) -> bool {
+        self.sprung[whisker]
+    }
+
+    fn tip(&self, whisker: usize) -> Point2 {
+        self.whiskers[whisker].tip()
     }
 }

@@ -28,6 +28,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
             failsafe: None,
             body_touches: false,
+            springs: [false; MAX_WHISKERS],
         };
         for (whisker, tips) in tips.iter().enumerate() {
             tick.tips[whisker] = tips.get(index).copied().flatten();

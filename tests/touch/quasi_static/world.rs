@@ -102,3 +102,27 @@ fn absurd_commands_end_in_a_typed_fault_or_in_numbers() {
         }
     }
 }
+
+#[test]
+fn a_whisker_that_slips_off_a_corner_springs_and_one_that_slides_does_not() {
+    let corners = [(0.1, 0.16), (0.2, 0.16), (0.2, 0.21), (0.1, 0.21)];
+    let block = solids([vibrissa::geometry::polygon(&super::scene::points(&corners)).unwrap()]);
+    let mut rig = one_whisker();
+    // A whisker that springs wants short steps.
+    (rig.physics.step, rig.physics.contact_time) = (1.0 / 1800.0, 1.25e-3);
+    let ticks_that_spring = |solids: &[vibrissa::scene::Solid]| {
+        let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(&rig, solids, START, 0).unwrap())];
+        #[cfg(feature = "sim")]
+        worlds.push(Box::new(vibrissa::world::MujocoWorld::pruned(&rig, solids, START, 0).unwrap()));
+        let count = |world: &mut Box<dyn World>| {
+            let ticks = (0..150).filter(|_| {
+                world.advance(&command(0.0, 0.05, 0.0)).unwrap();
+                world.springs(0)
+            });
+            ticks.count()
+        };
+        worlds.iter_mut().map(count).collect::<Vec<_>>()
+    };
+    assert!(ticks_that_spring(&block).into_iter().all(|ticks| (1..20).contains(&ticks)));
+    assert!(ticks_that_spring(&disk()).into_iter().all(|ticks| ticks == 0));
+}
