@@ -9,7 +9,7 @@ use crate::scene::{Scene, WorldSetup};
 use crate::study::sweep::Shard;
 
 use super::language_arguments::{CheckArguments, CompileArguments, FmtArguments, GraphArguments, TestArguments};
-pub(super) use super::values::{Setting, World};
+pub(super) use super::values::{Setting, TierName, World};
 use super::values::{parse_angle, parse_friction, parse_length, parse_setting};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
@@ -122,6 +122,10 @@ pub(super) struct BenchArguments {
     /// ten times that
     #[arg(long, conflicts_with_all = ["policies", "friction", "noise", "out"])]
     pub(super) estimators: bool,
+    /// Compare worlds instead, by the same policies in every scene: how far tips, moments and contours are from those of MuJoCo's chains
+    #[arg(long, value_enum, value_name = "TIER", value_delimiter = ',',
+          conflicts_with_all = ["friction", "noise", "world", "no_prune", "estimators", "timing", "out"])]
+    pub(super) worlds: Vec<TierName>,
     /// Measure times instead: run every scene N times, one run at a time, and print medians
     #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"])]
     pub(super) timing: Option<NonZeroUsize>,

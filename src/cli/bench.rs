@@ -14,11 +14,14 @@ use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
 use super::run::make_directory;
-use super::{estimators, file, output, timing};
+use super::{estimators, file, output, tiers, timing};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.estimators {
         return estimators::estimators(arguments);
+    }
+    if !arguments.worlds.is_empty() {
+        return tiers::tiers(arguments);
     }
     let conditions = conditions(arguments);
     let jobs = jobs(&policies(&arguments.policies)?, &conditions, arguments)?;
@@ -51,7 +54,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
 }
 
 /// The policies to run: those that are given, or else those that are built in. Their warnings are told.
-fn policies(files: &[PathBuf]) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
+pub(super) fn policies(files: &[PathBuf]) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
     let policies = if files.is_empty() {
         let built_in = |file: &TextFile| Ok((file.path.into(), input::built_in_policy(file)?));
         POLICIES.iter().map(built_in).collect::<Result<Vec<_>, Failure>>()?

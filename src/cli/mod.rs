@@ -27,6 +27,7 @@ mod run;
 mod stress;
 mod sweep;
 mod test;
+mod tiers;
 mod timing;
 mod values;
 mod watch;

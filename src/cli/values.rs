@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 
 use crate::scene::{Scene, WorldKind};
+use crate::study::tiers::Tier;
 use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// The worlds, as the command line names them.
@@ -23,6 +24,26 @@ impl World {
             Self::QuasiStatic => WorldKind::QuasiStatic,
         });
         asked.or(scene.world).unwrap_or_default()
+    }
+}
+
+/// The tiers of worlds that are compared with MuJoCo's chains, as the command line names them.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum TierName {
+    /// The same chains in static equilibrium
+    #[value(name = "quasistatic")]
+    QuasiStatic,
+    /// Cables of 40 links, by MuJoCo: tens of times as slow
+    #[value(name = "peer_cable")]
+    PeerCable,
+}
+
+impl TierName {
+    pub(super) fn of(self, scene: &Scene) -> Tier {
+        match self {
+            Self::QuasiStatic => Tier::quasi_static(scene),
+            Self::PeerCable => Tier::peer_cable(scene),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use rstar::RTree;
 use rstar::primitives::Line;
 
+use super::statistics::Statistics;
 use super::tip::{valid_tips, whiskers};
 use crate::geometry::{Point2, least_distance};
 use crate::run::Trace;
@@ -42,6 +43,13 @@ impl Estimate {
     #[must_use]
     pub fn strokes(&self) -> &[Vec<Point2>] {
         &self.strokes
+    }
+
+    /// The mean distance (m) of its tips from another's strokes; `None` if either has none.
+    #[must_use]
+    pub fn apart(&self, other: &Self) -> Option<f64> {
+        let distances: Option<Vec<f64>> = self.strokes.iter().flatten().map(|&tip| other.distance(tip)).collect();
+        Some(Statistics::of(distances?)?.mean())
     }
 
     /// Distance (m) of a point from the nearest point of any stroke, in logarithmic time; `None` if there is no stroke.

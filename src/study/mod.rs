@@ -1,5 +1,5 @@
 //! Policies over scenarios: a run in full, from a scene and a program to its trace; many runs at once; the bench; families of
-//! scenes; policies against each other; sweeps.
+//! scenes; policies against each other; worlds against each other; sweeps.
 
 pub mod bench;
 pub mod calibrate;
@@ -14,6 +14,7 @@ mod processor_time;
 pub mod stress;
 pub mod sweep;
 mod tally;
+pub mod tiers;
 
 use execute::build;
 pub use execute::{ExecuteError, check_world, engine_hash, engine_version, execute};

@@ -23,6 +23,21 @@ pub enum Ending {
     Refused,
 }
 
+impl Ending {
+    /// The name in results and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Timeout => "timeout",
+            Self::Failed => "failed",
+            Self::Diverged => "diverged",
+            Self::Crashed => "crashed",
+            Self::Refused => "refused",
+        }
+    }
+}
+
 impl From<Outcome> for Ending {
     fn from(outcome: Outcome) -> Self {
         match outcome {

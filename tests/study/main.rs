@@ -19,4 +19,5 @@ mod seen;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
 mod ticks;
+mod tiers;
 mod way;

@@ -112,9 +112,7 @@ impl Measured {
 
     /// The mean distance (mm) of its tips from the contour that another run estimated.
     fn apart(&self, other: &Estimate) -> Option<f64> {
-        let tips = self.estimate.as_ref()?.strokes().iter().flatten();
-        let distances: Option<Vec<f64>> = tips.map(|&tip| other.distance(tip)).collect();
-        Some(1e3 * Statistics::of(distances?)?.mean())
+        Some(1e3 * self.estimate.as_ref()?.apart(other)?)
     }
 }
 
