@@ -42,3 +42,12 @@ fn what_is_left_out_saves_something_and_what_stays_does_not() {
         assert_eq!(decision.saves.is_some(), decision.verdict != Verdict::Kept, "{decision:?}");
     }
 }
+
+#[test]
+fn a_rigid_cable_saves_three_degrees_of_freedom_a_ball_joint() {
+    let mut scene = scene("disk");
+    scene.rig.make_peer_cable();
+    let told = pruning(&scene, &["r0", "l0"], WorldKind::Mujoco).to_string();
+    // Two whiskers with a hinge and 39 ball joints each, and a platform.
+    assert!(told.contains("236 of 239 degrees of freedom"), "{told}");
+}
