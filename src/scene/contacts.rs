@@ -27,9 +27,10 @@ pub(super) enum Contacts {
 }
 
 impl Contacts {
-    /// The way for this many parts: the quicker one, unless there is friction, which only pairs do well.
-    pub(super) fn with(parts: usize, physics: &Physics) -> Self {
-        if parts <= 1 || physics.friction > 0.0 { Self::Pairs } else { Self::Masks }
+    /// The way for this many parts: the quicker one, unless there is friction, which only pairs do well, or pairs are named as they come
+    /// in reach.
+    pub(super) fn with(parts: usize, physics: &Physics, scope: &Scope) -> Self {
+        if parts <= 1 || physics.friction > 0.0 || scope.room().is_some() { Self::Pairs } else { Self::Masks }
     }
 
     /// The attributes of a solid's part.
@@ -56,7 +57,8 @@ impl Contacts {
         writeln!(xml, "  <default>\n    <geom {}/>\n  </default>", contact(physics, "0 0 0"))
     }
 
-    /// The pairs of every part with every link and the platform, where it is a matter of them.
+    /// The pairs of every part with every link and the platform, where it is a matter of them; as many of them as there is room for, whose
+    /// parts and links are then others from time to time.
     pub(super) fn write_pairs(
         self,
         xml: &mut String,
@@ -78,10 +80,10 @@ impl Contacts {
             write!(contact, r#" solreffriction="{} 1""#, SLIDING * time)?;
         }
         writeln!(xml, r"  <contact>")?;
-        for geom in links.chain(["platform/body".to_owned()]) {
-            for (part, _) in parts {
-                writeln!(xml, r#"    <pair geom1="{part}" geom2="{geom}" {contact}/>"#)?;
-            }
+        let geoms = links.chain(["platform/body".to_owned()]);
+        let pairs = geoms.flat_map(|geom| parts.iter().map(move |(part, _)| (part, geom.clone())));
+        for (part, geom) in pairs.take(scope.room().unwrap_or(usize::MAX)) {
+            writeln!(xml, r#"    <pair geom1="{part}" geom2="{geom}" {contact}/>"#)?;
         }
         writeln!(xml, r"  </contact>")
     }

@@ -10,7 +10,7 @@
 
 use std::fmt::{self, Write};
 
-use crate::geometry::Pose;
+use crate::geometry::{Point2, Pose, Vector2};
 use crate::rig::{Platform, Rig, Shaft, ShaftModel, Whisker};
 
 use super::contacts::{Contacts, hold};
@@ -20,6 +20,9 @@ use super::solid::Solid;
 
 /// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
 const HALF_HEIGHT: f64 = 0.01;
+/// How far (m) the corner of a prism that is farthest from the middle lies lower than that would be. In one plane, hundreds of corners
+/// would make the search for faces slow, and after it the one for the corner that is farthest in a direction.
+const DOME: f64 = 1e-3;
 
 /// The least moment of inertia (kg m²) that MuJoCo takes for a body.
 pub(super) const LEAST_INERTIA: f64 = 1e-15;
@@ -62,7 +65,7 @@ pub fn mjcf_within(rig: &Rig, solids: &[Solid], start: Pose, scope: &Scope) -> S
 fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Pose, scope: &Scope) -> fmt::Result {
     let physics = &rig.physics;
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
-    writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false"/>"#)?;
+    writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false" usethread="false"/>"#)?;
     // A handful of contacts: conjugate gradients reach the same solution as Newton's method, to a millionth, and need not
     // factor a matrix of all joints for it. The dual solver would be faster still, but delays the servos by a step. With a
     // pyramid for the friction cone a tip that slides at a small coefficient chatters; with the exact cone it does not.
@@ -80,7 +83,7 @@ fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Po
     if physics.shafts == ShaftModel::Cable {
         write_extension(xml, rig, scope)?;
     }
-    let contacts = Contacts::with(parts.len(), physics);
+    let contacts = Contacts::with(parts.len(), physics, scope);
     contacts.write_defaults(xml, physics)?;
     write_assets(xml, &rig.platform, parts)?;
     writeln!(xml, r"  <worldbody>")?;
@@ -119,19 +122,27 @@ fn write_extension(xml: &mut String, rig: &Rig, scope: &Scope) -> fmt::Result {
 
 fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]) -> fmt::Result {
     writeln!(xml, r"  <asset>")?;
-    write_prism(xml, "platform", platform.outline_body().iter().map(|corner| (corner.x, corner.y)))?;
+    write_prism(xml, "platform", &platform.outline_body())?;
     for (name, part) in parts {
         if let Part::Prism { outline } = part {
-            write_prism(xml, name, outline.iter().map(|corner| (corner.x, corner.y)))?;
+            write_prism(xml, name, outline)?;
         }
     }
     writeln!(xml, r"  </asset>")
 }
 
-fn write_prism(xml: &mut String, name: &str, outline: impl Iterator<Item = (f64, f64)>) -> fmt::Result {
+/// Writes an upright prism whose ends are domes.
+fn write_prism(xml: &mut String, name: &str, outline: &[Point2]) -> fmt::Result {
+    let sum = outline.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords);
+    let middle = Point2::from(sum / outline.len() as f64);
+    // Points of a circle, lowered by the square of their distance, would lie in one plane again.
+    let from_middle =
+        |corner: &Point2| (corner - middle).dot(&Vector2::new(corner.x - middle.x, 2.0 * (corner.y - middle.y)));
+    let farthest = outline.iter().map(from_middle).fold(f64::MIN_POSITIVE, f64::max);
     write!(xml, r#"    <mesh name="{name}" vertex=""#)?;
-    for (x, y) in outline {
-        write!(xml, "{x} {y} {} {x} {y} {HALF_HEIGHT} ", -HALF_HEIGHT)?;
+    for corner in outline {
+        let (x, y, top) = (corner.x, corner.y, HALF_HEIGHT - DOME * from_middle(corner) / farthest);
+        write!(xml, "{x} {y} {} {x} {y} {top} ", -top)?;
     }
     writeln!(xml, r#""/>"#)
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Contour, Piece, Point2, Vector2};
+use crate::geometry::{Contour, Piece, Point2, Vector2, perpendicular};
 
 use super::solid::SolidError;
 
@@ -46,6 +46,23 @@ impl Part {
             return Err(SolidError::Corners { count: outline.len(), limit: MOST_CORNERS });
         }
         Ok(Self::Prism { outline })
+    }
+
+    /// Whether some straight line shows that what is between these points (m, world frame) is farther off than `reach` (m).
+    pub(super) fn is_apart(&self, points: &[Point2], reach: f64) -> bool {
+        let beyond =
+            |place: &Point2, outwards: Vector2| points.iter().all(|point| (point - place).dot(&outwards) > reach);
+        match self {
+            Self::Cylinder { centre, radius } => {
+                // The line across the way from the axis to the middle of the points.
+                let middle = points.iter().map(|point| point - centre).sum::<Vector2>();
+                middle.try_normalize(0.0).is_some_and(|outwards| beyond(&(centre + *radius * outwards), outwards))
+            }
+            Self::Prism { outline } => outline.iter().zip(outline.iter().cycle().skip(1)).any(|(start, end)| {
+                let outwards = -perpendicular(end - start);
+                outwards.try_normalize(0.0).is_some_and(|outwards| beyond(start, outwards))
+            }),
+        }
     }
 
     /// The corners (m, world frame) with the smallest and the largest coordinates of the box about it.

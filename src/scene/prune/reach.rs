@@ -3,8 +3,8 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use crate::geometry::{ContourSet, Point2, Pose, Vector2};
-use crate::rig::{Rig, Whisker};
+use crate::geometry::{ContourSet, Point2, Pose, Vector2, unit};
+use crate::rig::{Platform, Rig, Whisker};
 use crate::scene::{Part, Solid};
 use crate::signal::Command;
 
@@ -28,6 +28,7 @@ const INERTIAL_SHARE: f64 = 0.25;
 pub struct Reach {
     surfaces: Option<ContourSet>,
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    parts: Vec<Part>,
     /// The farthest (m) that anything of the rig is from the platform's centre of mass.
     extent: f64,
 }
@@ -40,12 +41,13 @@ impl Reach {
             let (low, high) = part.bounds();
             GeomWithData::new(Rectangle::from_corners([low.x, low.y], [high.x, high.y]), index)
         };
-        let boxes = RTree::bulk_load(solids.iter().flat_map(Solid::parts).enumerate().map(boxed).collect());
+        let parts: Vec<Part> = solids.iter().flat_map(Solid::parts).cloned().collect();
+        let boxes = RTree::bulk_load(parts.iter().enumerate().map(boxed).collect());
         let corners = rig.platform.outline_body().map(|corner| corner.coords.norm());
         let tips = rig.whiskers.iter().map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length);
         let extent = corners.into_iter().chain(tips).fold(0.0, f64::max) + TOLERANCE;
         let surfaces = ContourSet::new(solids.iter().map(|solid| solid.outline().clone()));
-        Self { surfaces, boxes, extent }
+        Self { surfaces, boxes, parts, extent }
     }
 
     /// Whether a model holds only the parts near the platform, because there are many.
@@ -58,12 +60,7 @@ impl Reach {
     /// `centre`.
     #[must_use]
     pub fn parts_about(&self, centre: Point2) -> Vec<usize> {
-        let half = Vector2::repeat(self.extent + WINDOW);
-        let (low, high) = (centre - half, centre + half);
-        let window = AABB::from_corners([low.x, low.y], [high.x, high.y]);
-        let mut parts: Vec<usize> = self.boxes.locate_in_envelope_intersecting(window).map(|part| part.data).collect();
-        parts.sort_unstable();
-        parts
+        self.boxes_near([centre], self.extent + WINDOW)
     }
 
     /// The centre of the next window of a platform that is at `position` and is told to go on with `velocity` (m/s).
@@ -81,9 +78,82 @@ impl Reach {
     /// Distance (m) of a whisker's base from what is nearest; infinite where there is nothing.
     #[must_use]
     pub fn clearance(&self, whisker: &Whisker, body: &Pose) -> f64 {
-        let base = body.point_to_world(whisker.base_body);
-        self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(base))
+        self.distance(body.point_to_world(whisker.base_body))
     }
+
+    /// Distance (m) of a place from what is nearest; infinite where there is nothing.
+    fn distance(&self, place: Point2) -> f64 {
+        self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(place))
+    }
+
+    /// A bound on how far (m) anything of the rig that is fixed to the platform went from one pose to another.
+    #[must_use]
+    pub fn way(&self, from: &Pose, to: &Pose) -> f64 {
+        (to.position - from.position).norm() + (to.heading - from.heading).abs() * self.extent
+    }
+
+    /// Of every link of a whisker, given by their starts (m, world frame) and directions (rad), the parts that it may touch before
+    /// anything of it has gone as far as `slack` (m).
+    pub fn near_links<'a>(
+        &'a self,
+        whisker: &'a Whisker,
+        links: impl Iterator<Item = (Point2, f64)> + 'a,
+        slack: f64,
+    ) -> impl Iterator<Item = (usize, usize)> + 'a {
+        let (shaft, length) = (&whisker.shaft, whisker.shaft.link_length());
+        let mut skip = 0;
+        let near = links.enumerate().filter_map(move |(link, (start, direction))| {
+            if link < skip {
+                return None;
+            }
+            let along = length * unit(direction);
+            let reach = shaft.link_radius(link) + slack + TOLERANCE;
+            let clearance = self.distance(start + 0.5 * along) - 0.5 * length - reach;
+            if clearance > 0.0 {
+                // The middle of the next link is at most a link farther on.
+                skip = whole_links(clearance, length).saturating_add(link + 1);
+                return None;
+            }
+            Some((link, self.parts_near([start, start + along], reach)))
+        });
+        near.flat_map(|(link, parts)| parts.into_iter().map(move |part| (link, part)))
+    }
+
+    /// The parts that the platform's body at this pose may touch before anything of it has gone as far as `slack` (m).
+    #[must_use]
+    pub fn near_body(&self, platform: &Platform, body: &Pose, slack: f64) -> Vec<usize> {
+        let corners = platform.outline_body();
+        let radius = corners.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max);
+        if self.distance(body.position) > radius + slack + TOLERANCE {
+            return Vec::new();
+        }
+        self.parts_near(corners.map(|corner| body.point_to_world(corner)), slack + TOLERANCE)
+    }
+
+    /// The parts, ascending, that may come as near as `reach` (m) to what is between these points.
+    fn parts_near<const N: usize>(&self, points: [Point2; N], reach: f64) -> Vec<usize> {
+        let mut parts = self.boxes_near(points, reach);
+        parts.retain(|part| self.parts.get(*part).is_none_or(|part| !part.is_apart(&points, reach)));
+        parts
+    }
+
+    /// The parts, ascending, whose boxes come as near as `reach` (m) to the box about these points.
+    fn boxes_near<const N: usize>(&self, points: [Point2; N], reach: f64) -> Vec<usize> {
+        let nowhere = (Point2::from(Vector2::repeat(f64::INFINITY)), Point2::from(Vector2::repeat(f64::NEG_INFINITY)));
+        let (low, high) = points.iter().fold(nowhere, |(low, high), point| (low.inf(point), high.sup(point)));
+        let (low, high) = (low - Vector2::repeat(reach), high + Vector2::repeat(reach));
+        let window = AABB::from_corners([low.x, low.y], [high.x, high.y]);
+        let mut parts: Vec<usize> = self.boxes.locate_in_envelope_intersecting(window).map(|part| part.data).collect();
+        parts.sort_unstable();
+        parts
+    }
+}
+
+/// How many links of this length (m) fit into a way (m).
+fn whole_links(way: f64, length: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates: more links than there are")]
+    let links = (way / length) as usize;
+    links
 }
 
 /// The first link of a whisker that can touch something while its base, that far (m) from it, goes as far as `travel` (m); as many as

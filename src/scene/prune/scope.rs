@@ -3,13 +3,15 @@
 use crate::rig::{Rig, Whisker};
 use crate::scene::Solid;
 
-/// How much of a scene a model holds: which convex parts are there, and which whiskers bend.
+/// How much of a scene a model holds: which convex parts are there, which whiskers bend, and what it looks for contacts of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Scope {
     /// The parts of all solids, one after the other, by their indices, ascending.
     parts: Vec<usize>,
     /// Of every whisker of the rig, whether it is a rigid part of the platform.
     rigid: Vec<bool>,
+    /// How many pairs of what may touch have room, if they are named from time to time; else all are declared.
+    room: Option<usize>,
 }
 
 impl Scope {
@@ -17,7 +19,7 @@ impl Scope {
     #[must_use]
     pub fn whole(rig: &Rig, solids: &[Solid]) -> Self {
         let count = solids.iter().flat_map(Solid::parts).count();
-        Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()] }
+        Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()], room: None }
     }
 
     /// The same whiskers before these parts, given by their indices, ascending.
@@ -33,16 +35,34 @@ impl Scope {
         self
     }
 
+    /// The same, with room for so many pairs of what may touch.
+    #[must_use]
+    pub fn with_room(self, pairs: usize) -> Self {
+        Self { room: Some(pairs), ..self }
+    }
+
+    /// How many pairs of what may touch have room; none where all are declared.
+    #[must_use]
+    pub fn room(&self) -> Option<usize> {
+        self.room
+    }
+
     /// How many parts there are.
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.parts.len()
     }
 
+    /// Where the part with this index comes among those that are there.
+    #[must_use]
+    pub fn rank_of_part(&self, index: usize) -> Option<usize> {
+        self.parts.binary_search(&index).ok()
+    }
+
     /// Whether the part with this index is there.
     #[must_use]
     pub fn has_part(&self, index: usize) -> bool {
-        self.parts.binary_search(&index).is_ok()
+        self.rank_of_part(index).is_some()
     }
 
     /// Whether both have the same parts.

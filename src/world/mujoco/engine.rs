@@ -5,8 +5,8 @@ use std::ops::Range;
 use mujoco_rs::prelude::{MjData, MjModel};
 use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
-use crate::geometry::{Point2, Pose, Vector2};
-use crate::rig::{Rig, ShaftModel};
+use crate::geometry::{Point2, Pose, Vector2, unit};
+use crate::rig::{Rig, Shaft, ShaftModel, Whisker};
 use crate::scene::{Scope, Solid, mjcf_within};
 use crate::world::Fault;
 
@@ -15,6 +15,22 @@ use super::world::MujocoError;
 
 /// The joints of the platform come first: along x, along y, yaw.
 const PLATFORM_JOINTS: usize = 3;
+
+/// What of a rig may touch something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Member {
+    /// The platform's body.
+    Body,
+    /// A link, by the indices of its whisker and along that.
+    Link(usize, usize),
+}
+
+/// A part of a solid, by its index, and what may touch it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) of: Member,
+    pub(super) part: usize,
+}
 
 /// A state: positions, velocities, and the accelerations that the solver begins with.
 #[derive(Debug, Clone)]
@@ -34,8 +50,6 @@ struct Joints {
 /// A compiled model of as much of a scene as its scope says, and its state.
 pub(super) struct Engine {
     data: MjData<Box<MjModel>>,
-    /// A model of the same layout, which is changed and then takes the other's place: models in use cannot be changed.
-    spare: Option<Box<MjModel>>,
     kept: State,
     pub(super) scope: Scope,
     /// The joints of every whisker that bends.
@@ -44,10 +58,8 @@ pub(super) struct Engine {
     /// The geom of the first link of every whisker that bends; those of the others come one after the other.
     first_links: Vec<Option<usize>>,
     platform_geom: i32,
-    /// Whether contacts are a matter of masks; else of pairs.
-    by_masks: bool,
-    /// The first link of every whisker that the engine looks for contacts of.
-    touching_from: Vec<usize>,
+    /// How many pairs there is room for.
+    room: usize,
 }
 
 impl Engine {
@@ -77,8 +89,7 @@ impl Engine {
             (position, velocity) = (positions.end, velocities.end);
             joints[index] = Some(Joints { positions, velocities });
         }
-        let by_masks = model.pair_margin().is_empty();
-        let spare = Some(model.clone());
+        let room = model.pair_margin().len();
         let mut data = MjData::try_new(model).map_err(|error| refused(&error))?;
         data.reset_keyframe(0).map_err(|error| refused(&error))?;
         let kept = State {
@@ -86,12 +97,12 @@ impl Engine {
             velocities: data.qvel().to_vec(),
             accelerations: data.qacc_warmstart().to_vec(),
         };
-        let touching_from = vec![0; rig.whiskers.len()];
-        Ok(Self { data, spare, kept, scope, joints, shafts, first_links, platform_geom, by_masks, touching_from })
+        Ok(Self { data, kept, scope, joints, shafts, first_links, platform_geom, room })
     }
 
     /// Goes on from another's state. A whisker that was rigid there is straight and at rest; one that is rigid here was.
     pub(super) fn resume(&mut self, other: &Self) {
+        self.data.ctrl_mut().copy_from_slice(other.data.ctrl());
         let platform = Joints { positions: 0..PLATFORM_JOINTS, velocities: 0..PLATFORM_JOINTS };
         let own = std::iter::once(Some(platform.clone())).chain(self.joints.iter().cloned()).collect::<Vec<_>>();
         let others = std::iter::once(Some(platform)).chain(other.joints.iter().cloned());
@@ -112,33 +123,38 @@ impl Engine {
         }
     }
 
-    /// Lets the engine look for contacts of every whisker's links from these on, and of no other link.
-    pub(super) fn touch_from(&mut self, rig: &Rig, first: &[usize]) {
-        if self.touching_from == first {
-            return;
-        }
-        let Some(mut model) = self.spare.take() else { return };
-        for (index, whisker) in self.scope.flexible(rig) {
-            let Some(first_link) = self.first_links[index] else { continue };
-            for link in 0..whisker.shaft.links {
-                let body = usize::try_from(model.geom_bodyid()[first_link + link]).unwrap_or_default();
-                let touches = self.by_masks && link >= first[index];
-                model.geom_conaffinity_mut()[first_link + link] = i32::from(touches);
-                model.body_conaffinity_mut()[body] = i32::from(touches);
+    /// Lets the engine look for contacts of these pairs alone, ascending; there must be [room](Scope::room) for them.
+    pub(super) fn look_for(&mut self, pairs: &[Pair]) {
+        let geoms = pairs.iter().filter_map(|pair| Some((self.part_geom(pair.part)?, self.geom(pair.of)?)));
+        let geoms: Vec<_> = geoms.take(self.room).collect();
+        #[expect(unsafe_code, reason = "pairs are a table that the engine takes for its own")]
+        // SAFETY: no size changes but the number of pairs, on which nothing of the data depends, and that to no more than the model was
+        // compiled with; all pairs name geoms of the model, whose kinds were among those that it was compiled with.
+        let model = unsafe {
+            let model = self.data.model_mut();
+            model.ffi_mut().npair = geoms.len() as _;
+            for (slot, (part, other)) in geoms.iter().enumerate() {
+                model.pair_geom1_mut()[slot] = *part;
+                model.pair_geom2_mut()[slot] = *other;
             }
-            let links = first_link..first_link + whisker.shaft.links;
-            for pair in 0..model.pair_margin().len() {
-                let geoms = [model.pair_geom1()[pair], model.pair_geom2()[pair]]
-                    .map(|geom| usize::try_from(geom).unwrap_or_default());
-                if let Some(link) = geoms.into_iter().find(|geom| links.contains(geom)) {
-                    let margin = if link - first_link >= first[index] { 0.0 } else { never(&model, geoms) };
-                    model.pair_margin_mut()[pair] = margin;
-                }
-            }
+            model
+        };
+        for (slot, (_, other)) in geoms.into_iter().enumerate() {
+            // The part's body is the world, which is 0.
+            let body = usize::try_from(other).map(|geom| model.geom_bodyid()[geom]);
+            model.pair_signature_mut()[slot] = body.unwrap_or_default();
         }
-        self.touching_from.copy_from_slice(first);
-        // The two have the same layout, as one is the other's clone.
-        self.spare = Some(self.data.swap_model(model));
+    }
+
+    fn part_geom(&self, part: usize) -> Option<i32> {
+        i32::try_from(self.scope.rank_of_part(part)?).ok()
+    }
+
+    fn geom(&self, of: Member) -> Option<i32> {
+        match of {
+            Member::Body => Some(self.platform_geom),
+            Member::Link(whisker, link) => i32::try_from(self.first_links[whisker]? + link).ok(),
+        }
     }
 
     /// Sets the velocities that the servos are to reach (m/s, rad/s).
@@ -206,39 +222,59 @@ impl Engine {
         (Vector2::new(velocities[0], velocities[1]), velocities[2])
     }
 
-    /// The angle (rad) of a whisker's hinge; 0 if it is rigid.
-    pub(super) fn base_angle(&self, whisker: usize) -> f64 {
-        self.joints[whisker].as_ref().map_or(0.0, |joints| self.data.qpos()[joints.positions.start])
+    /// Of every link of a whisker that bends, where it begins (m, world frame), and its direction (rad).
+    pub(super) fn links(&self, rig: &Rig, whisker: usize) -> impl Iterator<Item = (Point2, f64)> {
+        let Whisker { base_body, direction_body, shaft, .. } = &rig.whiskers[whisker];
+        let (body, length) = (self.body(), shaft.link_length());
+        let mut angles = self.angles(whisker);
+        let mut start = body.point_to_world(*base_body);
+        let mut direction = body.heading + direction_body + angles.next().unwrap_or(0.0);
+        angles.map(move |turn| {
+            direction += turn;
+            let link = (start, direction);
+            start += length * unit(direction);
+            link
+        })
     }
 
-    /// How far (rad) every link of a whisker is turned against what it is on, of so many links.
-    pub(super) fn turns(&self, whisker: usize, links: usize) -> Vec<f64> {
-        let Some(joints) = &self.joints[whisker] else { return vec![0.0; links] };
-        let along = &self.data.qpos()[joints.positions.start + 1..joints.positions.end];
-        match self.shafts {
-            ShaftModel::Chain => along.to_vec(),
-            ShaftModel::Cable => {
-                let about_vertical = |quaternion: &[f64]| 2.0 * quaternion[3].atan2(quaternion[0]);
-                std::iter::once(0.0).chain(along.chunks_exact(4).map(about_vertical)).collect()
-            }
-        }
+    /// The angles (rad) by which a whisker's hinge is turned, and then every link against what it is on; none if it is rigid.
+    pub(super) fn angles(&self, whisker: usize) -> impl Iterator<Item = f64> {
+        let joints = self.joints[whisker].as_ref();
+        let positions = joints.map_or(&[][..], |joints| &self.data.qpos()[joints.positions.clone()]);
+        self.by_joint(positions, 4).map(|position| match position {
+            [angle] => *angle,
+            // A quaternion about the vertical.
+            [cosine, .., sine] => 2.0 * sine.atan2(*cosine),
+            [] => 0.0,
+        })
     }
 
-    /// A bound on the speed (m/s) of a whisker's points against its base: no joint moves the tip faster than the shaft behind it is long.
+    /// A bound on the speed (m/s) of a whisker's points against its base.
     pub(super) fn speed(&self, rig: &Rig, whisker: usize) -> f64 {
-        let Some(joints) = &self.joints[whisker] else { return 0.0 };
-        let shaft = &rig.whiskers[whisker].shaft;
-        let behind = |link: usize| shaft.length - link as f64 * shaft.link_length();
-        let rates = &self.data.qvel()[joints.velocities.clone()];
-        let Some((hinge, along)) = rates.split_first() else { return 0.0 };
-        let of_shaft: f64 = match self.shafts {
-            ShaftModel::Chain => along.iter().enumerate().map(|(link, rate)| rate.abs() * behind(link)).sum(),
-            ShaftModel::Cable => {
-                let norm = |rates: &[f64]| rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
-                along.chunks_exact(3).enumerate().map(|(joint, rates)| norm(rates) * behind(joint + 1)).sum()
-            }
+        let joints = self.joints[whisker].as_ref();
+        let velocities = joints.map_or(&[][..], |joints| &self.data.qvel()[joints.velocities.clone()]);
+        let rates = self.by_joint(velocities, 3).map(|velocity| match velocity {
+            [rate] => *rate,
+            rates => rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt(),
+        });
+        swing(&rig.whiskers[whisker].shaft, rates)
+    }
+
+    /// What belongs to a whisker's hinge, and then to every link, of what its joints have, of which a ball has so many. A cable's first
+    /// link is clamped, and has nothing.
+    fn by_joint<'a>(&self, of_joints: &'a [f64], of_ball: usize) -> impl Iterator<Item = &'a [f64]> + use<'a> {
+        let (hinge, along) = of_joints.split_at(of_joints.len().min(1));
+        let (clamped, of_link) = match self.shafts {
+            ShaftModel::Chain => (0, 1),
+            ShaftModel::Cable => (hinge.len(), of_ball),
         };
-        hinge.abs() * shaft.length + of_shaft
+        hinge.chunks_exact(1).chain(std::iter::repeat_n(&[][..], clamped)).chain(along.chunks_exact(of_link))
+    }
+
+    /// A bound on how far (m) a whisker's points went against its base since its joints were at these angles (rad).
+    pub(super) fn swing_since(&self, rig: &Rig, whisker: usize, angles: &[f64]) -> f64 {
+        let turns = self.angles(whisker).zip(angles).map(|(angle, before)| angle - before);
+        swing(&rig.whiskers[whisker].shaft, turns)
     }
 
     /// Axial force and shear (N) that act on a whisker's shaft at its base. Needs forces to be sensed.
@@ -261,10 +297,11 @@ impl Engine {
     }
 }
 
-/// The margin (m) at which the engine drops a pair at its first look: it compares the distance of two middles with the sum of the radii
-/// of the spheres about both and the margin, by their squares.
-fn never(model: &MjModel, geoms: [usize; 2]) -> f64 {
-    -geoms.into_iter().filter_map(|geom| model.geom_rbound().get(geom)).sum::<f64>()
+/// A bound on how far (m) turns (rad) of a whisker's joints move its points, or on their speed: no joint moves the tip by more than the
+/// shaft behind it is long.
+fn swing(shaft: &Shaft, turns: impl Iterator<Item = f64>) -> f64 {
+    let length = |joint: usize| shaft.length - joint.saturating_sub(1) as f64 * shaft.link_length();
+    turns.enumerate().map(|(joint, turn)| turn.abs() * length(joint)).sum()
 }
 
 impl From<MujocoError> for Fault {

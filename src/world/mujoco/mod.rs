@@ -1,6 +1,7 @@
 //! The MuJoCo world.
 
 mod engine;
+mod lookout;
 mod messages;
 mod plugin;
 mod pruner;

@@ -2,10 +2,11 @@
 
 use crate::geometry::{Point2, Pose};
 use crate::rig::Rig;
-use crate::scene::{Reach, Scope, Solid, first_link_in_reach, is_gentle, may_be_rigid};
+use crate::scene::{Reach, Scope, Solid, is_gentle, may_be_rigid};
 use crate::signal::Command;
 
 use super::engine::Engine;
+use super::lookout::Lookout;
 use super::world::MujocoError;
 
 /// A whisker in the air is at rest when its hinge reads less than this share of the contact threshold,
@@ -14,6 +15,8 @@ const REST: f64 = 0.01;
 const REST_SPEED: f64 = 2e-3;
 /// How much farther than by its velocities a platform may go in a tick, as a share, and besides (m).
 const TRAVEL: (f64, f64) = (0.5, 1e-3);
+/// For how many pairs of what may touch a model has room at first.
+const ROOM: usize = 64;
 
 /// What keeps the model to what is in reach.
 pub(super) struct Pruner {
@@ -25,7 +28,7 @@ pub(super) struct Pruner {
     window: Option<Point2>,
     /// Other models of the same parts, with other whiskers rigid.
     others: Vec<Engine>,
-    first_links: Vec<usize>,
+    lookout: Lookout,
 }
 
 impl Pruner {
@@ -36,7 +39,7 @@ impl Pruner {
             solids: solids.to_vec(),
             window: None,
             others: Vec::new(),
-            first_links: vec![0; rig.whiskers.len()],
+            lookout: Lookout::default(),
         }
     }
 
@@ -48,9 +51,12 @@ impl Pruner {
                 rig.physics.rigid_in_air && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
             scope = scope.with_rigid(index, is_rigid);
         }
-        if self.prune && self.reach.is_windowed() {
-            scope = scope.with_parts(self.reach.parts_about(start.position));
-            self.window = Some(start.position);
+        if self.prune {
+            scope = scope.with_room(ROOM);
+            if self.reach.is_windowed() {
+                scope = scope.with_parts(self.reach.parts_about(start.position));
+                self.window = Some(start.position);
+            }
         }
         Engine::new(rig, &self.solids, start, scope)
     }
@@ -67,9 +73,6 @@ impl Pruner {
         for (index, whisker) in rig.whiskers.iter().enumerate() {
             let travel = travel(whisker.base_body.coords.norm());
             let clearance = self.reach.clearance(whisker, &body);
-            if self.prune {
-                self.first_links[index] = first_link_in_reach(whisker, clearance, travel);
-            }
             let is_rigid = engine.scope.is_rigid(index);
             let stays = rig.physics.rigid_in_air
                 && may_be_rigid(whisker, clearance, travel, is_rigid)
@@ -87,11 +90,24 @@ impl Pruner {
         if scope != engine.scope {
             self.replace(rig, engine, scope)?;
         }
-        engine.touch_from(rig, &self.first_links);
         Ok(())
     }
 
+    /// Lets the engine look for contacts of what is near where it is now, and of nothing else.
+    pub(super) fn look(&mut self, rig: &Rig, engine: &mut Engine) -> Result<(), MujocoError> {
+        let Some(room) = engine.scope.room() else { return Ok(()) };
+        let Some(pairs) = self.lookout.changed(rig, &self.reach, engine) else { return Ok(()) };
+        if pairs.len() <= room {
+            engine.look_for(pairs);
+            return Ok(());
+        }
+        let scope = engine.scope.clone().with_room(2 * pairs.len());
+        self.replace(rig, engine, scope)?;
+        self.look(rig, engine)
+    }
+
     fn replace(&mut self, rig: &Rig, engine: &mut Engine, scope: Scope) -> Result<(), MujocoError> {
+        self.lookout.forget();
         if !scope.has_parts_of(&engine.scope) {
             self.others.clear();
         }
@@ -111,5 +127,6 @@ impl Pruner {
 
 /// Whether a whisker hangs in the air as still as if it were rigid.
 fn is_at_rest(rig: &Rig, engine: &Engine, whisker: usize) -> bool {
-    engine.base_angle(whisker).abs() < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
+    let reading = engine.angles(whisker).next().map_or(0.0, f64::abs);
+    reading < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
 }

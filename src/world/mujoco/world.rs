@@ -100,7 +100,7 @@ impl MujocoWorld {
     pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
         let shaft = &self.rig.whiskers[whisker].shaft;
         let (place, link) = self.engine.deepest(whisker, shaft.links)?;
-        let (start, direction) = self.link(whisker, link);
+        let (start, direction) = self.engine.links(&self.rig, whisker).nth(link)?;
         let along = (place - start).dot(&unit(direction)).clamp(0.0, shaft.link_length());
         Some((place, link as f64 * shaft.link_length() + along))
     }
@@ -110,20 +110,6 @@ impl MujocoWorld {
     pub fn energy(&mut self) -> f64 {
         self.engine.refresh();
         self.engine.energy()
-    }
-
-    /// Where a link of a whisker begins (m, world frame), and its direction (rad).
-    fn link(&self, whisker: usize, link: usize) -> (Point2, f64) {
-        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
-        let body = self.engine.body();
-        let turns = self.engine.turns(whisker, shaft.links);
-        let mut start = body.point_to_world(*base_body);
-        let mut direction = body.heading + direction_body + self.engine.base_angle(whisker) + turns[0];
-        for turn in &turns[1..=link] {
-            start += shaft.link_length() * unit(direction);
-            direction += turn;
-        }
-        (start, direction)
     }
 
     fn time(&self) -> f64 {
@@ -169,6 +155,7 @@ impl MujocoWorld {
         while done < self.steps_per_sample {
             if self.steps_in_calm == 1 || !self.passes_calmly()? {
                 for _ in 0..self.steps_in_calm {
+                    self.pruner.look(&self.rig, &mut self.engine)?;
                     self.step(1)?;
                     for whisker in 0..self.sprung.len() {
                         self.sprung[whisker] |= self.is_springing(whisker);
@@ -186,6 +173,7 @@ impl MujocoWorld {
         if !self.is_calm() {
             return Ok(false);
         }
+        self.pruner.look(&self.rig, &mut self.engine)?;
         self.engine.keep();
         self.step(self.steps_in_calm)?;
         let is_calm = self.is_calm();
@@ -202,7 +190,7 @@ impl MujocoWorld {
         }
         let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
         for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
-            reading.base_angle = self.sensors.read(self.engine.base_angle(index));
+            reading.base_angle = self.sensors.read(self.engine.angles(index).next().unwrap_or(0.0));
             if self.rig.sensing.forces {
                 let (axial, shear) = self.engine.base_forces(index);
                 (reading.axial, reading.shear) =
@@ -240,8 +228,13 @@ impl World for MujocoWorld {
     }
 
     fn tip(&self, whisker: usize) -> Point2 {
-        let shaft = &self.rig.whiskers[whisker].shaft;
-        let (start, direction) = self.link(whisker, shaft.links - 1);
-        start + shaft.link_length() * unit(direction)
+        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
+        let body = self.engine.body();
+        let rigid = (body.point_to_world(*base_body), body.heading + direction_body);
+        let last = self.engine.links(&self.rig, whisker).last();
+        last.map_or_else(
+            || rigid.0 + shaft.length * unit(rigid.1),
+            |(start, direction)| start + shaft.link_length() * unit(direction),
+        )
     }
 }
