@@ -28,7 +28,7 @@ pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use jitter::Jitter;
 pub use mjcf::{mjcf, mjcf_within};
 pub use part::Part;
-pub use prune::{Decision, Pruning, Reach, Scope, Verdict, first_link_in_reach, is_gentle, may_be_rigid};
+pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
 pub use scenario::{Files, Scene};
 pub use solid::{Solid, SolidError};
 pub use stop::{LoopClosed, Reached, Stalled, Stop};

@@ -63,7 +63,7 @@ impl Solid {
     }
 
     /// A wall (world frame), whose `face` is the side that is to be touched: chords for its bends lie within 10 µm of it, and
-    /// within 50 µm of the other side.
+    /// within 0.1 mm of the other side.
     ///
     /// A wall along a closed line has its face for its outline: what it encloses cannot be reached, and counts as solid.
     ///

@@ -5,5 +5,5 @@ mod reach;
 mod scope;
 
 pub use pruning::{Decision, Pruning, Verdict};
-pub use reach::{Reach, first_link_in_reach, is_gentle, may_be_rigid};
+pub use reach::{Reach, is_gentle, may_be_rigid};
 pub use scope::Scope;

@@ -4,11 +4,11 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, unit};
 use crate::rig::{Rig, Whisker};
 use crate::scene::{Solid, WorldKind};
 
-use super::reach::{Reach, first_link_in_reach, may_be_rigid};
+use super::reach::{Reach, may_be_rigid};
 
 /// What becomes of something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -82,15 +82,12 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, solids: &[Solid], start: 
         });
     }
     let links: usize = rig.whiskers.iter().map(|whisker| whisker.shaft.links).sum();
-    let unreached =
-        rig.whiskers.iter().map(|whisker| first_link_in_reach(whisker, reach.clearance(whisker, &start), 0.0));
-    let unreached: usize = unreached.sum();
+    let touchable: usize = rig.whiskers.iter().map(|whisker| near_straight(&reach, whisker, &start)).sum();
     decisions.push(Decision {
         verdict: Verdict::LeftOut,
-        subject: "contacts of links out of reach".to_owned(),
-        saves: Some(format!("{} of {} pairs at the start", unreached * near, links * near)),
-        why: "a whisker does not stretch, so that no link gets farther from the base than the shaft is long up to there; \
-              the distance of the base from the exact outlines is taken in every tick"
+        subject: "contacts of links and parts that are not near each other".to_owned(),
+        saves: Some(format!("{} of {} pairs at the start", links * near - touchable, links * near)),
+        why: "what is near is looked up anew before anything of the rig has gone 2 mm; by then nothing else can touch"
             .to_owned(),
     });
     if !rig.sensing.forces {
@@ -127,6 +124,13 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, solids: &[Solid], start: 
                 .to_owned(),
         });
     }
+}
+
+/// How many pairs of a link and a part are near each other while a whisker is straight.
+fn near_straight(reach: &Reach, whisker: &Whisker, body: &Pose) -> usize {
+    let (base, direction) = (body.point_to_world(whisker.base_body), body.heading + whisker.direction_body);
+    let start = |link: usize| base + link as f64 * whisker.shaft.link_length() * unit(direction);
+    reach.near_links(whisker, (0..whisker.shaft.links).map(|link| (start(link), direction)), 0.0).count()
 }
 
 fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {

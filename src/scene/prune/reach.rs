@@ -156,15 +156,6 @@ fn whole_links(way: f64, length: f64) -> usize {
     links
 }
 
-/// The first link of a whisker that can touch something while its base, that far (m) from it, goes as far as `travel` (m); as many as
-/// there are links where none can.
-#[must_use]
-pub fn first_link_in_reach(whisker: &Whisker, clearance: f64, travel: f64) -> usize {
-    let shaft = &whisker.shaft;
-    let reached = |link: usize| (link + 1) as f64 * shaft.link_length() + shaft.link_radius(link) + travel + TOLERANCE;
-    (0..shaft.links).find(|&link| reached(link) >= clearance).unwrap_or(shaft.links)
-}
-
 /// Whether a whisker whose base is that far (m) from everything, and goes as far as `travel` (m), stays rigid if it is, or may become so.
 #[must_use]
 pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bool) -> bool {

@@ -10,7 +10,7 @@ pub struct Scope {
     parts: Vec<usize>,
     /// Of every whisker of the rig, whether it is a rigid part of the platform.
     rigid: Vec<bool>,
-    /// How many pairs of what may touch have room, if they are named from time to time; else all are declared.
+    /// How many pairs of what may touch have room where they are named from time to time; elsewhere all are declared.
     room: Option<usize>,
 }
 

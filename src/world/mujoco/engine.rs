@@ -17,7 +17,7 @@ use super::world::MujocoError;
 const PLATFORM_JOINTS: usize = 3;
 
 /// What of a rig may touch something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Member {
     /// The platform's body.
     Body,
@@ -26,7 +26,7 @@ pub(super) enum Member {
 }
 
 /// A part of a solid, by its index, and what may touch it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub(super) of: Member,
     pub(super) part: usize,
@@ -127,12 +127,13 @@ impl Engine {
     pub(super) fn look_for(&mut self, pairs: &[Pair]) {
         let geoms = pairs.iter().filter_map(|pair| Some((self.part_geom(pair.part)?, self.geom(pair.of)?)));
         let geoms: Vec<_> = geoms.take(self.room).collect();
+        let Ok(count) = geoms.len().try_into() else { return };
         #[expect(unsafe_code, reason = "pairs are a table that the engine takes for its own")]
         // SAFETY: no size changes but the number of pairs, on which nothing of the data depends, and that to no more than the model was
         // compiled with; all pairs name geoms of the model, whose kinds were among those that it was compiled with.
         let model = unsafe {
             let model = self.data.model_mut();
-            model.ffi_mut().npair = geoms.len() as _;
+            model.ffi_mut().npair = count;
             for (slot, (part, other)) in geoms.iter().enumerate() {
                 model.pair_geom1_mut()[slot] = *part;
                 model.pair_geom2_mut()[slot] = *other;
