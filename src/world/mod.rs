@@ -16,7 +16,7 @@ use crate::geometry::Point2;
 use crate::signal::{Command, Sample};
 
 /// A whisker of which something moves faster than this (m/s) against its base springs: it has slipped off what bent it.
-const SPRINGING: f64 = 0.2;
+const SPRINGING: f64 = 0.1;
 
 /// A world with a rig in it.
 pub trait World {
@@ -31,7 +31,7 @@ pub trait World {
     fn body_touches(&self) -> bool;
 
     /// Whether a whisker, by its index in the rig, sprang during the last control period, as one does that slips off a corner:
-    /// something of it was faster than 0.2 m/s against its base. No sensor reports this either.
+    /// something of it was faster than 0.1 m/s against its base. No sensor reports this either.
     fn springs(&self, whisker: usize) -> bool;
 
     /// Where the end of a whisker, by its index in the rig, is at the newest sample (m, world frame). No sensor reports this either.

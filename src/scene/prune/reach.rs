@@ -81,9 +81,13 @@ impl Reach {
         self.distance(body.point_to_world(whisker.base_body))
     }
 
-    /// Distance (m) of a place from what is nearest; infinite where there is nothing.
+    /// Distance (m) of a place from what is nearest; 0 within a solid, and infinite where there is nothing.
     fn distance(&self, place: Point2) -> f64 {
-        self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(place))
+        if self.parts_near([place], 0.0).is_empty() {
+            self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(place))
+        } else {
+            0.0
+        }
     }
 
     /// A bound on how far (m) anything of the rig that is fixed to the platform went from one pose to another.

@@ -136,7 +136,7 @@ impl MujocoWorld {
         Ok(())
     }
 
-    /// Whether no whisker moves fast, and the body touches nothing. A calm whisker goes two thirds of a millimetre in a step of 3.3 ms.
+    /// Whether no whisker moves fast, and the body touches nothing. A calm whisker goes a third of a millimetre in a step of 3.3 ms.
     fn is_calm(&self) -> bool {
         !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_springing(whisker))
     }
