@@ -75,7 +75,7 @@ impl Clone for Box<dyn TipModel> {
 
 /// How far a surface may be from where the mechanics have it (m), as a standard deviation: contacts are a little soft, and a tip that
 /// slides drags. A whole scene may be off to the same side by this.
-pub(super) const CONTACT_SPREAD: f64 = 2.1e-5;
+pub(super) const CONTACT_SPREAD: f64 = 2.2e-5;
 
 /// A covariance in a frame that is turned back by an angle (rad).
 pub(super) fn turned(covariance: &Matrix2<f64>, angle: f64) -> Matrix2<f64> {
