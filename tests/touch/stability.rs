@@ -14,7 +14,7 @@ fn energies(rig: &Rig) -> Vec<f64> {
     }
     let mut after = |_| {
         world.advance(&Command::STOP).unwrap();
-        world.energy()
+        world.energy().unwrap()
     };
     (0..60).map(&mut after).collect()
 }
@@ -58,7 +58,7 @@ fn an_integrator_that_is_not_stable_gains_energy_or_says_so() {
     let gained = (0..60).any(|tick| {
         let command = if tick < 2 { shake } else { Command::STOP };
         let is_lost = world.advance(&command).is_err();
-        let energy = world.energy();
+        let energy = world.energy().unwrap();
         let gains = tick > 2 && energy > before;
         before = energy;
         is_lost || gains

@@ -65,10 +65,10 @@ impl Scope {
         self.rank_of_part(index).is_some()
     }
 
-    /// Whether both have the same parts.
+    /// Whether both are alike but for what whiskers are rigid.
     #[must_use]
-    pub fn has_parts_of(&self, other: &Self) -> bool {
-        self.parts == other.parts
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.parts == other.parts && self.room == other.room
     }
 
     /// Whether a whisker, by its index in the rig, is a rigid part of the platform.

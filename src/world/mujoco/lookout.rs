@@ -8,7 +8,9 @@ use super::engine::{Engine, Member, Pair};
 
 /// How far (m) anything of the rig may go before what is near is looked up anew.
 const SLACK: f64 = 2e-3;
-/// How far (m) it may go within a step, to places that the engine looks at before the step is over.
+/// How much farther than that (m) is looked, for integrators with inner stages: `RK4` looks for contacts at places that it comes to within
+/// a step. This is no bound on the way there, which may be longer in a step of milliseconds while a whisker springs; all others
+/// look for contacts only where a step begins, where what is near has just been looked up.
 const WITHIN_STEP: f64 = 1e-3;
 
 /// What names the pairs of a model: links and parts that are near each other.

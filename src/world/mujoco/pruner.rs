@@ -15,26 +15,24 @@ const REST: f64 = 0.01;
 const REST_SPEED: f64 = 2e-3;
 /// How much farther than by its velocities a platform may go in a tick, as a share, and besides (m).
 const TRAVEL: (f64, f64) = (0.5, 1e-3);
-/// For how many pairs of what may touch a model has room at first.
-const ROOM: usize = 64;
-
 /// What keeps the model to what is in reach.
 pub(super) struct Pruner {
-    /// Whether parts and links out of reach are left out; else it is only a matter of rigid whiskers.
-    prune: bool,
+    /// For how many pairs of what may touch a model has room at first, where parts and contacts out of reach are left out; else it is
+    /// only a matter of rigid whiskers.
+    room: Option<usize>,
     reach: Reach,
     solids: Vec<Solid>,
     /// The middle of the window in which the parts of the model are all that can be reached.
     window: Option<Point2>,
-    /// Other models of the same parts, with other whiskers rigid.
+    /// Other models of the same parts and with the same room, with other whiskers rigid.
     others: Vec<Engine>,
     lookout: Lookout,
 }
 
 impl Pruner {
-    pub(super) fn new(rig: &Rig, solids: &[Solid], prune: bool) -> Self {
+    pub(super) fn new(rig: &Rig, solids: &[Solid], room: Option<usize>) -> Self {
         Self {
-            prune,
+            room,
             reach: Reach::new(rig, solids),
             solids: solids.to_vec(),
             window: None,
@@ -51,8 +49,8 @@ impl Pruner {
                 rig.physics.rigid_in_air && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
             scope = scope.with_rigid(index, is_rigid);
         }
-        if self.prune {
-            scope = scope.with_room(ROOM);
+        if let Some(room) = self.room {
+            scope = scope.with_room(room);
             if self.reach.is_windowed() {
                 scope = scope.with_parts(self.reach.parts_about(start.position));
                 self.window = Some(start.position);
@@ -108,7 +106,7 @@ impl Pruner {
 
     fn replace(&mut self, rig: &Rig, engine: &mut Engine, scope: Scope) -> Result<(), MujocoError> {
         self.lookout.forget();
-        if !scope.has_parts_of(&engine.scope) {
+        if !scope.is_like(&engine.scope) {
             self.others.clear();
         }
         let known = self.others.iter().position(|other| other.scope == scope);
@@ -118,7 +116,7 @@ impl Pruner {
         };
         next.resume(engine);
         let last = std::mem::replace(engine, next);
-        if last.scope.has_parts_of(&engine.scope) {
+        if last.scope.is_like(&engine.scope) {
             self.others.push(last);
         }
         Ok(())

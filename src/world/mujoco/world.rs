@@ -14,6 +14,9 @@ use super::messages::{WARNINGS, route_engine_messages};
 use super::plugin::load_cable_plugin;
 use super::pruner::Pruner;
 
+/// For how many pairs of what may touch a pruned model has room at first.
+const ROOM: usize = 64;
+
 /// Why a MuJoCo world could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum MujocoError {
@@ -57,7 +60,7 @@ impl MujocoWorld {
     /// # Errors
     /// [`MujocoError`] when MuJoCo refuses the model.
     pub fn new(rig: &Rig, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
-        Self::with(rig, solids, start, seed, false)
+        Self::with(rig, solids, start, seed, None)
     }
 
     /// The same, but looks only at parts of solids and links that are in reach.
@@ -65,15 +68,15 @@ impl MujocoWorld {
     /// # Errors
     /// [`MujocoError`] when MuJoCo refuses the model.
     pub fn pruned(rig: &Rig, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
-        Self::with(rig, solids, start, seed, true)
+        Self::with(rig, solids, start, seed, Some(ROOM))
     }
 
-    fn with(rig: &Rig, solids: &[Solid], start: Pose, seed: u64, prune: bool) -> Result<Self, MujocoError> {
+    fn with(rig: &Rig, solids: &[Solid], start: Pose, seed: u64, room: Option<usize>) -> Result<Self, MujocoError> {
         route_engine_messages();
         if rig.physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }
-        let mut pruner = Pruner::new(rig, solids, prune);
+        let mut pruner = Pruner::new(rig, solids, room);
         let engine = pruner.first(rig, start)?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
@@ -106,10 +109,12 @@ impl MujocoWorld {
     }
 
     /// The energy (J) in the springs and in the motion of platform and whiskers. No sensor reports this: it is for tests of the simulation.
-    #[must_use]
-    pub fn energy(&mut self) -> f64 {
-        self.engine.refresh();
-        self.engine.energy()
+    ///
+    /// # Errors
+    /// [`Fault::Model`] when MuJoCo refuses a model with room for more contacts.
+    pub fn energy(&mut self) -> Result<f64, Fault> {
+        self.refresh()?;
+        Ok(self.engine.energy())
     }
 
     fn time(&self) -> f64 {
@@ -184,9 +189,16 @@ impl MujocoWorld {
         Ok(is_calm)
     }
 
-    fn sample(&mut self) -> Sample {
+    /// Refreshes the engine, which looks for contacts where the last step has led: of what is near there, however far that is.
+    fn refresh(&mut self) -> Result<(), Fault> {
+        self.pruner.look(&self.rig, &mut self.engine)?;
+        self.engine.refresh();
+        Ok(())
+    }
+
+    fn sample(&mut self) -> Result<Sample, Fault> {
         if self.rig.sensing.forces {
-            self.engine.refresh();
+            self.refresh()?;
         }
         let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
         for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
@@ -197,7 +209,7 @@ impl MujocoWorld {
                     (Some(self.sensors.read_force(axial)), Some(self.sensors.read_force(shear)));
             }
         }
-        sample
+        Ok(sample)
     }
 }
 
@@ -210,7 +222,7 @@ impl World for MujocoWorld {
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
             self.pass()?;
-            let sample = self.sample();
+            let sample = self.sample()?;
             self.samples.push(sample);
         }
         if !self.engine.is_finite() {
