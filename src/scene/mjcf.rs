@@ -42,8 +42,8 @@ const YOUNG_OVER_SHEAR: f64 = 2.6;
 ///
 /// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
 /// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
-/// the shaft, of which a cable has no joint `w.0`, but an instance `w` of the plugin; the geom `object`, or where the solids have several convex parts the geoms `object/0`, `object/1`, …; the keyframe
-/// `start`.
+/// the shaft, of which a cable has no joint `w.0`, but an instance `w` of the plugin; the geom `object`, or where the solids have
+/// several convex parts the geoms `object/0`, `object/1`, …; the keyframe `start`.
 #[must_use]
 pub fn mjcf(rig: &Rig, solids: &[Solid], start: Pose) -> String {
     mjcf_within(rig, solids, start, &Scope::whole(rig, solids))
@@ -52,14 +52,24 @@ pub fn mjcf(rig: &Rig, solids: &[Solid], start: Pose) -> String {
 /// The same, with what `scope` says alone. A rigid whisker is one body, without joints and geoms; the other names stay as they are.
 #[must_use]
 pub fn mjcf_within(rig: &Rig, solids: &[Solid], start: Pose, scope: &Scope) -> String {
-    let all = solids.iter().flat_map(Solid::parts).count();
-    let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
-    let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
-    let parts: Vec<(String, &Part)> = parts.map(|(index, part)| (name(index), part)).collect();
+    let parts = named_parts(solids, scope);
     let mut xml = String::new();
     // Writing to a string cannot fail.
     let _ = write_model(&mut xml, rig, &parts, start, scope);
     xml
+}
+
+/// The parts of solids that are there, ascending, and what the model calls their geoms.
+fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
+    let all = solids.iter().flat_map(Solid::parts).count();
+    let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
+    let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
+    parts.map(|(index, part)| (name(index), part)).collect()
+}
+
+/// The names in the model of the geoms of the parts that `scope` has, ascending by the parts' indices.
+pub fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
+    named_parts(solids, scope).into_iter().map(|(name, _)| name)
 }
 
 fn write_model(xml: &mut String, rig: &Rig, parts: &[(String, &Part)], start: Pose, scope: &Scope) -> fmt::Result {

@@ -26,7 +26,7 @@ mod yaml;
 pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use jitter::Jitter;
-pub use mjcf::{mjcf, mjcf_within};
+pub use mjcf::{mjcf, mjcf_within, part_names};
 pub use part::Part;
 pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
 pub use scenario::{Files, Scene};

@@ -7,7 +7,7 @@ use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
 use crate::geometry::{Point2, Pose, Vector2, unit};
 use crate::rig::{Rig, Shaft, ShaftModel, Whisker};
-use crate::scene::{Scope, Solid, mjcf_within};
+use crate::scene::{Scope, Solid, mjcf_within, part_names};
 use crate::world::Fault;
 
 use super::messages::WARNINGS;
@@ -57,6 +57,8 @@ pub(super) struct Engine {
     shafts: ShaftModel,
     /// The geom of the first link of every whisker that bends; those of the others come one after the other.
     first_links: Vec<Option<usize>>,
+    /// The geoms of the parts that are there, ascending by the parts' indices.
+    part_geoms: Vec<i32>,
     platform_geom: i32,
     /// How many pairs there is room for.
     room: usize,
@@ -71,7 +73,9 @@ impl Engine {
             let id = model.name_to_id(MjtObjBase::mjOBJ_GEOM, name);
             id.ok_or_else(|| refused(&format_args!("it has no geom `{name}`")))
         };
-        let platform_geom = i32::try_from(geom("platform/body")?).map_err(|error| refused(&error))?;
+        let geom_id = |name: &str| i32::try_from(geom(name)?).map_err(|error| refused(&error));
+        let platform_geom = geom_id("platform/body")?;
+        let part_geoms = part_names(solids, &scope).map(|name| geom_id(&name)).collect::<Result<_, _>>()?;
         let mut joints = vec![None; rig.whiskers.len()];
         let mut first_links = joints.iter().map(|_| None).collect::<Vec<_>>();
         let shafts = rig.physics.shafts;
@@ -97,7 +101,7 @@ impl Engine {
             velocities: data.qvel().to_vec(),
             accelerations: data.qacc_warmstart().to_vec(),
         };
-        Ok(Self { data, kept, scope, joints, shafts, first_links, platform_geom, room })
+        Ok(Self { data, kept, scope, joints, shafts, first_links, part_geoms, platform_geom, room })
     }
 
     /// Goes on from another's state. A whisker that was rigid there is straight and at rest; one that is rigid here was.
@@ -123,17 +127,32 @@ impl Engine {
         }
     }
 
-    /// Lets the engine look for contacts of these pairs alone, ascending; there must be [room](Scope::room) for them.
+    /// Lets the engine look for contacts of these pairs alone, ascending by what may touch; there must be [room](Scope::room) for them.
     pub(super) fn look_for(&mut self, pairs: &[Pair]) {
+        // A part that is not there is out of the window, and so out of reach until the model is another; rigid whiskers have no geoms.
         let geoms = pairs.iter().filter_map(|pair| Some((self.part_geom(pair.part)?, self.geom(pair.of)?)));
-        let geoms: Vec<_> = geoms.take(self.room).collect();
-        let Ok(count) = geoms.len().try_into() else { return };
+        let geoms: Vec<_> = geoms.collect();
+        debug_assert!(geoms.len() <= self.room, "{} pairs, but room for {}", geoms.len(), self.room);
+        let geoms = geoms.into_iter().take(self.room).collect::<Vec<_>>();
         #[expect(unsafe_code, reason = "pairs are a table that the engine takes for its own")]
-        // SAFETY: no size changes but the number of pairs, on which nothing of the data depends, and that to no more than the model was
-        // compiled with; all pairs name geoms of the model, whose kinds were among those that it was compiled with.
+        #[expect(
+            clippy::cast_possible_wrap,
+            reason = "no more than the model was compiled with, whose count is such a number"
+        )]
+        // SAFETY: `model_mut` demands that every size stays equal, and `npair` is one that does not. Why that is sound here:
+        // - No array of the data is as long as there are pairs; its buffers and its arena stay as they were allocated.
+        // - The model's own arrays of pairs stay where they are, as long as at first: `npair` is never above `room`, the number that was
+        //   compiled. Beyond geoms and signatures all pairs are alike, so that what the others tell of a slot holds for any pair in it.
+        // - A model with another `npair` than was allocated must not be copied, written out, swapped for another, or told compatible by
+        //   its layout: this one belongs to the data alone, and nobody does any of that.
+        // - All ids are those of geoms of this very model, looked up by name. The engine checks for each pair that there is a function for
+        //   the kinds of its two geoms. A prism's mesh has a graph of its hull whether or not a pair named it at first, because
+        //   it is given by its corners alone.
+        // - The engine merges pairs with what its search by masks finds, by signatures that ascend: so they do, as bodies come in the
+        //   order of pairs. In a model with room all masks are 0, and that search finds nothing.
         let model = unsafe {
             let model = self.data.model_mut();
-            model.ffi_mut().npair = count;
+            model.ffi_mut().npair = geoms.len() as i64;
             for (slot, (part, other)) in geoms.iter().enumerate() {
                 model.pair_geom1_mut()[slot] = *part;
                 model.pair_geom2_mut()[slot] = *other;
@@ -141,14 +160,14 @@ impl Engine {
             model
         };
         for (slot, (_, other)) in geoms.into_iter().enumerate() {
-            // The part's body is the world, which is 0.
+            // The two bodies, of which the part's is the world, 0: it comes first, in the high half.
             let body = usize::try_from(other).map(|geom| model.geom_bodyid()[geom]);
             model.pair_signature_mut()[slot] = body.unwrap_or_default();
         }
     }
 
     fn part_geom(&self, part: usize) -> Option<i32> {
-        i32::try_from(self.scope.rank_of_part(part)?).ok()
+        self.part_geoms.get(self.scope.rank_of_part(part)?).copied()
     }
 
     fn geom(&self, of: Member) -> Option<i32> {
