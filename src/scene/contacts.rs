@@ -19,16 +19,16 @@ const SLIDING: f64 = 20.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contacts {
     /// Pair by pair. Geoms that collide by their masks would make the engine look at every two bodies in every step, which
-    /// costs a seventh of the time.
+    /// costs a seventh of the time. A pruned model always has pairs, few, and others from time to time.
     Pairs,
-    /// By the masks of the geoms. The engine then keeps the parts of all solids in one tree of boxes, and asks it for those
-    /// near each link.
+    /// By the masks of the geoms, in a model with everything (`--no-prune`, `vibrissa mjcf`), where there would be a pair of every link and
+    /// every part. The engine keeps the parts of all solids in one tree of boxes, and asks it for those near each link.
     Masks,
 }
 
 impl Contacts {
-    /// The way for this many parts: the quicker one, unless there is friction, which only pairs do well, or pairs are named as they come
-    /// in reach.
+    /// The way for this many parts: pairs where they are named as they come in reach, where there is friction, which only pairs do well,
+    /// and where they are few; else masks.
     pub(super) fn with(parts: usize, physics: &Physics, scope: &Scope) -> Self {
         if parts <= 1 || physics.friction > 0.0 || scope.room().is_some() { Self::Pairs } else { Self::Masks }
     }

@@ -5,6 +5,7 @@ mod errors;
 mod explain;
 mod families;
 mod geometry;
+mod near;
 #[cfg(feature = "outlines")]
 mod outlines;
 mod page;
