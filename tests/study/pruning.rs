@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
-use vibrissa::geometry::Point2;
+use vibrissa::geometry::{Point2, Pose};
 use vibrissa::machine::Program;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scene::family::{Draw, FAMILIES};
@@ -12,9 +12,7 @@ use vibrissa::scene::{Scene, WorldKind, WorldSetup};
 use vibrissa::study::bench::POLICIES;
 use vibrissa::study::{execute, in_parallel, processors};
 use vibrissa::units::Dimension;
-
-/// How far a point of the estimated contour may move (m).
-const SAME: f64 = 1e-6;
+use vibrissa::world::{MujocoWorld, World};
 
 fn thesis() -> Program {
     let source = Source::new(POLICIES[0].path, POLICIES[0].text);
@@ -43,7 +41,7 @@ fn compare(trials: u64, time: f64) -> usize {
             let [pruned, whole] = [true, false].map(|prune| contour(&scene, &program, prune));
             assert_eq!(pruned.len(), whole.len(), "{}", scene.name);
             for (a, b) in pruned.iter().zip(&whole) {
-                assert!((a - b).norm() < SAME, "{}: {a} and {b}", scene.name);
+                assert!([a.x, a.y].map(f64::to_bits) == [b.x, b.y].map(f64::to_bits), "{}: {a} and {b}", scene.name);
             }
             pruned.len()
         },
@@ -61,4 +59,50 @@ fn pruning_does_not_change_the_estimated_contour() {
 #[ignore = "takes minutes; `cargo test --release --test study pruning -- --ignored` runs it"]
 fn pruning_does_not_change_the_estimated_contour_of_hundreds_of_scenes() {
     assert!(compare(30, 20.0) > 10_000);
+}
+
+/// The bits of everything that is sensed while a platform goes as `program` has it go with pruning, with and without pruning.
+fn sensed(scene: &Scene, program: &Program) -> [Vec<u64>; 2] {
+    let run = execute(scene, Arc::new(program.clone()), WorldKind::Mujoco, scene.seed, |_| ControlFlow::Continue(()));
+    let commands: Vec<_> = run.unwrap().trace.ticks.iter().map(|tick| tick.command).collect();
+    assert!(commands.len() > 100, "{}: {} ticks", scene.name, commands.len());
+    [MujocoWorld::pruned, MujocoWorld::new].map(|build| {
+        let mut world = build(&scene.rig, &scene.solids, scene.start, scene.seed).unwrap();
+        let mut sensed = Vec::new();
+        for sample in commands.iter().flat_map(|command| world.advance(command).unwrap().to_vec()) {
+            let Pose { position, heading } = sample.body;
+            sensed.extend([position.x, position.y, heading].map(f64::to_bits));
+            for whisker in sample.whiskers {
+                let forces = [whisker.axial, whisker.shear].map(Option::unwrap_or_default);
+                sensed.extend(forces.into_iter().chain([whisker.base_angle]).map(f64::to_bits));
+            }
+        }
+        sensed
+    })
+}
+
+#[test]
+fn pruning_changes_no_bit_of_what_is_sensed() {
+    let policy = thesis();
+    let cases = [
+        ("disk", true, 0.0, 8.0),
+        ("complex", true, 0.0, 12.0),
+        ("complex", false, 0.3, 12.0),
+        ("box", true, 0.3, 8.0),
+        ("round-tunnel", true, 0.0, 20.0),
+        ("zigzag-tunnel", true, 0.3, 8.0),
+    ];
+    in_parallel(
+        &cases,
+        processors(),
+        |(name, forces, friction, time)| {
+            let path = format!("{}/scenarios/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+            let mut scene = Scene::from_yaml(&Source::new(*name, std::fs::read_to_string(path).unwrap())).unwrap();
+            (scene.rig.sensing.forces, scene.rig.physics.friction, scene.stop.time) = (*forces, *friction, *time);
+            let [pruned, whole] = sensed(&scene, &policy);
+            let first = pruned.iter().zip(&whole).position(|(a, b)| a != b);
+            assert!(first.is_none() && pruned.len() == whole.len(), "{name}: number {first:?} of {}", whole.len());
+        },
+        |_| (),
+    );
 }

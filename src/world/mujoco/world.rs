@@ -250,3 +250,46 @@ impl World for MujocoWorld {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::geometry::{Vector2, circle, polygon};
+
+    /// The platform's right whisker is drawn along a disk and over the corners of what lies behind it, and back.
+    #[test]
+    fn models_that_are_replaced_within_a_tick_for_more_room_change_no_bit() {
+        let corners = [(0.06, 0.3), (0.3, 0.3), (0.3, 0.6), (0.06, 0.6), (0.1, 0.45)].map(|(x, y)| Point2::new(x, y));
+        let outlines = [circle(Point2::new(0.2, 0.15), 0.1), polygon(&corners)];
+        let solids = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap());
+        let start = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 };
+        let mut rig = Rig::default();
+        for forces in [false, true] {
+            rig.sensing.forces = forces;
+            let run = |room| {
+                let mut world = MujocoWorld::with(&rig, &solids, start, 0, room).unwrap();
+                let mut readings = Vec::new();
+                for (ticks, speed) in [(240, 0.06), (120, -0.06)] {
+                    let command = Command { velocity_world: Vector2::new(0.0, speed), yaw_rate: 0.0 };
+                    for _ in 0..ticks {
+                        for sample in world.advance(&command).unwrap() {
+                            let Pose { position, heading } = sample.body;
+                            let whiskers = sample.whiskers.iter();
+                            let forces = |force: Option<f64>| force.unwrap_or_default();
+                            let of_whisker = whiskers.flat_map(|r| [r.base_angle, forces(r.axial), forces(r.shear)]);
+                            readings.extend([position.x, position.y, heading].into_iter().chain(of_whisker));
+                        }
+                    }
+                }
+                (readings.into_iter().map(f64::to_bits).collect::<Vec<_>>(), world.engine.scope.room())
+            };
+            let (whole, _) = run(None);
+            let (grown, room) = run(Some(1));
+            assert!(room > Some(2), "there were never more pairs than room: {room:?}");
+            assert!(whole == grown, "forces: {forces}");
+        }
+    }
+}
