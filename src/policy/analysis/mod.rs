@@ -1,8 +1,9 @@
 //! What a policy that compiles may still have wrong with it.
 //!
 //! The syntax tree says where things are written, the program what they mean. Conditions are evaluated over intervals
-//! (`bounds`) in regions of all that can be felt (`region`), which are narrowed to where it may be as wanted (`narrow`) and split until the question is settled or a witness is
-//! found (`search`). A witness is checked by the machine's own evaluator. Each of the other files is one kind of warning.
+//! (`bounds`) in regions of all that can be felt (`region`), which are narrowed to where it may be as wanted (`narrow`) and split
+//! until the question is settled or a witness is found (`search`). A witness is checked by the machine's own evaluator. Each of the
+//! other files is one kind of warning.
 
 mod arithmetic;
 mod bounds;

@@ -31,8 +31,8 @@ const DOT: f64 = 4.5;
 /// Size of a number beside a point (px), and how far from it it may be.
 const NUMBER: f64 = 11.0;
 
-/// A picture of cost against error, both on logarithmic scales: a panel for either error, with the front of all as a line and points that are
-/// on the front of their like filled. The first point has a ring. A self-contained SVG.
+/// A picture of cost against error, both on logarithmic scales: a panel for either error, with the front of all as a line and
+/// points that are on the front of their like filled. The first point has a ring. A self-contained SVG.
 pub(crate) fn front_picture(
     title: &str,
     subtitle: &str,
