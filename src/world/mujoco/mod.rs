@@ -8,4 +8,5 @@ mod pruner;
 mod world;
 
 pub use messages::engine_version;
+pub use plugin::PluginError;
 pub use world::{MujocoError, MujocoWorld};

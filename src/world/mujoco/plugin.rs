@@ -6,29 +6,66 @@ use std::sync::OnceLock;
 
 use mujoco_rs::wrappers::load_plugin_library;
 
-use super::world::MujocoError;
-
 /// The directory of the library that the program is linked with; a MuJoCo of the system has none that is known.
-const DIRECTORY: &str = match option_env!("MUJOCO_DYNAMIC_LINK_DIR") {
-    Some(directory) => directory,
-    None => "",
-};
+const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
 
-/// Loads the plugin, once in a process.
-pub(super) fn load_cable_plugin() -> Result<(), MujocoError> {
-    static LOADED: OnceLock<()> = OnceLock::new();
-    let path = plugin_in(Path::new(DIRECTORY))?;
-    LOADED.get_or_init(|| {
-        // What it refuses is the form of the path, which is that of the library, too.
-        let _ = load_plugin_library(&path);
-    });
-    Ok(())
+/// Why there is no plugin for cables.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PluginError {
+    /// The program is linked with a MuJoCo of the system, whose directory it does not know.
+    #[error(
+        "this program is linked with a MuJoCo of the system and does not know where its plugin for cables is: build it with \
+         MUJOCO_DYNAMIC_LINK_DIR set to the directory of MuJoCo's library and put {file} there, \
+         or leave `preset: peer_cable` out of the rig"
+    )]
+    NoDirectory {
+        /// The plugin's file.
+        file: String,
+    },
+    /// There is no such file.
+    #[error(
+        "MuJoCo's plugin for cables is not there ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
+        path.display()
+    )]
+    NoPlugin {
+        /// Where it should be.
+        path: PathBuf,
+    },
+    /// MuJoCo cannot be told such a path.
+    #[error(
+        "MuJoCo takes no path that is not UTF-8 text without null bytes ({}): build the program in a directory of another name",
+        path.display()
+    )]
+    Path {
+        /// Where the plugin is.
+        path: PathBuf,
+    },
 }
 
-/// Where the plugin is. MuJoCo would end the process for one that is not there.
-fn plugin_in(directory: &Path) -> Result<PathBuf, MujocoError> {
-    let path = directory.join(format!("{DLL_PREFIX}elasticity{DLL_SUFFIX}"));
-    if path.is_file() { Ok(path) } else { Err(MujocoError::NoPlugin { path }) }
+/// Loads the plugin, once in a process.
+///
+/// A file that is there and cannot be loaded, as it is cut short or for another processor, ends the process: MuJoCo does that itself, with
+/// the loader's message, and whether a library loads can be told only by loading it.
+///
+/// # Errors
+/// [`PluginError`] when the plugin is not where the library is, or that is not known.
+pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
+    static LOADED: OnceLock<bool> = OnceLock::new();
+    let path = plugin_in(DIRECTORY)?;
+    // What is refused is the form of the path.
+    let loaded = *LOADED.get_or_init(|| load_plugin_library(&path).is_ok());
+    if loaded { Ok(()) } else { Err(PluginError::Path { path }) }
+}
+
+/// Where the plugin is. MuJoCo would end the process for one that is not there; and of a bare name it would not look in the current
+/// directory.
+fn plugin_in(directory: Option<&str>) -> Result<PathBuf, PluginError> {
+    let file = format!("{DLL_PREFIX}elasticity{DLL_SUFFIX}");
+    let Some(directory) = directory.filter(|directory| !directory.is_empty()) else {
+        return Err(PluginError::NoDirectory { file });
+    };
+    let path = Path::new(directory).join(file);
+    if path.is_file() { Ok(path) } else { Err(PluginError::NoPlugin { path }) }
 }
 
 #[cfg(test)]
@@ -37,7 +74,15 @@ mod tests {
 
     #[test]
     fn a_plugin_that_is_not_there_is_told_with_what_to_do() {
-        let error = plugin_in(Path::new("/nowhere")).map_err(|error| error.to_string());
+        let error = plugin_in(Some("/nowhere")).map_err(|error| error.to_string());
         assert!(error.is_err_and(|text| text.contains("/nowhere/") && text.contains("cargo x setup")));
+    }
+
+    #[test]
+    fn with_a_mujoco_of_the_system_the_advice_is_another() {
+        for directory in [None, Some("")] {
+            let error = plugin_in(directory).map_err(|error| error.to_string());
+            assert!(error.is_err_and(|text| text.contains("MUJOCO_DYNAMIC_LINK_DIR") && !text.contains("cargo x")));
+        }
     }
 }

@@ -1,7 +1,5 @@
 //! A rig before solids, simulated by MuJoCo.
 
-use std::path::PathBuf;
-
 use crate::geometry::{Point2, Pose, unit};
 use crate::rig::{Rig, ShaftModel, Whisker};
 use crate::scene::Solid;
@@ -11,7 +9,7 @@ use crate::world::{Fault, SPRINGING, World};
 
 use super::engine::Engine;
 use super::messages::{WARNINGS, route_engine_messages};
-use super::plugin::load_cable_plugin;
+use super::plugin::{PluginError, load_cable_plugin};
 use super::pruner::Pruner;
 
 /// For how many pairs of what may touch a pruned model has room at first.
@@ -23,15 +21,9 @@ pub enum MujocoError {
     /// MuJoCo refused the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
     Model(String),
-    /// There is no plugin for the cables of the rig.
-    #[error(
-        "MuJoCo's plugin for cables is not there ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
-        path.display()
-    )]
-    NoPlugin {
-        /// Where it should be.
-        path: PathBuf,
-    },
+    /// The cables of the rig need a plugin, which cannot be had.
+    #[error(transparent)]
+    Plugin(#[from] PluginError),
 }
 
 /// A rig before solids, simulated by MuJoCo.
