@@ -1,6 +1,6 @@
 //! Rigs to begin with.
 
-use super::{Integrator, Physics, Rig, ShaftModel};
+use super::{Integrator, Physics, Rig, Shaft, ShaftModel};
 
 /// A rig that a scenario begins with; what else it says is different from that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,34 +30,63 @@ impl Preset {
     #[must_use]
     pub fn rig(self) -> Rig {
         let mut rig = Rig::default();
-        if self == Self::PeerCable {
-            rig.make_peer_cable();
-        }
+        self.apply(&mut rig);
         rig
+    }
+
+    /// Gives a rig the links and the physics of the preset; friction, the solver, whether whiskers are rigid in the air, and everything
+    /// that is no matter of how whiskers are simulated stay.
+    ///
+    /// Known of the thesis's public program are 40 links, the integrator, steps of 2 ms (the next that goes into a sample is shorter),
+    /// that its whiskers ring at 4 Hz, which the armature of the reference hinge in every joint does, and that tips sink in by 0.23 to
+    /// 0.39 mm, which is what MuJoCo's own impedance with this time constant makes of it.
+    pub fn apply(self, rig: &mut Rig) {
+        let reference = Physics::default();
+        let (links, physics) = match self {
+            Self::Reference => (Shaft::default().links, reference),
+            Self::PeerCable => {
+                let step = 1.0 / 600.0;
+                let cable = Physics {
+                    shafts: ShaftModel::Cable,
+                    step,
+                    calm_step: step,
+                    integrator: Integrator::ImplicitFast,
+                    contact_time: 10e-3,
+                    contact_impedance: [0.9, 0.95, 1e-3],
+                    penetration_limit: 3e-3,
+                    ..reference
+                };
+                (40, cable)
+            }
+        };
+        for whisker in &mut rig.whiskers {
+            whisker.shaft.links = links;
+        }
+        let Physics { friction, solver, rigid_in_air, .. } = rig.physics;
+        rig.physics = Physics { friction, solver, rigid_in_air, ..physics };
     }
 }
 
-impl Rig {
-    /// Gives a rig the links and the physics of [`Preset::PeerCable`]; friction and everything that is no matter of how whiskers are
-    /// simulated stays.
-    ///
-    /// Known of that program are 40 links, the integrator, steps of 2 ms (the next that goes into a sample is shorter), that its
-    /// whiskers ring at 4 Hz, which the armature of the reference hinge in every joint does, and that tips sink in by 0.23 to 0.39 mm, which
-    /// is what MuJoCo's own impedance with this time constant makes of it.
-    pub fn make_peer_cable(&mut self) {
-        for whisker in &mut self.whiskers {
-            whisker.shaft.links = 40;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_preset_that_is_applied_to_another_makes_it_the_same_as_from_the_start() {
+        for (one, other) in Preset::ALL.into_iter().flat_map(|one| Preset::ALL.map(|other| (one, other))) {
+            let mut rig = one.rig();
+            other.apply(&mut rig);
+            assert_eq!(rig, other.rig(), "{one:?}, then {other:?}");
         }
-        let step = 1.0 / 600.0;
-        self.physics = Physics {
-            shafts: ShaftModel::Cable,
-            step,
-            calm_step: step,
-            integrator: Integrator::ImplicitFast,
-            contact_time: 10e-3,
-            contact_impedance: [0.9, 0.95, 1e-3],
-            penetration_limit: 3e-3,
-            ..self.physics
-        };
+        assert_eq!(Preset::default().rig(), Rig::default());
+    }
+
+    #[test]
+    fn the_peers_cable_keeps_friction_and_mounting() {
+        let mut rig = Rig::default();
+        (rig.physics.friction, rig.whiskers[0].direction_body) = (0.3, 1.0);
+        Preset::PeerCable.apply(&mut rig);
+        assert_eq!((rig.physics.friction, rig.whiskers[0].direction_body), (0.3, 1.0));
+        assert_eq!(rig.physics.shafts, ShaftModel::Cable);
     }
 }

@@ -1,6 +1,7 @@
 //! What is told of what is left out of a run.
 
 use vibrissa::diagnostic::Source;
+use vibrissa::rig::Preset;
 use vibrissa::scene::{Pruning, Scene, Verdict, WorldKind};
 
 use crate::snapshots::snapshots;
@@ -46,7 +47,7 @@ fn what_is_left_out_saves_something_and_what_stays_does_not() {
 #[test]
 fn a_rigid_cable_saves_three_degrees_of_freedom_a_ball_joint() {
     let mut scene = scene("disk");
-    scene.rig.make_peer_cable();
+    Preset::PeerCable.apply(&mut scene.rig);
     let told = pruning(&scene, &["r0", "l0"], WorldKind::Mujoco).to_string();
     // Two whiskers with a hinge and 39 ball joints each, and a platform.
     assert!(told.contains("236 of 239 degrees of freedom"), "{told}");
