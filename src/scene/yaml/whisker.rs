@@ -87,12 +87,13 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
         }
         None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
     };
-    // All of a preset's whiskers have the same shaft.
-    let usual = preset.first().map_or_else(Shaft::default, |whisker| whisker.shaft.clone());
-    let shaft = shaft(reader, &mut fields, usual, name.span);
+    // All of a preset's whiskers have the same shaft and the same hinge.
+    let usual = preset.first().cloned().map(|whisker| (whisker.shaft, whisker.hinge));
+    let (usual_shaft, usual_hinge) = usual.unwrap_or_default();
+    let shaft = shaft(reader, &mut fields, usual_shaft, name.span);
     let hinge = match fields.entry("hinge") {
-        Some(entry) => hinge(reader, entry),
-        None => Some(Hinge::default()),
+        Some(entry) => hinge(reader, entry, usual_hinge),
+        None => Some(usual_hinge),
     };
     let calibration = match fields.entry("calibration") {
         Some(entry) => calibration(reader, entry).map(Some),
@@ -176,9 +177,10 @@ fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
     reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
 }
 
-fn hinge(reader: &mut Reader<'_>, entry: &Entry) -> Option<Hinge> {
+/// Reads a hinge, as far as it is not the `usual` one.
+fn hinge(reader: &mut Reader<'_>, entry: &Entry, usual: Hinge) -> Option<Hinge> {
     let mut fields = Fields::of(reader, &entry.value, "a hinge", entry.key.span)?;
-    let mut hinge = Hinge::default();
+    let mut hinge = usual;
     fields.set(reader, &HINGE_STIFFNESS, &mut hinge.stiffness);
     fields.set(reader, &HINGE_DAMPING, &mut hinge.damping);
     fields.set(reader, &HINGE_ARMATURE, &mut hinge.armature);
