@@ -4,15 +4,17 @@
 //! same run.
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::SystemTime;
-use std::{fs, io};
+use std::{env, fs, io};
 
 use thiserror::Error;
 
 use crate::cargo::{NotStarted, cargo};
+use crate::setup::{self, Options, SetupError};
 
 /// The bench that all others are measured by.
 const REFERENCE: &str = "reference/sines";
@@ -28,20 +30,37 @@ const SHARE: f64 = 0.25;
 pub(crate) enum BenchError {
     #[error("the benches ended ({0}); why is above")]
     Failed(ExitStatus),
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}; look at its permissions", path.display())]
     File { path: PathBuf, source: io::Error },
-    #[error("{}, line {line}: this is not the name of a bench, a comma and a number above 0", path.display())]
+    #[error("there is no baseline ({}): `cargo x bench --save` makes one of a run of all benches", .0.display())]
+    NoBaseline(PathBuf),
+    #[error(
+        "{}, line {line}: this is not the name of a bench, a comma and a number above 0; correct it, or `cargo x bench --save`",
+        path.display()
+    )]
     Line { path: PathBuf, line: usize },
-    #[error("there is no result of `{REFERENCE}`, which all others are measured by")]
+    #[error("no bench has written a result to {}: look above whether any ran", .0.display())]
+    NoResults(PathBuf),
+    #[error("there is no result of `{REFERENCE}`, which all others are measured by: look above whether it ran")]
     NoReference,
-    #[error("slower than the baseline by more than {} %: {}", SHARE * 100.0, .0.join(", "))]
+    #[error(
+        "slower than the baseline by more than {} %: {}. Look again with nothing beside it; if it is meant, `cargo x bench --save`",
+        SHARE * 100.0,
+        .0.join(", ")
+    )]
     Slower(Vec<String>),
+    #[error(transparent)]
+    Setup(#[from] SetupError),
     #[error(transparent)]
     Cargo(#[from] NotStarted),
 }
 
-/// Runs all benches and prints them beside the baseline, or makes them the baseline.
+/// Sets up, runs all benches and prints them beside the baseline, or makes them the baseline.
 pub(crate) fn bench(root: &Path, save: bool) -> Result<(), BenchError> {
+    setup::setup(root, &Options::default())?;
+    let path = root.join(BASELINE);
+    // Before the benches run: they take minutes.
+    let baseline = if save { None } else { Some(stored(&path)?) };
     let start = SystemTime::now();
     let run = ["bench", "--package", "vibrissa", "--benches", "--", "--warm-up-time", "1", "--measurement-time", "2"];
     let status = cargo(root, &run).status().map_err(|source| NotStarted { program: "cargo", source })?;
@@ -49,17 +68,35 @@ pub(crate) fn bench(root: &Path, save: bool) -> Result<(), BenchError> {
         return Err(BenchError::Failed(status));
     }
     let mut times = BTreeMap::new();
-    collect(&root.join("target/criterion"), start, &mut times)?;
-    let ratios = ratios(&times).ok_or(BenchError::NoReference)?;
-    let path = root.join(BASELINE);
-    if save {
-        return fs::write(&path, written(&ratios)).map_err(|source| BenchError::File { path, source });
+    let results = target(root, env::var_os("CARGO_TARGET_DIR")).join("criterion");
+    if !results.is_dir() {
+        return Err(BenchError::NoResults(results));
     }
-    let text = fs::read_to_string(&path).map_err(|source| BenchError::File { path: path.clone(), source })?;
-    let baseline = read(&text).map_err(|line| BenchError::Line { path, line })?;
+    collect(&results, start, &mut times)?;
+    if times.is_empty() {
+        return Err(BenchError::NoResults(results));
+    }
+    let ratios = ratios(&times).ok_or(BenchError::NoReference)?;
+    let Some(baseline) = baseline else {
+        return fs::write(&path, written(&ratios)).map_err(|source| BenchError::File { path, source });
+    };
     let (table, slower) = compare(&times, &ratios, &baseline);
     println!("\n{table}");
     if slower.is_empty() { Ok(()) } else { Err(BenchError::Slower(slower)) }
+}
+
+/// Where Cargo builds, and criterion writes: a relative directory is one of the checkout, in which both are run.
+fn target(root: &Path, set: Option<OsString>) -> PathBuf {
+    root.join(set.filter(|directory| !directory.is_empty()).unwrap_or_else(|| "target".into()))
+}
+
+/// The baseline that is stored in a file.
+fn stored(path: &Path) -> Result<BTreeMap<String, f64>, BenchError> {
+    let text = fs::read_to_string(path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound => BenchError::NoBaseline(path.to_owned()),
+        _ => BenchError::File { path: path.to_owned(), source },
+    })?;
+    read(&text).map_err(|line| BenchError::Line { path: path.to_owned(), line })
 }
 
 /// Medians (ns) of all results below a folder of criterion's that are no older than `since`, by the benches' names.
@@ -159,7 +196,8 @@ mod tests {
     fn the_name_and_the_median_are_read_from_what_criterion_writes() {
         let about = r#"{"group_id":"a","function_id":"b c","full_id":"a/b c","directory_name":"a/b c"}"#;
         assert_eq!(name(about).as_deref(), Some("a/b c"));
-        let estimates = r#"{"mean":{"point_estimate":9.0},"median":{"confidence_interval":{"lower_bound":1.0},"point_estimate":2.5,"standard_error":0.1},"slope":null}"#;
+        let estimates = r#"{"mean":{"point_estimate":9.0},
+            "median":{"confidence_interval":{"lower_bound":1.0},"point_estimate":2.5,"standard_error":0.1},"slope":null}"#;
         assert_eq!(median(estimates), Some(2.5));
         assert_eq!(median("{}"), None);
     }
@@ -175,6 +213,21 @@ mod tests {
         assert_eq!(read("bench,times the reference\na,1\nb"), Err(3));
         assert_eq!(read("a,0"), Err(1));
         assert_eq!(read("a,nan"), Err(1));
+    }
+
+    #[test]
+    fn a_baseline_that_is_not_there_is_told_with_what_to_do() {
+        let error = stored(Path::new("/nowhere/baseline.csv")).map_err(|error| error.to_string());
+        assert!(error.is_err_and(|text| text.contains("/nowhere/") && text.contains("cargo x bench --save")));
+    }
+
+    #[test]
+    fn results_are_where_cargo_builds() {
+        let target = |set: Option<&str>| target(Path::new("/checkout"), set.map(OsString::from));
+        assert_eq!(target(None), Path::new("/checkout/target"));
+        assert_eq!(target(Some("")), Path::new("/checkout/target"));
+        assert_eq!(target(Some("/shared")), Path::new("/shared"));
+        assert_eq!(target(Some("mine")), Path::new("/checkout/mine"));
     }
 
     #[test]
