@@ -329,3 +329,41 @@ impl From<MujocoError> for Fault {
         Self::Model { cause: cause.to_string() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::geometry::{circle, polygon};
+
+    /// The geoms and the signatures of the pairs that an engine looks for.
+    fn pairs(engine: &Engine) -> Vec<(i32, i32, i32)> {
+        let model = engine.data.model();
+        let geoms = model.pair_geom1().iter().zip(model.pair_geom2());
+        geoms.zip(model.pair_signature()).map(|((a, b), signature)| (*signature, *a, *b)).collect()
+    }
+
+    #[test]
+    fn pairs_that_are_named_are_as_if_compiled_and_ascend_as_the_engine_merges_them() {
+        let corners = [(0.06, 0.3), (0.3, 0.3), (0.3, 0.6), (0.06, 0.6), (0.1, 0.45)].map(|(x, y)| Point2::new(x, y));
+        let outlines = [circle(Point2::new(0.3, 0.15), 0.1), polygon(&corners)];
+        let solids = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap());
+        let rig = Rig::default();
+        let scope = Scope::whole(&rig, &solids).with_room(1000);
+        let parts = scope.part_count();
+        let mut engine = Engine::new(&rig, &solids, Pose::default(), scope).unwrap();
+        let mut compiled = pairs(&engine);
+        let links = rig.whiskers.iter().enumerate();
+        let links =
+            links.flat_map(|(index, whisker)| (0..whisker.shaft.links).map(move |link| Member::Link(index, link)));
+        let members = std::iter::once(Member::Body).chain(links);
+        let all: Vec<_> = members.flat_map(|of| (0..parts).map(move |part| Pair { of, part })).collect();
+        engine.look_for(&all[..3]);
+        engine.look_for(&all);
+        let mut named = pairs(&engine);
+        assert!(parts > 2 && named.is_sorted_by_key(|(signature, ..)| signature), "{named:?}");
+        compiled.sort_unstable();
+        named.sort_unstable();
+        assert_eq!(named, compiled);
+    }
+}
