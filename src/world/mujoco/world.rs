@@ -251,20 +251,24 @@ mod tests {
     use super::*;
     use crate::geometry::{Vector2, circle, polygon};
 
-    /// The platform's right whisker is drawn along a disk and over the corners of what lies behind it, and back.
+    /// The platform's right whisker is drawn along a disk and plucked over the teeth of a comb behind it, and back; at that it springs from
+    /// tooth to tooth.
     #[test]
     fn models_that_are_replaced_within_a_tick_for_more_room_change_no_bit() {
-        let corners = [(0.06, 0.3), (0.3, 0.3), (0.3, 0.6), (0.06, 0.6), (0.1, 0.45)].map(|(x, y)| Point2::new(x, y));
-        let outlines = [circle(Point2::new(0.2, 0.15), 0.1), polygon(&corners)];
-        let solids = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap());
+        let tooth =
+            |y: f64| polygon(&[(0.11, y), (0.3, y), (0.3, y + 2e-3), (0.11, y + 2e-3)].map(|(x, y)| Point2::new(x, y)));
+        let outlines = std::iter::once(circle(Point2::new(0.2, 0.15), 0.1));
+        let outlines = outlines.chain((0..10).map(|index| tooth(0.3 + 0.012 * f64::from(index))));
+        let solids: Vec<_> = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap()).collect();
         let start = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 };
         let mut rig = Rig::default();
+        rig.physics.penetration_limit = 5e-3;
         for forces in [false, true] {
             rig.sensing.forces = forces;
             let run = |room| {
                 let mut world = MujocoWorld::with(&rig, &solids, start, 0, room).unwrap();
                 let mut readings = Vec::new();
-                for (ticks, speed) in [(240, 0.06), (120, -0.06)] {
+                for (ticks, speed) in [(120, 0.12), (60, -0.12)] {
                     let command = Command { velocity_world: Vector2::new(0.0, speed), yaw_rate: 0.0 };
                     for _ in 0..ticks {
                         for sample in world.advance(&command).unwrap() {
@@ -281,7 +285,8 @@ mod tests {
             let (whole, _) = run(None);
             let (grown, room) = run(Some(1));
             assert!(room > Some(2), "there were never more pairs than room: {room:?}");
-            assert!(whole == grown, "forces: {forces}");
+            let first = whole.iter().zip(&grown).position(|(a, b)| a != b);
+            assert!(first.is_none(), "forces: {forces}; number {first:?} of {}", whole.len());
         }
     }
 }
