@@ -2,6 +2,7 @@
 
 use proptest::collection::vec;
 use proptest::prelude::*;
+use proptest::sample::Index;
 use vibrissa::geometry::{Point2, Pose, Segment, Vector2, unit};
 use vibrissa::scene::family::{Draw, FAMILIES};
 use vibrissa::scene::{Part, Reach, Solid};
@@ -43,14 +44,12 @@ fn shares() -> impl Iterator<Item = f64> {
 prop_compose! {
     /// A scene, and in it a pose by an outline: on it, within, or outside.
     fn places()(
-        family in 0..FAMILIES.len(), trial in 0..1000_u64, along in 0.0..1.0_f64,
+        family in 0..FAMILIES.len(), trial in 0..1000_u64, solid: Index, along in 0.0..1.0_f64,
         aside in (-0.12..0.12_f64, -0.12..0.12_f64), heading in -3.2..3.2_f64,
     ) -> (Draw, Pose) {
         let draw = FAMILIES[family].draw(3, trial).unwrap();
-        let solids = &draw.scene.solids;
-        let share = along * solids.len() as f64;
-        let outline = solids[share.floor() as usize].outline();
-        let position = outline.point_at(share.fract() * outline.length()) + Vector2::new(aside.0, aside.1);
+        let outline = solid.get(&draw.scene.solids).outline();
+        let position = outline.point_at(along * outline.length()) + Vector2::new(aside.0, aside.1);
         (draw, Pose { position, heading })
     }
 }

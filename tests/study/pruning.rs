@@ -103,6 +103,6 @@ fn pruning_changes_no_bit_of_what_is_sensed() {
             let first = pruned.iter().zip(&whole).position(|(a, b)| a != b);
             assert!(first.is_none() && pruned.len() == whole.len(), "{name}: number {first:?} of {}", whole.len());
         },
-        |_| (),
+        |()| (),
     );
 }
