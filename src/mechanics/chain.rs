@@ -172,7 +172,10 @@ impl Shot {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector2;
+
     use super::{ShaftChain, Sought};
+    use crate::geometry::unit;
     use crate::rig::Rig;
 
     #[test]
@@ -187,5 +190,51 @@ mod tests {
         let alone = |sought: Option<Sought>| chain.solve_each([sought])[0];
         assert_eq!(found, [alone(a), None, alone(b), alone(c), None]);
         assert!(found.iter().flatten().count() >= 2, "{found:?}");
+    }
+
+    /// The energy (J) of a chain whose hinge and links have these angles (rad), and of the force at its tip (N) that bends it.
+    fn energy(chain: &ShaftChain, angles: &[f64], force: Vector2<f64>) -> f64 {
+        let springs = std::iter::once(&chain.hinge_stiffness).chain(&chain.joint_stiffnesses);
+        let before = std::iter::once(&0.0).chain(angles);
+        let bends = angles.iter().zip(before).map(|(angle, before)| angle - before);
+        let stored: f64 = springs.zip(bends).map(|(stiffness, bend)| 0.5 * stiffness * bend * bend).sum();
+        stored - force.dot(&tip(chain, angles))
+    }
+
+    fn tip(chain: &ShaftChain, angles: &[f64]) -> Vector2<f64> {
+        angles[1..].iter().map(|angle| chain.link_length * unit(*angle)).sum()
+    }
+
+    #[test]
+    fn the_energy_has_no_slope_where_a_chain_is_in_equilibrium() {
+        let chain = ShaftChain::new(&Rig::default().whiskers[0]);
+        let start = super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() };
+        let guess = chain.solve(1e-4, 2.0, &start).unwrap_or(start);
+        let sought = [(1e-4, 2.0), (1.1e-4, 2.1), (1.2e-4, 1.8), (0.9e-4, 2.3)]
+            .map(|(base_angle, force_direction)| Some(Sought { base_angle, force_direction, guess }));
+        for (sought, found) in sought.into_iter().zip(chain.solve_each(sought)) {
+            let (Some(sought), Some(found)) = (sought, found) else { panic!("{sought:?}: {found:?}") };
+            let force = found.force * unit(sought.force_direction);
+            // From the base, where the solver ends, to the tip: every spring bends by the moment about it.
+            let mut moment = chain.hinge_stiffness * found.base_angle;
+            let mut angles = vec![found.base_angle];
+            for stiffness in &chain.joint_stiffnesses {
+                let angle = angles[angles.len() - 1] + moment / stiffness;
+                moment -= (chain.link_length * unit(angle)).perp(&force);
+                angles.push(angle);
+            }
+            let scale = chain.hinge_stiffness * found.base_angle;
+            for index in 0..angles.len() {
+                let turned = |by: f64| {
+                    let mut turned = angles.clone();
+                    turned[index] += by;
+                    energy(&chain, &turned, force)
+                };
+                let slope = (turned(1e-4) - turned(-1e-4)) / 2e-4;
+                assert!(slope.abs() < 1e-6 * scale, "{sought:?}, angle {index}: {slope} N m of {scale}");
+            }
+            assert!((angles[angles.len() - 1] - found.tip_angle).abs() < 1e-9, "{sought:?}: {found:?}");
+            assert!((tip(&chain, &angles) - found.tip_base).norm() < 1e-11, "{sought:?}: {found:?}");
+        }
     }
 }
