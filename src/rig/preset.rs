@@ -62,8 +62,8 @@ impl Preset {
         for whisker in &mut rig.whiskers {
             whisker.shaft.links = links;
         }
-        let Physics { friction, solver, rigid_in_air, .. } = rig.physics;
-        rig.physics = Physics { friction, solver, rigid_in_air, ..physics };
+        let Physics { solver, rigid_in_air, friction, .. } = rig.physics;
+        rig.physics = Physics { solver, rigid_in_air, friction, ..physics };
     }
 }
 

@@ -16,8 +16,8 @@ const RADIUS: f64 = 0.3;
 const START: Pose = Pose { position: Point2::new(0.0, 0.25), heading: FRAC_PI_2 };
 /// How fast it goes ahead (m/s).
 const SPEED: f64 = 0.05;
-/// So much farther back (m) both whiskers are out of reach of the disk.
-const BACK: f64 = 0.15;
+/// So many ticks farther back, 150 mm, both whiskers are out of reach of the disk.
+const BACK: u16 = 90;
 
 fn disk() -> [Solid; 1] {
     [Solid::inside(circle(CENTRE, RADIUS).unwrap()).unwrap()]
@@ -32,11 +32,10 @@ fn rig(links: usize) -> Rig {
     rig
 }
 
-/// Goes ahead by 75 mm and a way (m) that leads to [`START`], which bends the right whisker, and stands still for a second.
-fn press(world: &mut MujocoWorld, rig: &Rig, way: f64) -> Vec<Sample> {
+/// Goes ahead to [`START`] for so many ticks, then on for a second and a half, which bends the right whisker; and stands still for a second.
+fn press(world: &mut MujocoWorld, before: u16) -> Vec<Sample> {
     let ahead = Command { velocity_world: SPEED * unit(FRAC_PI_2), yaw_rate: 0.0 };
-    let going = ((0.075 + way) / SPEED * rig.sensing.control_rate).round() as usize;
-    let commands = std::iter::repeat_n(ahead, going).chain([Command::STOP; 30]);
+    let commands = (0..before + 45).map(|_| ahead).chain([Command::STOP; 30]);
     commands.flat_map(|command| world.advance(&command).unwrap().to_vec()).collect()
 }
 
@@ -45,7 +44,7 @@ fn off_the_elastica(links: usize) -> (f64, f64) {
     let rig = rig(links);
     let whisker = &rig.whiskers[0];
     let mut world = MujocoWorld::pruned(&rig, &disk(), START, 0).unwrap();
-    let sample = *press(&mut world, &rig, 0.0).last().unwrap();
+    let sample = *press(&mut world, 0).last().unwrap();
     let (touched, along) = world.whisker_contact(0).unwrap();
     assert!(along > whisker.shaft.length - 1e-3, "it is the tip that touches");
 
@@ -95,7 +94,8 @@ fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
     let rig = rig(12);
     let right = &rig.whiskers[0];
     let reach = Reach::new(&rig, &disk());
-    let start = Pose { position: START.position - BACK * unit(FRAC_PI_2), ..START };
+    let way = SPEED * f64::from(BACK) / rig.sensing.control_rate;
+    let start = Pose { position: START.position - way * unit(FRAC_PI_2), ..START };
     let rigid_at = |body: &Pose| may_be_rigid(right, reach.clearance(right, body), 0.0, false);
     assert!(rigid_at(&start) && !rigid_at(&START));
 
@@ -103,7 +103,7 @@ fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
     bending.physics.rigid_in_air = false;
     let base_angles = |rig: &Rig, pruned: bool| -> Vec<f64> {
         let build = if pruned { MujocoWorld::pruned } else { MujocoWorld::new };
-        let samples = press(&mut build(rig, &disk(), start, 0).unwrap(), rig, BACK);
+        let samples = press(&mut build(rig, &disk(), start, 0).unwrap(), BACK);
         samples.iter().map(|sample| sample.whiskers[0].base_angle).collect()
     };
     let [rigid, bending] = [&rig, &bending].map(|rig| base_angles(rig, true));
