@@ -9,7 +9,7 @@ use super::part::Part;
 /// The furthest (m) that a chord lies from the side of a wall that is to be touched.
 const FACE_SAGITTA: f64 = 1e-5;
 /// The furthest (m) that a chord lies from its other side, where that is hollow.
-const BACK_SAGITTA: f64 = 1e-4;
+const BACK_SAGITTA: f64 = 5e-5;
 
 /// How far (m) a part reaches on under the face of its neighbour, unless the neighbour is shorter.
 const LAP: f64 = 3e-2;

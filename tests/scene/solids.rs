@@ -10,7 +10,7 @@ use crate::geometry::random;
 
 /// How far (m) the chords of a wall lie from its two sides.
 const FACE: f64 = 1.1e-5;
-const BACK: f64 = 1.05e-4;
+const BACK: f64 = 5.5e-5;
 /// How far (m) a part of a wall reaches into its neighbour.
 const LAP: f64 = 3e-2;
 
