@@ -2,12 +2,16 @@
 
 use std::iter;
 
+use nalgebra::center;
+
 use crate::geometry::{Contour, Piece, Point2, Side, Strip, perpendicular};
 
 use super::part::Part;
 
 /// The furthest (m) that a chord lies from the side of a wall that is to be touched.
 const FACE_SAGITTA: f64 = 1e-5;
+/// The same where that side is round: finer chords are no more parts there.
+const ROUND_SAGITTA: f64 = 5e-6;
 /// The furthest (m) that a chord lies from its other side, where that is hollow.
 const BACK_SAGITTA: f64 = 5e-5;
 
@@ -25,6 +29,9 @@ const LAPPED_TURN: f64 = 0.1;
 /// Neighbouring parts meet in an edge square across the wall, and each has a lap: it reaches on into the other, just under its
 /// face. The contact of a tip with the end of a part pushes it along the wall, which would make the whisker ring at every seam;
 /// with the laps the end lies too deep to be felt, and the tip is handed over from one part to the next.
+///
+/// Where it is handed over it touches both parts, and the lap turns the force on it; so does a chord, the most at its ends. In a round
+/// bend the seams are therefore in the middle of chords, and no lap goes beyond the middle of its neighbour.
 pub(super) fn parts(wall: &Strip, face: Side) -> Vec<Part> {
     let sides = Sides { face: wall.side(face), back: wall.side(face.opposite()), round: round(face) };
     let blocks: Vec<Block> = bends(sides.face).flat_map(|bend| sides.blocks(bend)).collect();
@@ -69,7 +76,9 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     }
     let thickness = (seam - block.back[1]).norm();
     let depth = LAP_DEPTH.min(0.25 * thickness);
-    let length = LAP.min(0.9 * next.face.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>());
+    // Of several chords are round faces alone.
+    let share = if next.face.len() > 2 { 0.5 } else { 0.9 };
+    let length = LAP.min(share * next.face.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>());
     // At a slight corner of a thin wall a long lap would come out at the back.
     let length = length.min(0.5 * thickness / turn.abs().tan());
     let slope = depth / length;
@@ -133,7 +142,7 @@ fn sense(piece: &Piece) -> f64 {
 impl Sides<'_> {
     fn blocks(&self, bend: Bend) -> Vec<Block> {
         let is_round = sense(&self.face.pieces()[bend.start]) * self.round > 0.0;
-        let face_chords = chords(self.face, &bend, FACE_SAGITTA);
+        let face_chords = chords(self.face, &bend, if is_round { ROUND_SAGITTA } else { FACE_SAGITTA });
         // Where the face is round its back is hollow, and the back's chords cut the bend into parts.
         let (count, each) = if is_round {
             let count = chords(self.back, &bend, BACK_SAGITTA);
@@ -141,16 +150,24 @@ impl Sides<'_> {
         } else {
             (face_chords, 1)
         };
-        let stations = stations(self.face, &bend, count * each);
+        let seams = stations(self.face, &bend, count);
         let place = |side: &Contour, (index, share): (usize, f64)| {
             let piece = &side.pieces()[index];
             piece.point_at(share * piece.length())
         };
+        // A hollow face has its corners at the seams, a round one half a chord away from them.
+        let halves = if is_round { stations(self.face, &bend, 2 * count * each) } else { Vec::new() };
+        let corners: Vec<Point2> = halves.iter().skip(1).step_by(2).map(|&station| place(self.face, station)).collect();
+        let seam = |index: usize| {
+            let before = (index * each).checked_sub(1);
+            let chord = before.and_then(|before| corners.get(before..before + 2));
+            chord.map_or_else(|| place(self.face, seams[index]), |ends| center(&ends[0], &ends[1]))
+        };
         let block = |index: usize| {
-            let own = &stations[index * each..=(index + 1) * each];
+            let own = corners.chunks(each).nth(index).unwrap_or_default();
             Block {
-                face: own.iter().map(|&station| place(self.face, station)).collect(),
-                back: [own[0], own[each]].map(|station| place(self.back, station)),
+                face: iter::once(seam(index)).chain(own.iter().copied()).chain([seam(index + 1)]).collect(),
+                back: [seams[index], seams[index + 1]].map(|station| place(self.back, station)),
             }
         };
         (0..count).map(block).collect()
