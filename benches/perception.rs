@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut group = criterion.benchmark_group("perception");
     group.throughput(Throughput::Elements(ticks.len() as u64));
     for kind in TipModelKind::ALL {
-        let mut perception = Perception::new(&tunnel.scene.rig, &[0, 1], &[kind; 2])?;
+        let mut perception = Perception::new(&tunnel.scene.rig, &[Some(0), Some(1)], &[kind; 2])?;
         for samples in before {
             perception.update(samples);
         }

@@ -15,13 +15,14 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
     };
     let program = input::program(&policy)?.value;
     // What the rig lacks would otherwise look as if it were read.
-    scene
+    let fitted = scene
         .rig
-        .indices(&program.whiskers)
+        .fitted(&program.whiskers, &program.optional)
         .map_err(crate::run::BindError::from)
         .map_err(|cause| Failure::Execute { scenario: arguments.scenario.clone(), cause: cause.into() })?;
+    let read: Vec<_> = fitted.into_iter().flatten().map(|index| scene.rig.whiskers[index].name.clone()).collect();
     let world = World::of(arguments.world, &scene);
-    let pruning = Pruning::new(&scene.rig, &scene.solids, scene.start, &program.whiskers, world);
+    let pruning = Pruning::new(&scene.rig, &scene.solids, scene.start, &read, world);
     if arguments.json {
         output::json(&pruning)?;
     } else {

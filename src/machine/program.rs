@@ -33,6 +33,8 @@ pub struct Program {
     pub whiskers: Vec<String>,
     /// The tip model of each of them.
     pub tip_models: Vec<TipModelKind>,
+    /// Whether a rig may lack each of them.
+    pub optional: Vec<bool>,
     /// The parameters; the one with index `i` lives in register `i`.
     pub parameters: Vec<Parameter>,
     /// The states; an outer state comes before the states in it.

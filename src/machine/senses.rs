@@ -87,6 +87,8 @@ pub enum WhiskerScalar {
     ContourCurvature,
     /// How far off the place of the tip's contact may be (m): a standard deviation.
     TipSpread,
+    /// Whether the rig has it.
+    Fitted,
 }
 
 /// Vectors that belong to a whisker.

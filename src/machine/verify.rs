@@ -115,6 +115,7 @@ impl Program {
             name,
             whiskers,
             tip_models,
+            optional,
             parameters,
             states,
             initial,
@@ -134,6 +135,7 @@ impl Program {
             ("registers", image.len(), REGISTER_LIMIT),
             ("parameters", parameters.len(), image.len()),
             ("tip models", tip_models.len(), MAX_WHISKERS),
+            ("whiskers that a rig may lack", optional.len(), MAX_WHISKERS),
         ] {
             if count > limit {
                 return Err(Unsound::TooMany { what, count, limit });

@@ -20,15 +20,18 @@ pub struct Steering {
 }
 
 impl Steering {
-    /// Steering for `rig` and its whiskers with these indices, at rest.
+    /// Steering for `rig` and its whiskers with these indices, at rest. For `None`, which is no whisker of the rig, the body is moved.
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
     #[must_use]
-    pub fn new(rig: &Rig, whiskers: &[usize]) -> Self {
+    pub fn new(rig: &Rig, whiskers: &[Option<usize>]) -> Self {
         let yaw = &rig.platform.yaw;
         Self {
-            bases_body: whiskers.iter().map(|&index| rig.whiskers[index].base_body.coords).collect(),
+            bases_body: whiskers
+                .iter()
+                .map(|index| index.map_or_else(Vector2::zeros, |index| rig.whiskers[index].base_body.coords))
+                .collect(),
             yaw_controller: PiController::new(yaw.proportional, yaw.integral, yaw.limit),
             speed_limit: rig.platform.speed_limit,
             yaw_rate_limit: rig.platform.yaw_rate_limit,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::machine::{BodyScalar, ContourVector, Mark, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
-use crate::rig::Rig;
+use crate::rig::{Rig, Whisker};
 use crate::signal::Sample;
 
 use super::low_pass::{CutoffError, LowPass};
@@ -24,8 +24,8 @@ pub struct Perception {
     body: Pose,
     /// In the policy's order.
     whiskers: Vec<PerceivedWhisker>,
-    /// For each of them, its index in the rig and so in samples.
-    in_sample: Vec<usize>,
+    /// For each of them, its index in the rig and so in samples, if the rig has it.
+    in_sample: Vec<Option<usize>>,
 }
 
 /// Why a rig cannot be perceived.
@@ -67,19 +67,24 @@ impl Perception {
         }
     }
 
-    /// Perception of `rig` by the whiskers with these indices, each by its tip model, or else by the usual one.
+    /// Perception of `rig` by the whiskers with these indices, each by its tip model, or else by the usual one. One that the rig does
+    /// not have (`None`) is as one that nothing ever touches, on the body's centre of mass and along the heading.
     ///
     /// # Errors
     /// [`PerceptionError`] when its mechanics or rates leave no model or filter.
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
-    pub fn new(rig: &Rig, whiskers: &[usize], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
+    pub fn new(rig: &Rig, whiskers: &[Option<usize>], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
         let sensing = &rig.sensing;
         let perceived =
             whiskers.iter().zip(tip_models.iter().copied().chain(std::iter::repeat(TipModelKind::default())));
         let perceived = perceived.map(|(&index, kind)| {
-            let whisker = rig.whiskers[index].perceived();
+            // What nothing touches needs no model but the one that takes no time.
+            let (whisker, kind) = match index {
+                Some(index) => (rig.whiskers[index].perceived(), kind),
+                None => (Whisker::unfitted(), TipModelKind::OneChannel),
+            };
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
             let curve = Arc::new(match calibration.and_then(|calibration| calibration.one_channel.as_ref()) {
@@ -116,12 +121,12 @@ impl Perception {
     /// counts. Of what no sample of the tick brings there is none in this tick: the deflection and the tip of a whisker, or
     /// the pose and all that depends on it, are not a number. The time then stands still.
     pub fn update(&mut self, samples: &[Sample]) {
-        for whisker in &mut self.whiskers {
+        for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
             whisker.deflection.begin();
         }
         self.body = Pose::UNKNOWN;
         for sample in samples {
-            for (whisker, &index) in self.whiskers.iter_mut().zip(&self.in_sample) {
+            for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
                 whisker.take(&sample.whiskers[index], sample.body);
             }
             if sample.time.is_finite() {
@@ -136,10 +141,9 @@ impl Perception {
         }
     }
 
-    /// The index in the rig of one of the policy's whiskers.
-    #[must_use]
-    pub fn in_rig(&self, whisker: usize) -> usize {
-        self.in_sample[whisker]
+    /// Those of the policy's whiskers that the rig has, each with its index there.
+    pub fn fitted(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.in_sample.iter().enumerate().filter_map(|(whisker, index)| index.map(|index| (whisker, index)))
     }
 
     /// Time of the newest sample (s).
@@ -180,6 +184,14 @@ impl Perception {
     }
 }
 
+/// Those of the policy's whiskers that the rig has, each with its index there.
+fn fitted<'p>(
+    whiskers: &'p mut [PerceivedWhisker],
+    in_sample: &'p [Option<usize>],
+) -> impl Iterator<Item = (&'p mut PerceivedWhisker, usize)> {
+    whiskers.iter_mut().zip(in_sample).filter_map(|(whisker, index)| index.map(|index| (whisker, index)))
+}
+
 impl Senses for Perception {
     fn time(&self) -> f64 {
         self.time
@@ -196,8 +208,9 @@ impl Senses for Perception {
     }
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
-        let whisker = &self.whiskers[whisker];
         let truth = |truth: bool| f64::from(u8::from(truth));
+        let fitted = truth(self.in_sample[whisker].is_some());
+        let whisker = &self.whiskers[whisker];
         match quantity {
             WhiskerScalar::Deflection => whisker.deflection(),
             WhiskerScalar::Touching => truth(whisker.touches()),
@@ -209,6 +222,7 @@ impl Senses for Perception {
             WhiskerScalar::ContourReady => truth(whisker.contour.is_ready()),
             WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
             WhiskerScalar::TipSpread => whisker.tip_spread(),
+            WhiskerScalar::Fitted => fitted,
         }
     }
 

@@ -21,6 +21,8 @@ pub(super) struct File {
     pub(super) whiskers: Vec<Name>,
     /// For each whisker, the tip model behind `by`.
     pub(super) tip_models: Vec<Option<Name>>,
+    /// For each whisker, whether `if fitted` stands behind it.
+    pub(super) optional: Vec<bool>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,

@@ -35,6 +35,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         uses: Vec::new(),
         whiskers: Vec::new(),
         tip_models: Vec::new(),
+        optional: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -57,6 +58,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 let model =
                     if reader.has(Rule::model) { Some(Reader::new(reader.take(Rule::model)?).name()?) } else { None };
                 file.tip_models.resize(file.whiskers.len(), model);
+                file.optional.resize(file.whiskers.len(), reader.has(Rule::optional));
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),

@@ -4,7 +4,8 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules, in the order of the alphabet, with their texts.
-pub(super) const MODULES: [(&str, &str); 4] = [
+pub(super) const MODULES: [(&str, &str); 5] = [
+    ("feelers", include_str!("../../policies/std/feelers.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
     ("swipe", include_str!("../../policies/std/swipe.fsm")),

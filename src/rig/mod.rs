@@ -61,6 +61,21 @@ impl Rig {
         };
         names.iter().map(index).collect()
     }
+
+    /// The indices of the whiskers called `names`, in the order of the names; `None` for one that the rig does not have and, by its
+    /// place in `optional`, may lack.
+    ///
+    /// # Errors
+    /// [`UnknownWhisker`] when the rig lacks another.
+    pub fn fitted(&self, names: &[String], optional: &[bool]) -> Result<Vec<Option<usize>>, UnknownWhisker> {
+        let optional = optional.iter().copied().chain(std::iter::repeat(false));
+        let index = |(name, optional): (&String, bool)| match self.indices(std::slice::from_ref(name)) {
+            Ok(found) => Ok(found.first().copied()),
+            Err(_) if optional => Ok(None),
+            Err(error) => Err(error),
+        };
+        names.iter().zip(optional).map(index).collect()
+    }
 }
 
 impl Default for Rig {

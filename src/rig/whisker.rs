@@ -37,6 +37,13 @@ impl Whisker {
         }
     }
 
+    /// What stands for a whisker that a policy binds and a rig does not have: the reference whisker, on the centre of mass, along the
+    /// heading.
+    #[must_use]
+    pub fn unfitted() -> Self {
+        Self { base_body: Point2::origin(), direction_body: 0.0, ..Self::reference("", 1.0) }
+    }
+
     /// The whisker as perception takes it to be: with the base hinge that was measured, if one was.
     #[must_use]
     pub fn perceived(&self) -> Self {

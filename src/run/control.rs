@@ -33,7 +33,7 @@ impl Control {
     /// # Errors
     /// [`BindError`] when the rig does not have what the policy needs.
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
-        let whiskers = rig.indices(&program.whiskers)?;
+        let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
         Ok(Self {
             perception: Perception::new(rig, &whiskers, &program.tip_models)?,
             steering: Steering::new(rig, &whiskers),

@@ -51,7 +51,7 @@ pub fn drive(
     let most_ticks = (stop.time / period).ceil() as usize;
     let program = control.machine().program();
     let mut trace = Trace {
-        whiskers: program.whiskers.clone(),
+        whiskers: control.perception().fitted().map(|(whisker, _)| program.whiskers[whisker].clone()).collect(),
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
         period,
         ticks: Vec::with_capacity(most_ticks.min(ROOM)),
@@ -124,8 +124,8 @@ fn is_reached(tick: &TickRecord, aim: &Reached) -> bool {
 
 /// What the tick with this index marked.
 fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
-    (0..control.machine().program().whiskers.len()).flat_map(move |whisker| {
-        let marks = control.perception().marks(whisker);
+    control.perception().fitted().enumerate().flat_map(move |(whisker, (bound, _))| {
+        let marks = control.perception().marks(bound);
         marks.map(move |(mark, tip_world)| MarkRecord { mark, whisker, tick, tip_world })
     })
 }
@@ -145,12 +145,12 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world
         body_touches: world.body_touches(),
         springs: [false; MAX_WHISKERS],
     };
-    for whisker in 0..machine.program().whiskers.len() {
-        tick.springs[whisker] = world.springs(perception.in_rig(whisker));
-        tick.deflections[whisker] = perception.deflection(whisker);
-        tick.tips[whisker] = perception.recorded_tip(whisker);
-        tick.touches[whisker] = touch(perception, whisker);
-        tick.tip_spreads[whisker] = perception.whisker(whisker, WhiskerScalar::TipSpread);
+    for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
+        tick.springs[whisker] = world.springs(in_rig);
+        tick.deflections[whisker] = perception.deflection(bound);
+        tick.tips[whisker] = perception.recorded_tip(bound);
+        tick.touches[whisker] = touch(perception, bound);
+        tick.tip_spreads[whisker] = perception.whisker(bound, WhiskerScalar::TipSpread);
     }
     tick
 }

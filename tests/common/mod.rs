@@ -84,6 +84,7 @@ impl Senses for Script {
             WhiskerScalar::Length => 0.1,
             WhiskerScalar::ContourCurvature => 3.0,
             WhiskerScalar::TipSpread => 0.002,
+            WhiskerScalar::Fitted => 1.0,
         }
     }
 

@@ -181,6 +181,7 @@ impl Senses for Told {
             WhiskerScalar::ContourCurvature => "contour.curvature",
             WhiskerScalar::Yaw => "yaw",
             WhiskerScalar::TipSpread => "tip_spread",
+            WhiskerScalar::Fitted => "fitted",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))
     }

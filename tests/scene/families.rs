@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, unit};
+use vibrissa::rig::Rig;
 use vibrissa::scene::Scene;
 use vibrissa::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 
@@ -150,6 +151,24 @@ fn concave_corners_have_one_inner_corner() {
         let turns = turns(draw.scene.solids[0].outline());
         assert_eq!(turns.iter().filter(|turn| **turn < 0.0).count(), 1);
         assert!((15.0..=75.0).contains(&-turns.last().unwrap().to_degrees().round()));
+    }
+}
+
+#[test]
+fn inner_corners_and_pairs_are_for_a_rig_with_feelers_and_all_others_for_the_reference() {
+    for family in FAMILIES {
+        let has_feelers = ["concave-corner", "two-objects"].contains(&family.name);
+        for draw in draws(&family) {
+            let whiskers = draw.scene.rig.whiskers;
+            assert_eq!(whiskers[..2], Rig::default().whiskers, "{}", family.name);
+            assert_eq!(whiskers.len(), if has_feelers { 4 } else { 2 }, "{}", family.name);
+            // A feeler a side, each the other's mirror image, from within the nose to before it.
+            for feeler in &whiskers[2..] {
+                let tip = feeler.base_body + feeler.shaft.length * unit(feeler.direction_body);
+                assert!(feeler.base_body.x < 0.108 && tip.x > 0.15 && feeler.base_body.y.abs() < 0.015);
+                assert!(feeler.side() * tip.y > 0.0 && feeler.side() * feeler.base_body.y > 0.0);
+            }
+        }
     }
 }
 

@@ -283,7 +283,7 @@ fn perceived(kind: TipModelKind, calibration: Option<Calibration>, stiffness: f6
     let mut rig = Rig::default();
     rig.whiskers[1].hinge.stiffness = stiffness;
     rig.whiskers[1].calibration = calibration;
-    let mut perception = Perception::new(&rig, &[1], &[kind]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(1)], &[kind]).unwrap();
     for tick in 0..30 {
         let samples: [Sample; 10] = std::array::from_fn(|index| {
             let time = (tick * 10 + index) as f64 / 300.0;

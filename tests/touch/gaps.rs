@@ -35,7 +35,7 @@ fn samples(base_angles: &[f64]) -> Vec<Sample> {
 }
 
 fn perception() -> Perception {
-    Perception::new(&Rig::default(), &[0, 1], &[TipModelKind::OneChannel; 2]).unwrap()
+    Perception::new(&Rig::default(), &[Some(0), Some(1)], &[TipModelKind::OneChannel; 2]).unwrap()
 }
 
 fn filter() -> LowPass {

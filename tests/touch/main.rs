@@ -7,6 +7,7 @@ mod calibration;
 #[path = "../common/mod.rs"]
 mod common;
 mod elastica;
+mod fitted;
 #[cfg(feature = "sim")]
 mod friction;
 mod gaps;

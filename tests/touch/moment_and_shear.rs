@@ -22,7 +22,7 @@ fn rig() -> Rig {
 /// What is told of a whisker that rests in a bend, with noise by standard normal numbers.
 fn told(rig: &Rig, bend: &Bend, mut normal: impl FnMut() -> f64) -> (Perception, Option<Touch>) {
     let kinds = [TipModelKind::MomentAndShear];
-    let mut perception = Perception::new(rig, &[1], &kinds).unwrap();
+    let mut perception = Perception::new(rig, &[Some(1)], &kinds).unwrap();
     let sensing = &rig.sensing;
     for tick in 0..9 {
         let samples: [Sample; 10] = std::array::from_fn(|index| {
@@ -117,7 +117,7 @@ proptest! {
 
 #[test]
 fn a_rig_that_measures_no_forces_cannot_be_perceived_so_and_the_error_says_what_to_do() {
-    let error = Perception::new(&Rig::default(), &[0], &[TipModelKind::MomentAndShear]).unwrap_err();
+    let error = Perception::new(&Rig::default(), &[Some(0)], &[TipModelKind::MomentAndShear]).unwrap_err();
     assert!(matches!(error, PerceptionError::NoForces { .. }));
     let text = error.to_string();
     assert!(text.contains("`r0`") && text.contains("sensing: {forces: true}"), "{text}");

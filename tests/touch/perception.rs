@@ -211,7 +211,7 @@ proptest! {
 /// heading, forwards or backwards, and have then been lifted off it and moved by `gone`.
 fn after_swiping(whisker: usize, body: Pose, forwards: f64, gone: Vector2) -> Perception {
     let rig = Rig::default();
-    let mut perception = Perception::new(&rig, &[0, 1], &[TipModelKind::OneChannel; 2]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(0), Some(1)], &[TipModelKind::OneChannel; 2]).unwrap();
     let bent = 3e-4 * rig.whiskers[whisker].side() * forwards;
     let feel = |perception: &mut Perception, position, angle: f64| {
         let mut whiskers = [Reading::default(); MAX_WHISKERS];

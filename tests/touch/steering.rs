@@ -11,7 +11,7 @@ use vibrissa::signal::Command;
 
 fn steering() -> (Steering, Rig) {
     let rig = Rig::default();
-    (Steering::new(&rig, &[0, 1]), rig)
+    (Steering::new(&rig, &[Some(0), Some(1)]), rig)
 }
 
 /// The pose after `time` seconds of `command`.

@@ -11,7 +11,7 @@ use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
 fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Option<Touch>) {
     let mut rig = Rig::default();
     rig.sensing.forces = true;
-    let mut perception = Perception::new(&rig, &[0], &[kind]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(0)], &[kind]).unwrap();
     for tick in 0..30 {
         let samples: [Sample; 10] = std::array::from_fn(|index| {
             let time = f64::from(tick * 10 + i32::try_from(index).unwrap()) / 300.0;

@@ -153,7 +153,7 @@ impl<'m> Region<'m> {
                 self.narrow(Unknown::Deflection(whisker), side)
             }
             WhiskerScalar::ContourReady => self.narrow(Unknown::Ready(whisker), to),
-            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread => {
+            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
                 self.narrow(Unknown::Whisker(whisker, quantity), to)
             }
             WhiskerScalar::ContourCurvature => {

@@ -61,7 +61,7 @@ impl Domain {
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a turn, and what a filter adds.
             Unknown::Deflection(_) => range(-TAU, TAU),
-            Unknown::Ready(_) => Self::Values(vec![1.0, 0.0]),
+            Unknown::Ready(_) | Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
             Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
             Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
             Unknown::Whisker(_, WhiskerScalar::TipSpread) => range(0.0, f64::INFINITY),
@@ -175,7 +175,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
             let curvature = source.range(Unknown::Whisker(whisker, quantity));
             once_ready(source, whisker, curvature)
         }
-        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread => {
+        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
             source.range(Unknown::Whisker(whisker, quantity))
         }
     }

@@ -66,7 +66,7 @@ const fn place(name: &'static str, quantity: WhiskerVector, meaning: &'static st
     member(name, Type::PLACE, MemberSource::Vector(quantity), meaning)
 }
 
-const WHISKER: [Member; 12] = [
+const WHISKER: [Member; 13] = [
     scalar(
         "deflection",
         Type::ANGLE,
@@ -97,6 +97,12 @@ const WHISKER: [Member; 12] = [
         "how far off `tip` may be by its tip model, as a standard deviation; infinite beyond the model's range",
     ),
     place("base", WhiskerVector::Base, "its base"),
+    scalar(
+        "fitted",
+        Type::Truth,
+        WhiskerScalar::Fitted,
+        "whether the rig has it, which may lack one that is bound `if fitted`",
+    ),
     Member {
         at: Some(At::Tip),
         ..member(

@@ -190,6 +190,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "of" => Expected::Dimension,
         "always" => Expected::Only("when"),
         "else" => Expected::Only("if"),
+        "if" if statement.first().is_some_and(|token| token.text == "whisker") => Expected::Only("fitted"),
         "true" | "false" | "body" | "hold" | "stop" => more(statement, level),
         _ => Expected::Value,
     }

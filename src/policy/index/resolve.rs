@@ -65,6 +65,9 @@ pub(super) fn resolve(
             TokenKind::Name if is_before("mark") => {
                 word(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Word(word.text))
             }
+            TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
+                word(token.text).map(|word| Meaning::Word(word.text))
+            }
             // A member, or a state within another: `-> Outer(w).Inner`.
             TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
@@ -125,6 +128,11 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
 /// Whether a word has its meaning behind `mark` alone.
 fn is_mark(word: &Word) -> bool {
     word.places == [Place::Mark]
+}
+
+/// Whether a word behind `if` is the end of `whisker a if fitted`: a condition would go on.
+fn is_fitted(text: &str, next: Option<&Token<'_>>) -> bool {
+    text == "fitted" && next.is_none_or(|next| next.kind == TokenKind::Keyword && !["and", "or"].contains(&next.text))
 }
 
 fn member(owner: Type, name: &str) -> Option<Meaning> {

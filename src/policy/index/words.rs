@@ -77,7 +77,7 @@ const MARK: &[Place] = &[Place::Mark];
 const TIP_MODEL: &[Place] = &[Place::TipModel];
 
 /// Every word of the language that is no function.
-pub(super) const WORDS: [Word; 52] = [
+pub(super) const WORDS: [Word; 53] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
     entry(
@@ -92,6 +92,12 @@ pub(super) const WORDS: [Word; 52] = [
         INSIDE,
         "by ${1:sliding}",
         "The tip model by which whiskers are perceived: `sliding`, `one_channel`, `moment_and_shear` or `recursive`.",
+    ),
+    entry(
+        "fitted",
+        INSIDE,
+        "fitted",
+        "Behind `whisker a if`: the rig may lack these whiskers. One that it lacks never touches; `a.fitted` asks for it.",
     ),
     entry(
         "param",

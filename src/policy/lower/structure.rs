@@ -67,6 +67,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
         tip_models,
+        optional: file.optional.clone(),
         parameters,
         states,
         initial: initial?,

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, polygon};
+use super::layout::{Aim, FEELERS, Layout, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, perpendicular, unit};
 
@@ -35,6 +35,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (first + second + thickness),
+        whiskers: FEELERS,
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, polygon};
+use super::layout::{Aim, Layout, REFERENCE, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, rotate};
 
@@ -31,6 +31,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (side + back) + 0.5,
+        whiskers: REFERENCE,
     }
 }
 

@@ -18,6 +18,8 @@ pub(super) struct Layout {
     pub(super) aim: Aim,
     /// About how long the way is (m).
     pub(super) way: f64,
+    /// The rig's whiskers: [`REFERENCE`] or [`FEELERS`].
+    pub(super) whiskers: &'static str,
 }
 
 /// When a run is completed.
@@ -37,7 +39,14 @@ const WAYS: f64 = 6.0;
 const REST: f64 = 60.0;
 /// Small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round a corner, or comes to
 /// an object on the swing, sinks in for a moment, and deeper the longer the steps are.
-const RIG: &str = "rig: {physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}}";
+const PHYSICS: &str = "physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}";
+/// The whiskers of the reference rig.
+pub(super) const REFERENCE: &str = "";
+/// The reference whiskers, and one a side near the corner of the nose that looks ahead: what turns towards the platform by more than
+/// some 60°, or stands beside its way, would else meet the nose first.
+pub(super) const FEELERS: &str = "whiskers: {r0: {}, l0: {}, \
+     feeler_r: {base: [100 mm, -14 mm], direction: -30 deg, length: 75 mm, radius: 0.11 mm}, \
+     feeler_l: {base: [100 mm, 14 mm], direction: 30 deg, length: 75 mm, radius: 0.11 mm}}, ";
 
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.
@@ -47,7 +56,10 @@ impl Layout {
             Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
             Aim::Place(place) => format!("reached: {{place: {}, within: 50 mm, after: 5 s}}", point(place)),
         };
-        let mut text = format!("name: {name}\ndescription: {}\nseed: {seed}\n{RIG}\nobjects:\n", self.about);
+        let mut text = format!(
+            "name: {name}\ndescription: {}\nseed: {seed}\nrig: {{{}{PHYSICS}}}\nobjects:\n",
+            self.about, self.whiskers
+        );
         for object in &self.objects {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  - {object}");

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, rounded_polygon};
+use super::layout::{Aim, Layout, REFERENCE, rounded_polygon};
 use super::outline::{convex_polygon, rounded, turn};
 use super::place::{ahead, beside};
 use crate::geometry::Vector2;
@@ -33,6 +33,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * radius,
+        whiskers: REFERENCE,
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, polar};
+use super::layout::{Aim, Layout, REFERENCE, polar};
 use super::place::{ahead, beside};
 use crate::geometry::{Harmonic, Vector2, unit};
 
@@ -49,6 +49,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),
+        whiskers: REFERENCE,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, polygon};
+use super::layout::{Aim, Layout, REFERENCE, polygon};
 use super::place::{along, beside};
 use crate::geometry::{Vector2, rotate};
 
@@ -20,5 +20,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (length + thickness) + 0.8,
+        whiskers: REFERENCE,
     }
 }

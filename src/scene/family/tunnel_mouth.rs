@@ -2,7 +2,7 @@
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, tunnel};
+use super::layout::{Aim, Layout, REFERENCE, tunnel};
 use super::place::{before, mouth};
 use crate::geometry::unit;
 
@@ -18,5 +18,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: before(),
         aim: Aim::Place(from.position + length * unit(from.heading)),
         way: length,
+        whiskers: REFERENCE,
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, circle, polygon};
+use super::layout::{Aim, FEELERS, Layout, circle, polygon};
 use super::outline::{convex_polygon, disk};
 use super::place::{ahead, beside};
 use crate::geometry::{Vector2, unit};
@@ -37,5 +37,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * (radii[0] + radii[1]),
+        whiskers: FEELERS,
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Family;
 use super::dice::Dice;
-use super::layout::{Aim, Layout, tunnel};
+use super::layout::{Aim, Layout, REFERENCE, tunnel};
 use super::place::{before, mouth};
 use crate::geometry::{Vector2, unit};
 
@@ -31,5 +31,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: before(),
         aim: Aim::Place(from.position + along),
         way: runs.iter().map(|run| run.0).sum(),
+        whiskers: REFERENCE,
     }
 }

@@ -28,7 +28,7 @@ pub fn judge_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> Resu
     let mut scene = scene.clone();
     scene.rig.sensing.forces = true;
     make_noisy(&mut scene.rig.sensing, 0.0);
-    let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
+    let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
     let mut tape = Tape::record(&scene, &scene.rig, program, world)?;
     let mut rows = Vec::with_capacity(NOISES.len() * TipModelKind::ALL.len());
     for factor in NOISES {
@@ -73,7 +73,7 @@ fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
 pub(in crate::study) fn judge(
     scene: &Scene,
     rig: &Rig,
-    (whiskers, kinds): (&[usize], &[TipModelKind]),
+    (whiskers, kinds): (&[Option<usize>], &[TipModelKind]),
     tape: &Tape,
     noise: f64,
 ) -> Result<EstimatorRow, ExecuteError> {
@@ -84,17 +84,19 @@ pub(in crate::study) fn judge(
         let start = processor_time();
         perception.update(samples);
         seconds += processor_time() - start;
-        for (whisker, &in_rig) in whiskers.iter().enumerate() {
+        // A trace has only those whiskers that the rig has.
+        let fitted = whiskers.iter().enumerate().filter_map(|(bound, index)| index.map(|index| (bound, index)));
+        for (whisker, (bound, in_rig)) in fitted.enumerate() {
             if tick.tips[whisker].is_none() {
                 continue;
             }
             asked += 1;
-            perception.record(whisker);
-            let Some(tip_world) = perception.recorded_tip(whisker) else { continue };
+            perception.record(bound);
+            let Some(tip_world) = perception.recorded_tip(bound) else { continue };
             let length = rig.whiskers[in_rig].shaft.length;
-            on_shaft += usize::from(perception.touch(whisker).is_some_and(|touch| touch.contact_length < length));
+            on_shaft += usize::from(perception.touch(bound).is_some_and(|touch| touch.contact_length < length));
             let error = scene.truth.surfaces.nearest(tip_world).distance;
-            let spread = perception.whisker(whisker, WhiskerScalar::TipSpread);
+            let spread = perception.whisker(bound, WhiskerScalar::TipSpread);
             tips.push(Tip { tick: index, whisker, tip_world, error, spread });
         }
     }

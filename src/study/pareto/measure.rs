@@ -141,7 +141,7 @@ fn ridden(
     world: WorldKind,
     setting: &Setting,
 ) -> Result<Measured, ExecuteError> {
-    let whiskers = scene.rig.indices(&program.whiskers).map_err(BindError::from)?;
+    let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
     let start = processor_time();
     let tape = Tape::record(scene, perceived, Arc::clone(program), world)?;
     let seconds = processor_time() - start;

@@ -91,7 +91,7 @@ pub(crate) fn run(program: Program) {
 
 fn run_on(program: &Arc<Program>, is_sound: bool) {
     let rig = Rig::default();
-    let whiskers: Vec<usize> = (0..program.whiskers.len()).map(|index| index % rig.whiskers.len()).collect();
+    let whiskers: Vec<_> = (0..program.whiskers.len()).map(|index| Some(index % rig.whiskers.len())).collect();
     let mut steering = Steering::new(&rig, &whiskers);
     let mut senses = Erratic { whiskers: program.whiskers.len(), is_sound, tick: 0, said: Cell::new(0) };
     let mut machine = Machine::new(program.clone());

@@ -37,6 +37,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         "tip_base",
         "tip_spread",
         "base",
+        "fitted",
         "tip_at",
         "contour",
     ];
@@ -147,7 +148,7 @@ fn where_anything_may_be_written_nothing_is_offered() {
 
 #[test]
 fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
-    let modules = ["guards", "retrieval", "swipe", "tunnel"];
+    let modules = ["feelers", "guards", "retrieval", "swipe", "tunnel"];
     assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
     assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
     assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);

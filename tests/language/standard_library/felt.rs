@@ -87,6 +87,7 @@ impl Senses for Felt {
             WhiskerScalar::Side => Self::side(whisker),
             WhiskerScalar::Sense if self.is_touching(whisker) => deflection.signum() * Self::side(whisker),
             WhiskerScalar::Length => LENGTH,
+            WhiskerScalar::Fitted => 1.0,
             WhiskerScalar::ContourReady => f64::from(u8::from(ready)),
             WhiskerScalar::Sense | WhiskerScalar::ContourCurvature | WhiskerScalar::TipSpread => 0.0,
         }

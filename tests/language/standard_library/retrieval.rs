@@ -61,7 +61,7 @@ proptest! {
 /// The platform after a law has been done for some seconds by the reference rig's steering, with nothing in its way.
 fn after(whisker: usize, law: &str, body: Pose, seconds: u32) -> Felt {
     let rig = Rig::default();
-    let (mut machine, mut steering) = (machine(whisker, law), Steering::new(&rig, &[0, 1]));
+    let (mut machine, mut steering) = (machine(whisker, law), Steering::new(&rig, &[Some(0), Some(1)]));
     let mut felt = Felt::at(body);
     for _ in 0..30 * seconds {
         let action = machine.tick(&mut felt).action;
