@@ -22,6 +22,9 @@ pub(super) struct Facet {
     /// How far (m) it counts on beyond its start and its end: beyond a corner that points inwards, where what comes along the one
     /// side meets the other.
     beyond: [f64; 2],
+    /// How far (m) from its start and from its end it counts on, beyond such a corner, for what is known to be outside of it: what the
+    /// other side is to hold may come in behind that for a moment, and must not lose this one there.
+    kept: [f64; 2],
     ends: [Point2; 2],
     bounds: BoundingBox,
     /// The piece after this one.
@@ -113,6 +116,7 @@ impl Surfaces {
                 facets.push(Facet {
                     form: Form::of(piece),
                     beyond: [OVERLAP; 2],
+                    kept: [0.0; 2],
                     ends: [piece.start(), piece.end()],
                     bounds: piece.bounding_box(),
                     next: first + following,
@@ -129,6 +133,10 @@ impl Surfaces {
                 let share = 0.5 * folded.max(0.0);
                 facets[index].beyond[1] = (share * others.norm()).clamp(OVERLAP, BEYOND);
                 facets[next].beyond[0] = (share * own.norm()).clamp(OVERLAP, BEYOND);
+                // So near to the corner nothing comes round the far end of either side.
+                let kept = own.norm().min(others.norm()).min(BEYOND);
+                facets[index].kept[1] = kept;
+                facets[next].kept[0] = kept;
             }
         }
         let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.bounds };
@@ -157,22 +165,41 @@ impl Surfaces {
 impl Facet {
     /// The foot of a point on this facet, if the point is beside it and not beyond an end.
     pub(super) fn foot(&self, point: Point2) -> Option<Foot> {
-        match self.form {
+        let is_beside = match self.form {
             Form::Flat { start, tangent, length } => {
-                let from_start = point - start;
-                let along = from_start.dot(&tangent);
+                let along = (point - start).dot(&tangent);
+                along >= -self.beyond[0] && along <= length + self.beyond[1]
+            }
+            Form::Round { centre, .. } => self.spans(point - centre),
+        };
+        if is_beside { self.continued(point) } else { None }
+    }
+
+    /// The same for a point that is known to have been outside of this facet: also where it has come in behind the other side of a
+    /// corner that points inwards.
+    pub(super) fn foot_of_known(&self, point: Point2) -> Option<Foot> {
+        self.foot(point).or_else(|| {
+            let mut corners = self.ends.iter().zip(self.kept);
+            corners.any(|(end, kept)| (point - end).norm() < kept).then(|| self.continued(point)).flatten()
+        })
+    }
+
+    /// The foot of a point on the line or the circle that this facet is a part of.
+    fn continued(&self, point: Point2) -> Option<Foot> {
+        match self.form {
+            Form::Flat { start, tangent, .. } => {
                 let normal = -perpendicular(tangent);
-                let beside = along >= -self.beyond[0] && along <= length + self.beyond[1];
-                beside.then(|| Foot { normal, height: from_start.dot(&normal), curvature: 0.0 })
+                Some(Foot { normal, height: (point - start).dot(&normal), curvature: 0.0 })
             }
             Form::Round { centre, radius, sense, .. } => {
                 let outward = point - centre;
                 let distance = outward.norm();
-                if !self.spans(outward) || distance == 0.0 {
-                    return None;
-                }
                 let height = sense * (distance - radius);
-                Some(Foot { normal: sense / distance * outward, height, curvature: sense / distance })
+                (distance > 0.0).then(|| Foot {
+                    normal: sense / distance * outward,
+                    height,
+                    curvature: sense / distance,
+                })
             }
         }
     }

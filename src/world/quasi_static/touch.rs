@@ -146,7 +146,8 @@ impl Pair {
         };
         match &mut self.part {
             Part::EndOnFacet(index, is_outside) => {
-                let foot = surfaces.facet(*index).foot(end);
+                let facet = surfaces.facet(*index);
+                let foot = if *is_outside { facet.foot_of_known(end) } else { facet.foot(end) };
                 *is_outside = foot.is_some_and(|foot| *is_outside || foot.height > -wire.end_radius(link));
                 foot.filter(|_| *is_outside).map(of_end)
             }
