@@ -33,7 +33,7 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
     let mut seen: Vec<String> = Vec::with_capacity(8);
     for tick in 0..120 {
         // Nothing, then a touch as forward motion gives it, then one that is too strong.
-        let base_angle = [0.0, -3e-4, -3e-4, -2e-3][tick / 30];
+        let base_angle = [0.0, -2.5e-4, -2.5e-4, -2e-3][tick / 30];
         let samples = samples(tick, base_angle);
         let before = allocations();
         let (command, given) = control.tick(&samples);
