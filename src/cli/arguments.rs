@@ -70,7 +70,8 @@ pub(super) struct RunArguments {
     /// Scenario files, one run each
     #[arg(value_name = "SCENARIO", required = true)]
     pub(super) scenarios: Vec<PathBuf>,
-    /// Policy, or compiled machine, to run instead of the policy that a scenario names
+    /// Policy, or compiled machine, to run instead of the policy that a scenario names, or of the one that is built in where that
+    /// names none
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
@@ -333,7 +334,8 @@ pub(super) struct ExplainArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
     pub(super) scenario: PathBuf,
-    /// Policy, or compiled machine, instead of the policy that the scenario names
+    /// Policy, or compiled machine, instead of the policy that the scenario names, or of the one that is built in where that names
+    /// none
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     /// World to run in, instead of the scenario's; `mujoco` where that names none

@@ -59,8 +59,6 @@ pub(super) enum Failure {
     OntoItself { path: PathBuf },
     #[error("{} is a compiled machine, which does not hold its text; give the policy that it was made from, {origin}", path.display())]
     Compiled { path: PathBuf, origin: String },
-    #[error("{} names no policy; give one with --policy", scenario.display())]
-    NoPolicy { scenario: PathBuf },
     #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]
     NoText { policy: PathBuf },
     #[error("no test has `{filter}` in its title; leave out --filter to run them all")]

@@ -7,13 +7,10 @@ use super::exit::{Exit, Failure};
 use super::{input, output};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
-    let scene = input::scenario(&arguments.scenario)?.value;
-    let policy = match (&arguments.policy, &scene.policy) {
-        (Some(policy), _) => policy.clone(),
-        (None, Some(policy)) => input::beside(&arguments.scenario, policy),
-        (None, None) => return Err(Failure::NoPolicy { scenario: arguments.scenario.clone() }),
-    };
-    let program = input::program(&policy)?.value;
+    let source = input::read(&arguments.scenario)?;
+    let scene = input::scenario_in(&source, |_| ())?.value;
+    let (_, policy) = input::policy_for(arguments.policy.as_deref(), &scene, &source);
+    let program = policy?.value.artifact.program;
     // What the rig lacks would otherwise look as if it were read.
     let fitted = scene
         .rig

@@ -83,10 +83,10 @@ fn job(trial: &Trial, policy: &Loaded<Policy>, arguments: &FamiliesArguments) ->
 }
 
 /// Prints a scenario, and how it is run by itself.
-fn print(Trial { draw, .. }: &Trial, seed: u64) -> Result<(), Failure> {
+fn print(Trial { family, number, draw }: &Trial, seed: u64) -> Result<(), Failure> {
     let speed = format_si(draw.speed, Dimension::SPEED);
     output::text(format_args!(
-        "# seed {seed}; vibrissa run FILE --policy POLICY --set \"speed={speed}\"\n{}",
+        "# trial {number} of {family}, seed {seed}; at its speed: vibrissa run FILE --set \"speed={speed}\"\n{}",
         draw.text
     ))
 }

@@ -12,8 +12,8 @@ use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, Library, PolicyTest, gather_and_compile};
-use crate::scene::Scene;
-use crate::study::bench::TextFile;
+use crate::scene::{FileReference, Scene};
+use crate::study::bench::{DEFAULT_POLICY, TextFile};
 
 use super::exit::Failure;
 use super::output;
@@ -63,13 +63,13 @@ pub(super) fn read_standard() -> Result<Source, Failure> {
 
 /// Reads a scenario with the files that it refers to; the hash is that of all of them.
 pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
-    scenario_with_files(path, |_| ())
+    scenario_in(&read(path)?, |_| ())
 }
 
-/// The same. `each_file` that it refers to is told, be it there or not.
-pub(super) fn scenario_with_files(path: &Path, mut each_file: impl FnMut(PathBuf)) -> Result<Loaded<Scene>, Failure> {
-    read_scenario(read(path)?, |name| {
-        let (path, bytes) = outline_file(path, name);
+/// The same of a text that has been read. `each_file` that it refers to is told, be it there or not.
+pub(super) fn scenario_in(source: &Source, mut each_file: impl FnMut(PathBuf)) -> Result<Loaded<Scene>, Failure> {
+    read_scenario(source, |name| {
+        let (path, bytes) = outline_file(Path::new(&source.name), name);
         each_file(path);
         bytes
     })
@@ -89,15 +89,15 @@ pub(super) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
 
 /// A scenario that is part of the program.
 pub(super) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, Failure> {
-    read_scenario(Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
+    read_scenario(&Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
 }
 
 fn read_scenario(
-    source: Source,
+    source: &Source,
     mut file: impl FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Loaded<Scene>, Failure> {
     let mut hash = Sha256::new().chain_update(&source.text);
-    let scene = Scene::from_yaml_with(&source, &mut |name| {
+    let scene = Scene::from_yaml_with(source, &mut |name| {
         let bytes = file(name)?;
         hash.update([0]);
         hash.update(&bytes);
@@ -105,7 +105,7 @@ fn read_scenario(
     });
     match scene {
         Ok(value) => Ok(Loaded { value, hash }),
-        Err(faults) => Err(Failure::Faults { source_text: Box::new(source), faults }),
+        Err(faults) => Err(Failure::Faults { source_text: Box::new(source.clone()), faults }),
     }
 }
 
@@ -156,18 +156,34 @@ fn regular<T>(path: &Path, read: impl FnOnce(File) -> Result<T, Error>) -> Resul
     if path.metadata().is_ok_and(|about| !about.is_file()) {
         return Err("it is no file".to_owned());
     }
-    File::open(path).and_then(read).map_err(|cause| {
-        let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
-        let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
-        let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
-        // Of names that are equally near the first is suggested, and a folder has no order of its own.
-        siblings.sort_unstable();
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
-            Some(meant) => format!("{cause}; did you mean `{meant}`?"),
-            None => cause.to_string(),
-        }
-    })
+    File::open(path).and_then(read).map_err(|cause| reason(path, &cause))
+}
+
+/// Why a file cannot be read, with the name that was probably meant.
+fn reason(path: &Path, cause: &Error) -> String {
+    let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+    let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+    // Of names that are equally near the first is suggested, and a folder has no order of its own.
+    siblings.sort_unstable();
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
+        Some(meant) => format!("{cause}; did you mean `{meant}`?"),
+        None => cause.to_string(),
+    }
+}
+
+/// That a file cannot be read, at the place in `source` that names it; other failures as they are.
+pub(super) fn named_in(source: &Source, file: &FileReference) -> impl FnOnce(Failure) -> Failure {
+    |failure| match failure {
+        Failure::Read { path, cause } => at(source, file.unreadable(&reason(&path, &cause))),
+        other => other,
+    }
+}
+
+/// The failure that a fault of a text is.
+pub(super) fn at(source: &Source, fault: Diagnostic) -> Failure {
+    Failure::Faults { source_text: Box::new(source.clone()), faults: vec![fault] }
 }
 
 /// A policy that is ready to run.
@@ -202,7 +218,25 @@ pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
     }
 }
 
-/// The same, and the machine alone: what the compiler warns of takes most of its time.
+/// The policy for the scene that was read from `source`: the one that is asked for, or else the one that the scene names, or else the
+/// one that is built in. Where it is comes with it, unless it is built in.
+pub(super) fn policy_for(
+    asked: Option<&Path>,
+    scene: &Scene,
+    source: &Source,
+) -> (Option<PathBuf>, Result<Loaded<Policy>, Failure>) {
+    match (asked, &scene.policy) {
+        (Some(path), _) => (Some(path.to_owned()), policy(path)),
+        (None, Some(file)) => {
+            let path = beside(Path::new(&source.name), &file.path);
+            let policy = policy(&path).map_err(named_in(source, file));
+            (Some(path), policy)
+        }
+        (None, None) => (None, built_in_policy(&DEFAULT_POLICY)),
+    }
+}
+
+/// Reads a policy's machine alone: what the compiler warns of takes most of its time.
 pub(super) fn program(path: &Path) -> Result<Loaded<Program>, Failure> {
     let Loaded { value, hash } = policy_file(path)?;
     let source = match value {

@@ -35,11 +35,11 @@ pub(super) struct Job {
     preparation: Duration,
 }
 
-/// The files that have been read, and those of them whose warnings have been told.
+/// The files that have been read, and the names of the policies whose warnings have been told.
 #[derive(Default)]
 pub(super) struct Files {
     pub(super) read: BTreeSet<PathBuf>,
-    told: BTreeSet<PathBuf>,
+    told: BTreeSet<String>,
 }
 
 impl Files {
@@ -68,17 +68,13 @@ impl Job {
     fn new(path: &Path, arguments: &RunArguments, files: &mut Files) -> Result<Self, Failure> {
         let before = Instant::now();
         files.read.insert(path.to_owned());
-        let scenario = input::scenario_with_files(path, |file| {
+        let source = input::read(path)?;
+        let scenario = input::scenario_in(&source, |file| {
             files.read.insert(file);
         })?;
         let scene = scenario.value;
-        let policy_path = match (&arguments.policy, &scene.policy) {
-            (Some(policy), _) => policy.clone(),
-            (None, Some(policy)) => path.parent().unwrap_or(Path::new("")).join(policy),
-            (None, None) => return Err(Failure::NoPolicy { scenario: path.to_owned() }),
-        };
-        files.read.insert(policy_path.clone());
-        let policy = input::policy(&policy_path);
+        let (policy_path, policy) = input::policy_for(arguments.policy.as_deref(), &scene, &source);
+        files.read.extend(policy_path);
         match &policy {
             Ok(Loaded { value: Policy { text: Some(PolicyText { source, .. }), .. }, .. }) => files.add(source),
             Err(Failure::Faults { source_text, .. }) => files.add(source_text),
@@ -86,7 +82,7 @@ impl Job {
         }
         let Loaded { value: Policy { artifact, text }, hash: policy_hash } = policy?;
         if let Some(PolicyText { source, warnings, .. }) = &text
-            && files.told.insert(policy_path)
+            && files.told.insert(source.name.clone())
         {
             output::diagnostics(source, warnings);
         }

@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::Source;
 use crate::machine::Program;
 use crate::run::Control;
-use crate::scene::{FileReference, ScenesOf, Sweep, SweepRun, WorldSetup};
+use crate::scene::{ScenesOf, Sweep, SweepRun, WorldSetup};
 use crate::study::sweep::{Header, Shard};
 use crate::study::{check_world, engine_version};
 use crate::units::Dimension;
 
 use super::exit::Failure;
-use super::input::{self, Loaded};
+use super::input::{self, Loaded, at, named_in};
 use super::job::{Job, with_settings};
 use super::output;
 
@@ -47,13 +47,9 @@ impl Plan {
         let mut hashed = |kind: &str, path: &Path, hash: Sha256| {
             inputs.insert(format!("{kind} {}", path.display()), input::short(&hash.finalize()));
         };
-        let in_sweep = |file: &FileReference, failure| match failure {
-            Failure::Read { cause, .. } => at(&source, file.unreadable(&cause.to_string())),
-            other => other,
-        };
         let mut policies = Vec::new();
         for file in sweep.policies() {
-            let policy = input::program(&input::beside(path, &file.path)).map_err(|failure| in_sweep(file, failure))?;
+            let policy = input::program(&input::beside(path, &file.path)).map_err(named_in(&source, file))?;
             hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
@@ -63,7 +59,7 @@ impl Plan {
                 scenarios.push(None);
                 continue;
             };
-            let text = input::read(&input::beside(path, &file.path)).map_err(|failure| in_sweep(file, failure))?;
+            let text = input::read(&input::beside(path, &file.path)).map_err(named_in(&source, file))?;
             hashed("scenario", &file.path, Sha256::new_with_prefix(&text.text));
             scenarios.push(Some(text));
         }
@@ -190,9 +186,4 @@ impl Plan {
         let kept = self.files.get(&input::beside(scenario, name));
         kept.cloned().unwrap_or_else(|| input::outline_file(scenario, name).1)
     }
-}
-
-/// The failure that a fault of a text is.
-fn at(source: &Source, fault: Diagnostic) -> Failure {
-    Failure::Faults { source_text: Box::new(source.clone()), faults: vec![fault] }
 }

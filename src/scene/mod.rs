@@ -9,6 +9,7 @@ mod contacts;
 mod decompose;
 mod expectation;
 pub mod family;
+mod file_reference;
 mod gap;
 mod jitter;
 mod mjcf;
@@ -25,6 +26,7 @@ mod yaml;
 
 pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
+pub use file_reference::FileReference;
 pub use jitter::Jitter;
 pub use mjcf::{mjcf, mjcf_within, part_names};
 pub use part::Part;
@@ -32,6 +34,6 @@ pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigi
 pub use scenario::{Files, Scene};
 pub use solid::{Solid, SolidError};
 pub use stop::{LoopClosed, Reached, Stalled, Stop};
-pub use sweep::{FileReference, ScenesOf, Sweep, SweepRun, SweepScenes};
+pub use sweep::{ScenesOf, Sweep, SweepRun, SweepScenes};
 pub use truth::Truth;
 pub use world_kind::{WorldKind, WorldSetup};

@@ -1,11 +1,10 @@
 //! A scenario as a whole.
 
 use super::clearance::overlap;
-use super::{Expectation, Solid, Stop, Truth, WorldKind, yaml};
+use super::{Expectation, FileReference, Solid, Stop, Truth, WorldKind, yaml};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::geometry::Pose;
 use crate::rig::Rig;
-use std::path::PathBuf;
 
 /// Gives the bytes of a file by its path, which is relative to the scenario's, or says why it cannot. It need not read more of
 /// one than tells that there are more than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT).
@@ -30,8 +29,8 @@ pub struct Scene {
     pub stop: Stop,
     /// What must hold at the end of a run.
     pub expect: Vec<Expectation>,
-    /// The policy to run unless another is asked for, relative to the scenario's file.
-    pub policy: Option<PathBuf>,
+    /// The policy to run unless another is asked for.
+    pub policy: Option<FileReference>,
     /// The world to run in unless another is asked for.
     pub world: Option<WorldKind>,
     /// Seed of the sensor noise.
@@ -87,6 +86,7 @@ mod tests {
     };
     use crate::scene::{LoopClosed, Metric, Outcome, Stalled};
     use std::f64::consts::{FRAC_PI_2, PI};
+    use std::path::Path;
 
     fn read(text: &str) -> Scene {
         let source = Source::new("scenario.yaml", text);
@@ -125,7 +125,7 @@ mod tests {
                 Expectation::Bound { metric: Metric::Coverage, bound: 0.95 },
             ]
         );
-        assert_eq!(scene.policy, Some("../policies/thesis.fsm".into()));
+        assert_eq!(scene.policy.unwrap().path, Path::new("../policies/thesis.fsm"));
         assert_eq!(scene.seed, 0);
     }
 

@@ -8,11 +8,11 @@ mod run;
 mod scenes;
 
 pub use run::SweepRun;
-pub use scenes::{FileReference, ScenesOf, SweepScenes};
+pub use scenes::{ScenesOf, SweepScenes};
 
 pub(super) use axis::{Axis, AxisValues, ParameterValue};
 
-use super::yaml;
+use super::{FileReference, yaml};
 use crate::diagnostic::{Diagnostic, Source};
 
 /// A sweep, read and checked by itself: the files that it refers to are others' to read.

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::axis::{Axis, AxisValues};
-use super::{FileReference, Sweep, SweepScenes};
+use super::{Sweep, SweepScenes};
 use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::scene::{Files, Scene, yaml};
+use crate::scene::{FileReference, Files, Scene, yaml};
 use crate::units::Quantity;
 
 /// One run of a sweep: a trial, under one policy, with one value of everything that varies.

@@ -1,29 +1,7 @@
 //! Where the scenes of a sweep come from.
 
-use std::path::PathBuf;
-
-use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::FileReference;
 use crate::scene::family::Family;
-use crate::scene::yaml;
-
-/// A file that a sweep names.
-#[derive(Debug, Clone)]
-pub struct FileReference {
-    /// Its path, relative to the sweep.
-    pub path: PathBuf,
-    /// The name of the file without its ending.
-    pub name: String,
-    /// Where the sweep names it.
-    pub span: Span,
-}
-
-impl FileReference {
-    /// That the file cannot be read, at the place in the sweep that names it, for a `reason`.
-    #[must_use]
-    pub fn unreadable(&self, reason: &str) -> Diagnostic {
-        yaml::unreadable(self, reason)
-    }
-}
 
 /// Scenes of one kind.
 #[derive(Debug, Clone)]

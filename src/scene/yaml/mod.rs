@@ -7,6 +7,7 @@ mod change;
 mod expect;
 mod fault;
 mod fields;
+mod file;
 mod key;
 mod node;
 mod number;
@@ -26,5 +27,6 @@ mod tunnel;
 mod whisker;
 
 pub(super) use change::{Change, quoted, read as read_changed};
+pub(super) use file::unreadable;
 pub(super) use scene::read;
-pub(super) use sweep::{read as read_sweep, unfit, unreadable};
+pub(super) use sweep::{read as read_sweep, unfit};

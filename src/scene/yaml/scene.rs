@@ -4,11 +4,10 @@ use super::fields::Fields;
 use super::node::{Entry, Node, Placed};
 use super::objects::Objects;
 use super::reader::Reader;
-use super::{expect, fault, object, rig, start, stop};
+use super::{expect, fault, file, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::rig::Rig;
 use crate::scene::{Files, Scene, WorldKind};
-use std::path::PathBuf;
 
 const NAME_HINT: &str = "results are filed under this name; the `description` takes any text";
 
@@ -56,7 +55,7 @@ pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         None => Some(vec![expect::COMPLETION]),
     };
     let policy = match fields.entry("policy") {
-        Some(entry) => policy(reader, entry).map(Some),
+        Some(entry) => file::reference(reader, &entry.value).map(Some),
         None => Some(None),
     };
     let world = match fields.entry("world") {
@@ -105,14 +104,4 @@ pub(super) fn name(reader: &mut Reader<'_>, entry: &Entry, what: &str, hint: &'s
         return None;
     }
     Some(name.value)
-}
-
-fn policy(reader: &mut Reader<'_>, entry: &Entry) -> Option<PathBuf> {
-    let path = reader.text(&entry.value)?;
-    if path.value.is_empty() {
-        let fault = Diagnostic::error(fault::NAME, "the path of the policy is empty", path.span, "must be a path");
-        reader.report(fault.hint("write it relative to this file, or leave `policy` out"));
-        return None;
-    }
-    Some(path.value.into())
 }

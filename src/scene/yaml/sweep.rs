@@ -2,6 +2,7 @@
 
 use super::change::Change;
 use super::fields::Fields;
+use super::file::reference;
 use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::{fault, scene};
@@ -11,7 +12,6 @@ use crate::scene::sweep::{Axis, AxisValues, ParameterValue};
 use crate::scene::{FileReference, ScenesOf, Sweep, SweepScenes};
 use crate::units::{Dimension, Quantity, parse_quantity};
 use std::collections::BTreeMap;
-use std::path::Path;
 
 const SCENES: &str = "[{family: convex-corner, trials: 100}]";
 const POLICIES: &str = "[../policies/vibrissa.fsm]";
@@ -92,18 +92,6 @@ fn policies(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<FileReference>
         check_new(reader, &mut seen, name, *span, name);
     }
     Some(policies)
-}
-
-/// Reads a path, relative to the sweep. Its last part without the ending is the name that results have.
-fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<FileReference> {
-    let path = reader.text(node)?;
-    let Some(name) = Path::new(&path.value).file_stem().and_then(|name| name.to_str()) else {
-        let message = format!("`{}` is no path of a file", path.value);
-        let fault = Diagnostic::error(fault::NAME, message, path.span, "must lead from this file to another");
-        reader.report(fault.hint("for example `../policies/vibrissa.fsm`"));
-        return None;
-    };
-    Some(FileReference { name: name.to_owned(), path: path.value.into(), span: path.span })
 }
 
 fn scenes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<SweepScenes>> {
@@ -259,13 +247,6 @@ fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterVa
 #[expect(clippy::unnecessary_wraps, reason = "it stands beside `parameters`")]
 fn changes(_: &mut Reader<'_>, path: &Placed<String>, items: &[Placed<Node>]) -> Option<AxisValues> {
     Some(AxisValues::Scenario(items.iter().map(|item| Change::new(path.clone(), item.clone())).collect()))
-}
-
-/// The fault of a file that cannot be read, for a `reason`.
-pub(in crate::scene) fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
-    let message = format!("cannot read `{}`", file.path.display());
-    let fault = Diagnostic::error(fault::FILE, message, file.span, reason);
-    fault.hint("a path leads from the folder of the sweep to the file")
 }
 
 /// The fault of a policy, or of a value for one, at a place.

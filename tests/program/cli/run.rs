@@ -15,6 +15,40 @@ fn run_tells_the_warnings_of_a_policy_once() {
     assert_eq!(stderr(&output).matches("warning[P0504]").count(), 1, "{}", stderr(&output));
 }
 
+#[test]
+fn a_policy_that_is_not_there_is_told_at_the_place_that_names_it() {
+    let directory = directory("policy-missing");
+    let scenario = directory.join("disk.yaml");
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    std::fs::write(&scenario, disk.replace("policy: ../policies/thesis.fsm", "policy: tesis.fsm")).unwrap();
+    std::fs::copy("policies/thesis.fsm", directory.join("thesis.fsm")).unwrap();
+    let line = 1 + std::fs::read_to_string(&scenario).unwrap().lines().position(|line| line.contains("tesis")).unwrap();
+    for command in ["run", "explain"] {
+        let output = vibrissa(&[command, scenario.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        let told = stderr(&output);
+        for wanted in ["error[S0401]", &format!("disk.yaml:{line}:9"), "did you mean `thesis.fsm`?"] {
+            assert!(told.contains(wanted), "{wanted}: {told}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
+    let path = directory("printed").join("scene.yaml").display().to_string();
+    let result = |arguments: &[&str]| {
+        let output = vibrissa(&[arguments, &["--world", "quasistatic", "--json"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let mut results: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        ["policy", "outcome", "sim_s", "error_mm", "coverage"].map(|key| results[0][key].take())
+    };
+    let printed = stdout(&vibrissa(&["families", "convex-corner", "--trial", "0", "--print"]));
+    std::fs::write(&path, &printed).unwrap();
+    assert_eq!(result(&["run", &path])[..2], ["vibrissa", "completed"]);
+    let set = printed.lines().next().unwrap().split('"').nth(1).unwrap();
+    assert_eq!(result(&["run", &path, "--set", set]), result(&["families", "convex-corner", "--trial", "0"]));
+}
+
 #[cfg(feature = "outlines")]
 #[test]
 fn a_scenario_finds_its_outlines_beside_itself_and_tells_of_one_that_is_not_there() {
