@@ -100,7 +100,7 @@ pub(super) struct RunArguments {
 }
 
 const BENCH_STATUS: &str = "Exit status: 0 all runs completed and no figure is worse than the thesis's; 1 otherwise; \
-                            2 unusable input; 3 internal error.";
+                            2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = BENCH_STATUS)]
@@ -170,7 +170,8 @@ pub(super) struct CalibrateArguments {
     pub(super) json: bool,
 }
 
-const COMPARE_STATUS: &str = "Exit status: 0 done, whichever is better; 2 unusable input; 3 internal error.";
+const COMPARE_STATUS: &str =
+    "Exit status: 0 done, whichever is better; 2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_STATUS)]
@@ -202,7 +203,8 @@ pub(super) struct CompareArguments {
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
-const PARETO_STATUS: &str = "Exit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error.";
+const PARETO_STATUS: &str =
+    "Exit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = PARETO_STATUS)]
@@ -224,8 +226,7 @@ pub(super) struct ParetoArguments {
     pub(super) json: bool,
 }
 
-const FAMILIES_STATUS: &str =
-    "Exit status: 0 all runs completed without a contact of the body; 1 otherwise; 2 unusable input; 3 internal error.";
+const FAMILIES_STATUS: &str = "Exit status: 0 all runs completed without a contact of the body; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = FAMILIES_STATUS)]
@@ -265,7 +266,7 @@ pub(super) struct FamiliesArguments {
 }
 
 const SWEEP_STATUS: &str = "Exit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; \
-                            2 unusable input; 3 internal error.";
+                            2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = SWEEP_STATUS)]
@@ -315,7 +316,7 @@ pub(super) struct WorkerArguments {
 }
 
 const STRESS_STATUS: &str = "Exit status: 0 every case ended in a way that runs end, with finite numbers; 1 otherwise; 2 unusable input; \
-                             3 internal error.";
+                             3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = STRESS_STATUS)]

@@ -3,8 +3,6 @@
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use crate::report::{RunResult, picture};
 use crate::scene::{Expectation, Violation};
 use crate::score::Score;
@@ -12,6 +10,7 @@ use crate::study::{in_parallel, processors};
 
 use super::exit::Failure;
 use super::job::Job;
+use super::progress::Progress;
 
 /// What is kept of a run: its trace is large.
 pub(super) struct Finished {
@@ -34,30 +33,20 @@ pub(super) fn finished(job: &Job, is_drawn: impl Fn(&[Violation]) -> bool) -> Re
 }
 
 /// Runs all jobs, on so many threads or on as many as there are processors, and gives what came of them in their order, with
-/// pictures of those that are to be drawn, by what is not as expected. A bar on standard error shows how many are done, if that is a terminal.
+/// pictures of those that are to be drawn, by what is not as expected. Standard error tells how many are done.
 pub(super) fn run_all(
     jobs: &[Job],
     threads: Option<NonZeroUsize>,
     is_drawn: impl Fn(&[Violation]) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
-    let bar = bar(jobs.len());
+    let mut progress = Progress::new(jobs.len());
     let run = |job: &Job| finished(job, &is_drawn);
     let done = |finished: &Result<Finished, Failure>| {
         if let Ok(Finished { result, .. }) = finished {
-            bar.set_message(format!("{}: {}", result.scenario, result.outcome));
+            progress.done(format_args!("{}: {}", result.scenario, result.outcome));
         }
-        bar.inc(1);
     };
     let finished = in_parallel(jobs, threads.unwrap_or_else(processors), run, done);
-    bar.finish_and_clear();
+    progress.finish();
     finished.into_iter().collect()
-}
-
-/// A bar on standard error, if that is a terminal, for so many runs.
-pub(super) fn bar(runs: usize) -> ProgressBar {
-    let bar = ProgressBar::new(runs as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {elapsed}, {eta} left; {msg}") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -9,6 +9,7 @@ use crate::study::in_parallel;
 
 use super::arguments::{BenchArguments, World};
 use super::exit::{Exit, Failure};
+use super::progress::Progress;
 use super::{input, output};
 
 /// Compares tip models. Whichever is better, that is done.
@@ -22,7 +23,13 @@ pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
     };
     // One at a time unless told otherwise: their times are compared, too.
     let threads = arguments.jobs.unwrap_or(NonZeroUsize::MIN);
-    let rows = in_parallel(SCENARIOS, threads, work, |_| ());
+    let mut progress = Progress::new(SCENARIOS.len());
+    let rows = in_parallel(SCENARIOS, threads, work, |rows| {
+        if let Some(row) = rows.as_ref().ok().and_then(|rows| rows.first()) {
+            progress.done(&row.scenario);
+        }
+    });
+    progress.finish();
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
     if arguments.json {
         output::json(&rows)?;

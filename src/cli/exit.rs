@@ -29,16 +29,28 @@ pub enum Exit {
     Unusable,
     /// The program is at fault.
     Internal,
+    /// Somebody ended it.
+    Interrupted,
+}
+
+impl Exit {
+    /// The number that the shell gets.
+    #[must_use]
+    pub const fn status(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::Unexpected => 1,
+            Self::Unusable => 2,
+            Self::Internal => 3,
+            // What shells give for a program that Ctrl-C ended: 128 and the signal's number.
+            Self::Interrupted => 130,
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
-        Self::from(match exit {
-            Exit::Done => 0,
-            Exit::Unexpected => 1,
-            Exit::Unusable => 2,
-            Exit::Internal => 3,
-        })
+        Self::from(exit.status())
     }
 }
 

@@ -23,6 +23,7 @@ mod mjcf;
 mod output;
 mod pareto;
 mod plan;
+mod progress;
 mod run;
 mod stress;
 mod sweep;

@@ -7,8 +7,8 @@ use crate::study::pareto::{Setting, measure, pareto_picture, pareto_table};
 use crate::study::{Ending, check_world};
 
 use super::arguments::{ParetoArguments, World};
-use super::batch::bar;
 use super::exit::{Exit, Failure};
+use super::progress::Progress;
 use super::run::make_directory;
 use super::{file, input, output};
 
@@ -28,12 +28,9 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     check_world(world).map_err(failed)?;
     make_directory(arguments.out.as_deref())?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats.get());
-    let bar = bar(settings.len() * repeats);
-    let measured = measure(&scene, &program, world, &settings, repeats, |setting| {
-        bar.set_message(setting.to_string());
-        bar.inc(1);
-    });
-    bar.finish_and_clear();
+    let mut progress = Progress::new(settings.len() * repeats);
+    let measured = measure(&scene, &program, world, &settings, repeats, |setting| progress.done(setting));
+    progress.finish();
     let pareto = measured.map_err(failed)?;
     for row in pareto.settings.iter().filter(|row| row.outcome != Ending::Completed) {
         let reason = row.reason.as_deref().unwrap_or("for no reason that is known");

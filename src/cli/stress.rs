@@ -8,14 +8,14 @@ use crate::study::sweep::{Answer, StartError, Worker, answer};
 use crate::study::{engine_version, processors, stream_in_parallel};
 
 use super::arguments::StressArguments;
-use super::batch::bar;
 use super::exit::{Exit, Failure};
 use super::output;
+use super::progress::Progress;
 
 pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     let tasks = StressTask::all()?;
     let indices: Vec<usize> = (0..tasks.len()).collect();
-    let bar = bar(tasks.len());
+    let mut progress = Progress::new(tasks.len());
     let mut rows: Vec<(usize, StressRow)> = Vec::with_capacity(tasks.len());
     let mut failure = None;
     stream_in_parallel(
@@ -28,11 +28,11 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
                 Ok(row) => rows.push((index, row)),
                 Err(cause) => failure = Some(cause),
             }
-            bar.inc(1);
+            progress.done(tasks[index].name());
             if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },
     );
-    bar.finish_and_clear();
+    progress.finish();
     if let Some(failure) = failure {
         return Err(failure);
     }

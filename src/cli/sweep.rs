@@ -4,8 +4,6 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use crate::scene::Sweep;
 use crate::study::sweep::{
     Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
@@ -16,6 +14,7 @@ use super::arguments::SweepArguments;
 use super::exit::{Exit, Failure};
 use super::output;
 use super::plan::Plan;
+use super::progress::{Kept, Progress};
 use super::run::make_directory;
 
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
@@ -31,7 +30,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let resumed = done.len();
     let runs = sweep.runs().filter(|run| arguments.shard.has(&run.key()));
     let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
-    let bar = bar(resumed, left.len());
+    let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
     let fingerprint = header.fingerprint();
     let start = || worker(arguments, &fingerprint);
     let mut failure = None;
@@ -46,15 +45,14 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
                 let (key, figures) = read_line(&line).map_err(Failure::Answer)?;
                 results.add(&line)?;
                 done.insert(index, figures);
-                bar.set_message(key);
-                bar.inc(1);
+                progress.done(key);
                 Ok(())
             });
             failure = added.err();
             if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         },
     );
-    bar.finish_and_clear();
+    progress.finish();
     if let Some(failure) = failure {
         return Err(failure);
     }
@@ -82,18 +80,6 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
         }
         (Answer::Line(line) | Answer::Crash(line), _) => line,
     })
-}
-
-fn bar(resumed: usize, left: usize) -> ProgressBar {
-    let bar = ProgressBar::new((resumed + left) as u64).with_position(resumed as u64);
-    // What was there before took no time, and is not to count for the rate.
-    bar.reset_eta();
-    if let Ok(style) =
-        ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {per_sec}, {elapsed}, {eta} left; {msg}")
-    {
-        bar.set_style(style);
-    }
-    bar
 }
 
 /// Prints what became of the runs whose results are at `path`.

@@ -5,24 +5,24 @@ use std::num::NonZeroUsize;
 use crate::scene::Outcome;
 use crate::study::bench::{Conditions, Timing, TimingRow, timing_table};
 
-use super::batch::bar;
 use super::exit::{Exit, Failure};
 use super::job::Job;
 use super::output;
+use super::progress::Progress;
 
 /// Does every job so many times, one run at a time. One round has every job once, so that what else the machine does falls on all of them.
 pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: NonZeroUsize, json: bool) -> Result<Exit, Failure> {
-    let bar = bar(jobs.len() * repeats.get());
+    let mut progress = Progress::new(jobs.len() * repeats.get());
     let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats.get()); jobs.len()];
     for _ in 0..repeats.get() {
         for ((_, job), times) in jobs.iter().zip(&mut times) {
-            bar.set_message(job.scene.name.clone());
+            progress.doing(&job.scene.name);
             let timing = Timing::take(&job.scene, &job.program, job.world, job.seed);
             times.push(timing.map_err(|cause| Failure::Execute { scenario: job.path.clone(), cause })?);
-            bar.inc(1);
+            progress.done(&job.scene.name);
         }
     }
-    bar.finish_and_clear();
+    progress.finish();
     let row = |((conditions, job), times): (&(Conditions, Job), &Vec<Timing>)| {
         TimingRow::new(conditions.named(&job.scene.name), job.program.name.clone(), job.world.kind.to_string(), times)
     };

@@ -30,6 +30,15 @@ impl StressTask {
         Ok(cases.chain(StabilityCase::all().into_iter().map(|case| Self::Step(Box::new(case)))).collect())
     }
 
+    /// What it is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Case(case) => &case.name,
+            Self::Step(case) => &case.name,
+        }
+    }
+
     /// Does it.
     #[must_use]
     pub fn run(&self) -> StressRow {

@@ -6,6 +6,8 @@ mod check;
 mod compile;
 mod fmt;
 mod graph;
+#[cfg(target_os = "linux")]
+mod interrupt;
 mod program;
 mod run;
 mod stress;

@@ -1,0 +1,137 @@
+//! How far many runs have come, and what is told when somebody ends them.
+
+use std::fmt::Display;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+
+use super::exit::Exit;
+use super::output;
+
+/// The least time between two lines.
+const GAP: Duration = Duration::from_secs(10);
+
+/// What is left of runs when the command that does them is ended.
+#[derive(Debug, Clone)]
+pub(super) enum Kept {
+    /// Nothing: what came of them is written at the end.
+    Nothing,
+    /// The results of those that were done, in this file, with which the same command goes on.
+    In(PathBuf),
+}
+
+/// How many runs are done, on standard error: as a bar on a terminal; elsewhere, as in a job's log, as a line from time to time. Ctrl-C
+/// ends the program, which then says what is kept.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    /// How many were done before.
+    resumed: u64,
+    /// When the next line is due, since the start.
+    due: Duration,
+}
+
+impl Progress {
+    /// For so many `runs`, of which nothing is kept before the last is done.
+    pub(super) fn new(runs: usize) -> Self {
+        Self::resumed(0, runs as u64, Kept::Nothing)
+    }
+
+    /// For so many runs that are `left`, when others were done before.
+    pub(super) fn resumed(resumed: u64, left: u64, kept: Kept) -> Self {
+        let bar = ProgressBar::new(resumed + left).with_position(resumed);
+        // What was there before took no time, and is not to count for the rate.
+        bar.reset_eta();
+        let style =
+            ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {per_sec}, {elapsed}, {eta} left; {msg}");
+        if let Ok(style) = style {
+            bar.set_style(style);
+        }
+        let shown = bar.clone();
+        // It fails where a shell that runs the program in the background has it ignore Ctrl-C; then it shall.
+        let _ = ctrlc::try_set_handler(move || {
+            let (done, all) = (shown.position(), resumed + left);
+            shown.finish_and_clear();
+            output::error(interrupted(done, all, &kept));
+            std::process::exit(i32::from(Exit::Interrupted.status()));
+        });
+        Self { bar, resumed, due: GAP }
+    }
+
+    /// Shows what is being done.
+    pub(super) fn doing(&self, what: impl Display) {
+        self.bar.set_message(what.to_string());
+    }
+
+    /// Counts a run that is done, and shows what came of it.
+    pub(super) fn done(&mut self, what: impl Display) {
+        self.doing(&what);
+        self.bar.inc(1);
+        let elapsed = self.bar.elapsed();
+        if self.bar.is_hidden() && elapsed >= self.due {
+            self.due = next(elapsed);
+            let all = self.bar.length().unwrap_or_default();
+            output::message(format_args!("{}; {what}", line(self.resumed, self.bar.position(), all, elapsed)));
+        }
+    }
+
+    /// Ends it.
+    pub(super) fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// When the line after one at this time is due: lines get rarer, so that an hour has some 50 of them and a day 80.
+fn next(elapsed: Duration) -> Duration {
+    elapsed + GAP.max(elapsed / 10)
+}
+
+fn line(resumed: u64, done: u64, all: u64, elapsed: Duration) -> String {
+    let left = elapsed.mul_f64(all.saturating_sub(done) as f64 / done.saturating_sub(resumed).max(1) as f64);
+    format!("{done} of {all} runs in {}, {} left", HumanDuration(elapsed), HumanDuration(left))
+}
+
+fn interrupted(done: u64, all: u64, kept: &Kept) -> String {
+    match kept {
+        Kept::Nothing => {
+            format!("interrupted after {done} of {all} runs; nothing is kept of them, as results come at the end")
+        }
+        Kept::In(path) => format!(
+            "interrupted after {done} of {all} runs; their results are in {}, and the same command goes on with them",
+            path.display()
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_never_close_together_and_few_however_long_it_takes() {
+        // Runs of a second each.
+        let lines = |seconds: u64| {
+            let (mut due, mut times) = (GAP, Vec::new());
+            for elapsed in (1..=seconds).map(Duration::from_secs) {
+                if elapsed >= due {
+                    due = next(elapsed);
+                    times.push(elapsed);
+                }
+            }
+            times
+        };
+        assert!(lines(9).is_empty());
+        let day = lines(86_400);
+        assert!(day.windows(2).all(|pair| pair[1] >= pair[0] + GAP));
+        // Nobody waits longer than a tenth of what it took so far, and a run.
+        let is_late = |pair: &[Duration]| pair[1] > pair[0] + GAP.max(pair[0] / 10) + Duration::from_secs(1);
+        assert!(!day.windows(2).any(is_late));
+        assert!(lines(3600).len() < 50 && day.len() < 85, "{}, {}", lines(3600).len(), day.len());
+    }
+
+    #[test]
+    fn what_was_done_before_does_not_count_for_the_time_left() {
+        let told = line(900, 910, 1000, Duration::from_mins(1));
+        assert_eq!(told, "910 of 1000 runs in 60 seconds, 9 minutes left");
+    }
+}
