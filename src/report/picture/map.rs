@@ -9,6 +9,7 @@ use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
 use super::Untraced;
 use super::scale::Scale;
+use super::shaft::shaft_body;
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
 use crate::machine::Mark;
 use crate::report::outline::Outline;
@@ -53,7 +54,7 @@ impl Map {
         width: f64,
         (least, most): (f64, f64),
     ) -> Self {
-        let shown = poses(trace).into_iter().flat_map(|pose| footprint(&scene.rig, &pose)).chain(way(trace));
+        let shown = shown_ticks(trace).into_iter().flat_map(|tick| footprint(&scene.rig, &tick.body)).chain(way(trace));
         let shown = shown
             .fold(scene.truth.surfaces.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
         let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
@@ -162,18 +163,20 @@ impl Map {
     }
 
     fn platform(&self, rig: &Rig, trace: &Trace) -> Group {
-        let poses = poses(trace);
+        let ticks = shown_ticks(trace);
         let mut group = Group::new();
-        for (index, pose) in poses.iter().enumerate() {
-            let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut lines, whisker| {
-                let tip_body = whisker.base_body + whisker.shaft.length * unit(whisker.direction_body);
-                lines.polyline([whisker.base_body, tip_body].map(|point| self.place(pose.point_to_world(point))));
-                lines
+        for (index, tick) in ticks.iter().enumerate() {
+            let place = |point| self.place(tick.body.point_to_world(point));
+            let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut shafts, whisker| {
+                let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(place);
+                shafts.move_to(base);
+                shafts.curve_to(first, second, tip);
+                shafts
             });
             let mut body = Outline::default();
-            body.polyline(rig.platform.outline_body().map(|corner| self.place(pose.point_to_world(corner))));
+            body.polyline(rig.platform.outline_body().map(place));
             body.close();
-            group = group.add(pose_style(body, index, poses.len())).add(whiskers.stroked(style::PLATFORM, 0.8));
+            group = group.add(pose_style(body, index, ticks.len())).add(whiskers.stroked(style::PLATFORM, 0.8));
         }
         let mut kept: Vec<(f64, f64)> = Vec::new();
         for place in way(trace).map(|point| self.place(point)) {
@@ -248,14 +251,14 @@ fn way(trace: &Trace) -> impl Iterator<Item = Point2> {
     trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body.position)
 }
 
-/// The poses that are drawn: the first, the last, and some at equal times between.
-fn poses(trace: &Trace) -> Vec<Pose> {
-    let poses: Vec<_> = trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body).collect();
-    let Some(last) = poses.len().checked_sub(1) else { return poses };
+/// The ticks in which the platform is drawn: the first, the last, and some at equal times between.
+fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
+    let ticks: Vec<_> = trace.ticks.iter().filter(|tick| has_place(tick)).collect();
+    let Some(last) = ticks.len().checked_sub(1) else { return ticks };
     let count = (POSES_BETWEEN + 1).min(last.max(1));
     let mut chosen: Vec<_> = (0..=count).map(|k| last * k / count).collect();
     chosen.dedup();
-    chosen.into_iter().map(|index| poses[index]).collect()
+    chosen.into_iter().map(|index| ticks[index]).collect()
 }
 
 /// A platform further off than this (m) has lost its place; a scale that shows it would show nothing else.

@@ -5,6 +5,7 @@ mod legend;
 mod map;
 mod profile;
 mod scale;
+mod shaft;
 mod timeline;
 
 pub(crate) use front::{FrontPoint, front_picture};
@@ -41,7 +42,8 @@ const LINE: usize = 130;
 
 /// A picture of `run`, the run of `scene` under the policy named so, that got this `score`: a self-contained SVG.
 ///
-/// Above, the scene from above: the exact outlines, the tip estimates, the platform's way and some of its poses.
+/// Above, the scene from above: the exact outlines, the tip estimates, the platform's way and some of its poses,
+/// with whiskers bent as their base angles and their tips say.
 /// Estimates are green where their error is within a standard deviation of the mean, as in the thesis's figure 5.1, red
 /// where it is greater and blue where it is smaller. Below, along time: the state, the error, the deflections.
 ///

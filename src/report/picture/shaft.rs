@@ -1,0 +1,144 @@
+//! How a whisker's shaft is bent.
+
+use nalgebra::Vector2;
+
+use crate::geometry::{Point2, rotate, unit};
+use crate::mechanics::{Bend, Elastica};
+use crate::rig::Whisker;
+use crate::run::{TickRecord, Trace};
+
+/// The force's directions (degrees, frame of the base) among which the one is sought that brings the tip to where it was perceived.
+const DIRECTIONS: (f64, f64) = (60.0, 210.0);
+/// Steps of the search, each within one step of the one before; the last is 0.1 mm of the tip's place.
+const STEPS: [f64; 3] = [10.0, 2.0, 0.5];
+
+/// The shaft of a `whisker` as it stands in a tick, as a cubic curve: its ends and, between them, its control points (body frame). It is
+/// straight where nothing is known to bend it.
+pub(super) fn shaft_body(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> [Point2; 4] {
+    let bend = bend(whisker, trace, tick).unwrap_or_else(|| Elastica::new(whisker).straight());
+    curve_base(whisker, &bend).map(|place| whisker.base_body + rotate(place, whisker.direction_body))
+}
+
+/// The same in the frame of the base. A cubic is just what a uniform shaft bends to under a small force at its tip.
+fn curve_base(whisker: &Whisker, bend: &Bend) -> [Vector2<f64>; 4] {
+    let third = whisker.shaft.length / 3.0;
+    let tip = bend.tip_base;
+    [Vector2::zeros(), third * unit(bend.base_angle), tip - third * unit(bend.tip_angle), tip]
+}
+
+/// The elastica with the base angle that was sensed whose tip is nearest to where it was perceived. `None` if it touches nothing.
+fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<Bend> {
+    let index = trace.whiskers.iter().position(|name| *name == whisker.name)?;
+    let (base_angle, touch) = (tick.deflections[index], tick.touches[index]);
+    if !touch.is_touching || base_angle == 0.0 || !base_angle.is_finite() {
+        return None;
+    }
+    let place = touch.tip_world.filter(|tip| tip.coords.iter().all(|coordinate| coordinate.is_finite()));
+    let place_base =
+        place.map(|tip| rotate(tick.body.point_from_world(tip) - whisker.base_body, -whisker.direction_body));
+    bend_to(whisker, base_angle, place_base)
+}
+
+/// The same for a base angle (rad) and a place of the touch (m, frame of the base). Without one the surface is taken to be parallel to the
+/// heading.
+fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>) -> Option<Bend> {
+    if base_angle < 0.0 {
+        let mirrored = touch_base.map(|place| Vector2::new(place.x, -place.y));
+        return bend_to(whisker, -base_angle, mirrored).map(|bend| bend.mirrored());
+    }
+    let elastica = Elastica::new(whisker);
+    let solve = |direction: f64, guess: &Bend| elastica.solve_tip(base_angle, direction, guess);
+    let Some(touch_base) = touch_base else {
+        return solve(whisker.usual_normal(), &elastica.straight());
+    };
+    let tip_radius = whisker.shaft.radius_at(1.0);
+    let miss = |bend: &Bend| (bend.tip_base - tip_radius * unit(bend.force_direction) - touch_base).norm();
+    let (mut nearest, mut between) = (None, DIRECTIONS);
+    for step in STEPS {
+        let mut guess = nearest.unwrap_or_else(|| elastica.straight());
+        let count = ((between.1 - between.0) / step).round();
+        for direction in std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= count) {
+            let direction = (between.0 + step * direction).to_radians();
+            let Some(bend) = solve(direction, &guess) else { continue };
+            guess = bend;
+            if nearest.is_none_or(|nearest| miss(&bend) < miss(&nearest)) {
+                nearest = Some(bend);
+            }
+        }
+        let middle = nearest?.force_direction.to_degrees();
+        between = (middle - step, middle + step);
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::mechanics::ShaftChain;
+    use crate::rig::Rig;
+
+    /// Where the ends of a chain's links are when it has the base angle of `bend` under a force in the same direction.
+    fn chain(whisker: &Whisker, bend: &Bend) -> Vec<Vector2<f64>> {
+        let shaft = &whisker.shaft;
+        let stiffnesses: Vec<f64> = shaft.joint_stiffnesses().collect();
+        let solved = ShaftChain::new(whisker);
+        let near = solved.straight();
+        let steps = 20;
+        let found = (1..=steps).try_fold(near, |near, step| {
+            let angle = bend.base_angle * f64::from(step) / f64::from(steps);
+            let guess = if step == 1 {
+                let force = angle * whisker.hinge.stiffness / (shaft.length * bend.force_direction.sin());
+                crate::mechanics::Equilibrium { force, ..near }
+            } else {
+                near
+            };
+            solved.solve(angle, bend.force_direction, &guess)
+        });
+        let found = found.unwrap();
+        let (force, mut angle, mut moment) = (found.force * unit(bend.force_direction), found.tip_angle, 0.0);
+        let mut places = vec![found.tip_base];
+        for stiffness in stiffnesses.iter().rev() {
+            let link = shaft.link_length() * unit(angle);
+            places.push(places[places.len() - 1] - link);
+            moment += link.x * force.y - link.y * force.x;
+            angle -= moment / stiffness;
+        }
+        places
+    }
+
+    fn on_curve([a, b, c, d]: [Vector2<f64>; 4], t: f64) -> Vector2<f64> {
+        let s = 1.0 - t;
+        s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
+    }
+
+    #[test]
+    fn the_curve_goes_along_the_chain_that_is_simulated() {
+        let whisker = &Rig::default().whiskers[0];
+        for (base_angle, direction) in [(1e-4_f64, 90.0_f64), (3e-4, 105.0), (3e-4, 150.0), (8e-4, 105.0), (1e-3, 90.0)]
+        {
+            let straight = Elastica::new(whisker).straight();
+            let bend = Elastica::new(whisker).solve_tip(base_angle, direction.to_radians(), &straight).unwrap();
+            let curve = curve_base(whisker, &bend);
+            for place in chain(whisker, &bend) {
+                let distances = (0..=400).map(|k| (on_curve(curve, f64::from(k) / 400.0) - place).norm());
+                let distance = distances.fold(f64::INFINITY, f64::min);
+                assert!(distance < 1.5e-3, "{base_angle}, {direction}: {distance} m at {place}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_tip_comes_to_where_it_was_perceived_on_either_side() {
+        let whisker = &Rig::default().whiskers[0];
+        let elastica = Elastica::new(whisker);
+        for direction in [80.0_f64, 100.0, 127.0, 160.0] {
+            let bend = elastica.solve_tip(3e-4, direction.to_radians(), &elastica.straight()).unwrap();
+            let touch = bend.tip_base - whisker.shaft.radius_at(1.0) * unit(bend.force_direction);
+            let found = bend_to(whisker, 3e-4, Some(touch)).unwrap();
+            assert!((found.tip_base - bend.tip_base).norm() < 2e-4, "{direction}");
+            let right = bend_to(whisker, -3e-4, Some(Vector2::new(touch.x, -touch.y))).unwrap();
+            assert_eq!(right, found.mirrored());
+        }
+    }
+}
