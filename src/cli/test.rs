@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{Diagnostic, Record, records};
+use crate::diagnostic::{Diagnostic, Record, Source, records};
 use crate::machine::Program;
 use crate::policy::PolicyTest;
 use crate::report::RunResult;
@@ -58,7 +58,6 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
             let run = job.execute_with_bar()?;
             let score = Score::new(&run, &job.scene.truth);
             let result = job.result(&run, &score);
-            job::tell(&result);
             let faults = violations(test, &job.program, &run, &score);
             if let Some(directory) = &arguments.out {
                 job.write_report(&directory.join(file_name(tested.len() + 1, &test.title)), &run, &score, &result)?;
@@ -111,16 +110,15 @@ fn job_of(
     Ok(Job::with(&path, scene, program, world, seed, hashes))
 }
 
-fn tell(
-    source: &crate::diagnostic::Source,
-    test: &PolicyTest,
-    result: &RunResult,
-    faults: &[Diagnostic],
-) -> Result<(), Failure> {
+/// Prints whether a test has passed. How the run of one ended that has, be it by a failure, is what was expected, and not told.
+fn tell(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagnostic]) -> Result<(), Failure> {
     let verdict = if faults.is_empty() { "ok    " } else { "FAILED" };
     let RunResult { sim_s, wall_s, .. } = result;
     output::result(format_args!("{verdict} {}: {} ({sim_s:.1} s in {wall_s:.2} s)", source.name, test.title))?;
-    output::diagnostics(source, faults);
+    if !faults.is_empty() {
+        job::tell(result);
+        output::diagnostics(source, faults);
+    }
     Ok(())
 }
 

@@ -49,6 +49,11 @@ fn tests_pass_or_show_what_was_measured() {
 
     let output = vibrissa(&["test", policy.to_str().unwrap(), "--filter", "gives up"]);
     assert_eq!((output.status.code(), stdout(&output).ends_with("1 test, 0 failed\n")), (Some(0), true));
+    // That it fails is what it expects.
+    assert_eq!(stderr(&output), "");
+    let output = vibrissa(&["test", policy.to_str().unwrap(), "--filter", "feels something"]);
+    let told = stderr(&output);
+    assert!(told.contains("disk: failed: late") && told.contains("error[P0701]"), "{told}");
 }
 
 #[cfg(feature = "sim")]
