@@ -121,11 +121,12 @@ pub(super) enum PolicyFile {
     Machine(Box<Artifact>),
 }
 
-/// Reads a policy's text or a compiled machine; the hash is that of the file alone.
+/// Reads a policy's text or a compiled machine, which is one by how it begins, or is meant to be by its name; the hash is that of the file
+/// alone.
 pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
     let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
     let hash = Sha256::new().chain_update(&bytes);
-    let value = if Artifact::is_in(&bytes) {
+    let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
     } else {
         PolicyFile::Text(Source::new(path.display().to_string(), text(bytes).map_err(Failure::read(path))?))

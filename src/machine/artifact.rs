@@ -56,7 +56,10 @@ pub struct Origin {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ArtifactError {
     /// The bytes do not begin with [`MAGIC`].
-    #[error("this is no compiled machine; make one from a policy with `vibrissa compile`")]
+    #[error(
+        "this does not begin as compiled machines do: it is another file, or was damaged, as by a copy that took it for text; \
+         copy it again as it is, or make it from its policy with `vibrissa compile`"
+    )]
     NotAnArtifact,
     /// It is in another format.
     #[error(

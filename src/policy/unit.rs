@@ -1,16 +1,22 @@
 //! Units as policies write them: words, with no blank between them.
 
-use crate::units::{self, Dimension, UnitError, simple_units};
+use crate::units::{self, Dimension, UnitError, format_si, simple_units};
 
 /// The units in which a quantity of this dimension is usually written, the most usual first.
 pub(super) fn units_of(dimension: Dimension) -> Vec<String> {
     units::units_of(dimension).into_iter().map(|unit| unit.replace(' ', "*")).collect()
 }
 
+/// A value (SI) as a policy writes it.
+pub(super) fn written(value_si: f64, dimension: Dimension) -> String {
+    let text = format_si(value_si, dimension);
+    text.split_once(' ').map_or_else(|| text.clone(), |(number, unit)| format!("{number} {}", unit.replace(' ', "*")))
+}
+
 /// What to write instead of a text that is no unit.
 pub(super) fn unit_hint(error: &UnitError) -> String {
     match error {
-        UnitError::Unknown { suggestion: None, .. } => {
+        UnitError::Unknown { instead: None, .. } => {
             // A share is a plain number here: there is no `%`.
             let words = simple_units().filter(|unit| unit.chars().all(|letter| letter.is_ascii_alphabetic()));
             format!("the units are {}", words.collect::<Vec<_>>().join(", "))

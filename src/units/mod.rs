@@ -4,6 +4,7 @@
 //! such a number, and back.
 
 mod dimension;
+mod foreign;
 mod format;
 mod quantity;
 mod unit;
@@ -11,4 +12,4 @@ mod unit;
 pub use dimension::Dimension;
 pub use format::format_si;
 pub use quantity::{Quantity, QuantityError, parse_quantity};
-pub use unit::{Unit, UnitError, parse_unit, simple_units, suggest_unit, units_of};
+pub use unit::{Instead, Unit, UnitError, parse_unit, simple_units, unit_hint, units_of};

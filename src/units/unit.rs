@@ -1,6 +1,7 @@
 //! Units: the table of simple ones and the grammar of compounds.
 
 use super::Dimension;
+use super::foreign::foreign;
 use crate::diagnostic::suggest;
 use std::ops::Range;
 use thiserror::Error;
@@ -81,6 +82,31 @@ impl Unit {
     }
 }
 
+/// What to write instead of a name that is no unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Instead {
+    /// One of the unit, which exists, is so much of a known one.
+    Same(&'static str),
+    /// The known unit that was probably meant.
+    Meant(String),
+}
+
+impl Instead {
+    /// What to write instead of `name` among these units.
+    pub(crate) fn of<'u>(name: &str, units: impl IntoIterator<Item = &'u str>) -> Option<Self> {
+        let same = foreign(name).map(Self::Same);
+        same.or_else(|| suggest(name, units).map(|meant| Self::Meant(meant.to_owned())))
+    }
+
+    /// The same as a hint.
+    pub(crate) fn hint(&self, name: &str) -> String {
+        match self {
+            Self::Same(same) => format!("1 {name} is {same}"),
+            Self::Meant(meant) => format!("did you mean `{meant}`?"),
+        }
+    }
+}
+
 /// Why a text is not a unit. Ranges are byte ranges of the text that was given.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum UnitError {
@@ -97,8 +123,8 @@ pub enum UnitError {
         name: String,
         /// Where it stands.
         range: Range<usize>,
-        /// The unit that was probably meant.
-        suggestion: Option<&'static str>,
+        /// What to write instead, if that is clear.
+        instead: Option<Instead>,
     },
     /// An exponent that is no small whole number.
     #[error("an exponent must be a whole number from -9 to 9")]
@@ -138,8 +164,8 @@ impl UnitError {
     pub fn hint(&self) -> String {
         match self {
             Self::Missing { .. } => "write a unit such as mm, deg, s or mm/s".to_owned(),
-            Self::Unknown { suggestion: Some(suggestion), .. } => format!("did you mean `{suggestion}`?"),
-            Self::Unknown { suggestion: None, .. } => {
+            Self::Unknown { name, instead: Some(instead), .. } => instead.hint(name),
+            Self::Unknown { instead: None, .. } => {
                 format!("the units are {}", simple_units().collect::<Vec<_>>().join(", "))
             }
             Self::Exponent { .. } => "write it like m^2 or s^-1".to_owned(),
@@ -232,8 +258,8 @@ fn parse_power(text: &str, start: usize) -> Result<Unit, UnitError> {
     let (name, exponent) = text.split_once('^').map_or((text, None), |(name, exponent)| (name, Some(exponent)));
     let spelt = name.replace(['\u{b5}', '\u{3bc}'], "u");
     let Some(unit) = simple(&spelt) else {
-        let suggestion = suggest(&spelt, simple_units());
-        return Err(UnitError::Unknown { name: name.to_owned(), range: start..start + name.len(), suggestion });
+        let instead = Instead::of(&spelt, simple_units());
+        return Err(UnitError::Unknown { name: name.to_owned(), range: start..start + name.len(), instead });
     };
     let Some(exponent) = exponent else { return Ok(unit) };
     let range = start + name.len() + 1..start + text.len();
@@ -254,11 +280,11 @@ pub fn units_of(dimension: Dimension) -> Vec<String> {
     }
 }
 
-/// The unit of `dimension` that a misspelt one was probably meant to be.
+/// What to write instead of a unit that does not exist where a quantity of `dimension` is due, as a hint.
 #[must_use]
-pub fn suggest_unit(name: &str, dimension: Dimension) -> Option<String> {
+pub fn unit_hint(name: &str, dimension: Dimension) -> Option<String> {
     let units = units_of(dimension);
-    suggest(name, units.iter().map(String::as_str)).map(str::to_owned)
+    Instead::of(name, units.iter().map(String::as_str)).map(|instead| instead.hint(name))
 }
 
 /// Every unit that has a name of its own, such as `mm`, `deg` and `%`.
@@ -296,14 +322,22 @@ mod tests {
 
     #[test]
     fn a_misspelt_unit_is_placed_and_the_right_one_suggested() {
-        let expected = UnitError::Unknown { name: "radd".to_owned(), range: 3..7, suggestion: Some("rad") };
+        let instead = Some(Instead::Meant("rad".to_owned()));
+        let expected = UnitError::Unknown { name: "radd".to_owned(), range: 3..7, instead };
         assert_eq!(parse_unit("mm/radd"), Err(expected));
     }
 
     #[test]
     fn a_suggestion_knows_what_is_measured() {
-        assert_eq!(suggest_unit("mn", Dimension::LENGTH).as_deref(), Some("mm"));
-        assert_eq!(suggest_unit("mn", Dimension::FORCE).as_deref(), Some("mN"));
+        assert_eq!(unit_hint("mn", Dimension::LENGTH).as_deref(), Some("did you mean `mm`?"));
+        assert_eq!(unit_hint("mn", Dimension::FORCE).as_deref(), Some("did you mean `mN`?"));
+    }
+
+    #[test]
+    fn a_unit_that_exists_elsewhere_is_not_taken_for_a_misspelt_one() {
+        assert_eq!(parse_unit("km/h").unwrap_err().hint(), "1 km is 1000 m");
+        assert_eq!(parse_unit("m/h").unwrap_err().hint(), "1 h is 3600 s");
+        assert_eq!(unit_hint("min", Dimension::TIME).as_deref(), Some("1 min is 60 s"));
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use crate::diagnostic::Diagnostic;
 use crate::machine;
 use crate::policy::ast::{Bound, Parameter};
-use crate::policy::unit::units_of;
-use crate::units::{Dimension, format_si, parse_unit};
+use crate::policy::unit::{units_of, written};
+use crate::units::{Dimension, parse_unit};
 
 use super::Compiler;
 
@@ -32,17 +32,25 @@ impl<'f> Compiler<'f> {
             }
         };
         if let (Some((low, high)), Some((low_bound, high_bound))) = (range, &parameter.range) {
-            let show = |value| format_si(value, dimension);
+            let show = |value| written(value, dimension);
+            let range_span = low_bound.span.to(high_bound.span);
             if low > high {
-                let message = format!("the range of `{}` is empty", parameter.name.text);
+                let message = format!("the range of `{}` is the wrong way round", parameter.name.text);
                 let label = format!("{} is more than {}", show(low), show(high));
-                let diagnostic = Diagnostic::error("P0306", message, low_bound.span.to(high_bound.span), label);
-                self.report(diagnostic.hint("write the lesser end first"));
+                let diagnostic = Diagnostic::error("P0306", message, range_span, label);
+                self.report(diagnostic.hint(format!("write `{} .. {}`", show(high), show(low))));
             } else if !(low..=high).contains(&default) {
-                let message = format!("`{}` is outside of its own range", parameter.name.text);
-                let label = format!("not between {} and {}", show(low), show(high));
+                let message = format!("`{}` is not in its own range", parameter.name.text);
+                let (nearest, than) = if default < low { (low, "less") } else { (high, "more") };
+                let label = format!("{} is {than} than {}", show(default), show(nearest));
+                let hint = format!(
+                    "give it a value within that, such as `{}`, or a wider range: `{} .. {}`",
+                    show(nearest),
+                    show(low.min(default)),
+                    show(high.max(default))
+                );
                 let diagnostic = Diagnostic::error("P0306", message, parameter.value.span, label);
-                self.report(diagnostic.note(low_bound.span.to(high_bound.span), "the range"));
+                self.report(diagnostic.note(range_span, "the range").hint(hint));
             }
         }
         Some(machine::Parameter {

@@ -7,7 +7,7 @@ use super::node::{Node, Placed};
 use super::reader::{Reader, written};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Point2;
-use crate::units::{Dimension, Quantity, QuantityError, UnitError, parse_quantity, suggest_unit, units_of};
+use crate::units::{Dimension, Quantity, QuantityError, UnitError, parse_quantity, unit_hint, units_of};
 
 impl Reader<'_> {
     /// A number in the dimension and range of its key, in SI units.
@@ -72,8 +72,8 @@ impl Reader<'_> {
             QuantityError::Unit(UnitError::Unknown { name, .. }) => {
                 let message = format!("there is no unit `{name}`");
                 let fault = Diagnostic::error(fault::UNIT, message, place, "unknown unit");
-                match suggest_unit(name, key.dimension) {
-                    Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
+                match unit_hint(name, key.dimension) {
+                    Some(hint) => fault.hint(hint),
                     None => fault,
                 }
                 .hint(units_hint(key.dimension))

@@ -60,15 +60,20 @@ fn what_cannot_be_compiled_or_is_no_sound_machine_is_refused() {
     let directory = directory("refused");
     let file = |name: &str| directory.join(name).display().to_string();
     let (machine, damaged, cut) = (file("thesis.machine"), file("damaged"), file("cut"));
+    let (as_text, empty) = (file("as_text.machine"), file("empty.machine"));
     assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));
     let mut bytes = std::fs::read(&machine).unwrap();
     std::fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
+    std::fs::write(&as_text, String::from_utf8_lossy(&bytes).replace("\r\n", "\n")).unwrap();
+    std::fs::write(&empty, "").unwrap();
     bytes[100] ^= 1;
     std::fs::write(&damaged, &bytes).unwrap();
     let bad = "tests/fixtures/policies/bad/name_unknown.fsm";
     for (arguments, expected) in [
         (vec!["check", &damaged], "is damaged"),
         (vec!["check", &cut], "cut off"),
+        (vec!["check", &as_text], "a copy that took it for text"),
+        (vec!["run", "scenarios/disk.yaml", "--policy", &empty], "does not begin as compiled machines do"),
         (vec!["run", "scenarios/disk.yaml", "--policy", &damaged], "is damaged"),
         (vec!["compile", bad, "-o", &cut], "P0201"),
         (vec!["compile", "policies/thesis.fsm", "-o", &cut, "--set", "speed=2 m/s"], "must lie between"),
