@@ -23,6 +23,7 @@ mod search;
 mod shadow;
 mod unknown;
 mod unused;
+mod walk;
 mod witness;
 
 use crate::diagnostic::Diagnostic;

@@ -7,20 +7,41 @@ use crate::machine::{Op, Register};
 use super::bounds::Bounds;
 use super::interval::Interval;
 use super::region::Region;
-use super::search::Goal;
+use super::search::{Goal, Wanted};
 
 impl Bounds<'_> {
     /// Narrows a region to where a goal may be met; false if it is met nowhere in it.
-    pub(super) fn narrow(&mut self, goal: Goal<'_>, region: &mut Region<'_>) -> bool {
-        let code = goal.condition.code;
-        let Some(truth) = self.value(code, goal.condition.truth, region) else { return true };
-        if !(if goal.wanted { truth.may_hold() } else { truth.may_fail() }) {
-            return false;
+    pub(super) fn narrow(&mut self, goal: &Goal<'_>, region: &mut Region<'_>) -> bool {
+        if let [only] = goal.any.as_slice() {
+            return self.narrow_to(*only, region);
         }
+        // As long as two of them may be as wanted, neither needs to.
+        let mut possible = goal.any.iter().filter(|wanted| self.is_possible(**wanted, region).unwrap_or(true));
+        match (possible.next().copied(), possible.next()) {
+            (None, _) => false,
+            (Some(last), None) => self.narrow_to(last, region),
+            (Some(_), Some(_)) => true,
+        }
+    }
+
+    /// Whether a condition may be as wanted in a region; `None` if its code does more than to compute.
+    fn is_possible(&mut self, wanted: Wanted<'_>, region: &mut Region<'_>) -> Option<bool> {
+        let truth = self.value(wanted.condition.code, wanted.condition.truth, region)?;
+        Some(if wanted.truth { truth.may_hold() } else { truth.may_fail() })
+    }
+
+    /// Narrows a region to where a condition may be as wanted; false if it is so nowhere in it.
+    fn narrow_to(&mut self, wanted: Wanted<'_>, region: &mut Region<'_>) -> bool {
+        match self.is_possible(wanted, region) {
+            None => return true,
+            Some(false) => return false,
+            Some(true) => {}
+        }
+        let code = wanted.condition.code;
         let ops = self.model.program.code.get(code.start as usize..code.end as usize).unwrap_or_default();
         self.work += ops.len();
-        let wanted = Interval::point(f64::from(u8::from(goal.wanted)));
-        self.want(goal.condition.truth, wanted, region) && ops.iter().rev().all(|op| self.back(*op, region).is_some())
+        let truth = Interval::point(f64::from(u8::from(wanted.truth)));
+        self.want(wanted.condition.truth, truth, region) && ops.iter().rev().all(|op| self.back(*op, region).is_some())
     }
 
     /// Keeps of what a register may be only what lies in an interval; false if nothing does.

@@ -18,20 +18,32 @@ const REGION_WORK: usize = 50;
 /// Operations that all searches of a policy may evaluate together, so that no policy takes long.
 const WORK_LIMIT: usize = 1_000_000;
 
+/// What is wanted of conditions: that one holds, that one fails, or that at least one of several does as it is to.
+#[derive(Clone)]
+pub(super) struct Goal<'a> {
+    pub(super) any: Vec<Wanted<'a>>,
+}
+
 /// A condition, and whether it is to hold or to fail.
 #[derive(Clone, Copy)]
-pub(super) struct Goal<'a> {
+pub(super) struct Wanted<'a> {
     pub(super) condition: Condition<'a>,
-    pub(super) wanted: bool,
+    pub(super) truth: bool,
 }
 
 impl<'a> Goal<'a> {
     pub(super) fn holds(condition: Condition<'a>) -> Self {
-        Self { condition, wanted: true }
+        Self { any: vec![Wanted { condition, truth: true }] }
     }
 
     pub(super) fn fails(condition: Condition<'a>) -> Self {
-        Self { condition, wanted: false }
+        Self { any: vec![Wanted { condition, truth: false }] }
+    }
+
+    /// That this is met, or one of some conditions holds.
+    pub(super) fn or_any_holds(mut self, conditions: impl IntoIterator<Item = Condition<'a>>) -> Self {
+        self.any.extend(conditions.into_iter().map(|condition| Wanted { condition, truth: true }));
+        self
     }
 }
 
@@ -92,12 +104,10 @@ impl<'m> Search<'m> {
         let (mut looked_at, mut is_unclear) = (0, false);
         while let Some(mut region) = open.pop_front() {
             looked_at += 1;
-            self.bounds.work += REGION_WORK;
             if looked_at > REGION_LIMIT || self.is_exhausted() {
                 return Found::Unclear;
             }
-            // Twice, since what one goal narrows can tell more of the others.
-            if !goals.iter().enumerate().chain(goals.iter().enumerate()).all(|goal| self.narrow(goal, &mut region)) {
+            if !self.may_meet(goals, &mut region) {
                 continue;
             }
             let accept = match purpose {
@@ -125,9 +135,17 @@ impl<'m> Search<'m> {
         if is_unclear { Found::Unclear } else { Found::Nothing }
     }
 
+    /// Narrows a region to where all goals may be met; false if they are met nowhere in it. Goals that it was narrowed to before come
+    /// first, in the same order.
+    pub(super) fn may_meet(&mut self, goals: &[Goal<'_>], region: &mut Region<'_>) -> bool {
+        self.bounds.work += REGION_WORK;
+        // Twice, since what one goal narrows can tell more of the others.
+        goals.iter().enumerate().chain(goals.iter().enumerate()).all(|goal| self.narrow(goal, region))
+    }
+
     /// Narrows a region to where a goal may be met; false if it is met nowhere in it. What would change nothing is counted as
     /// work, so that limits mean the same, but not done.
-    fn narrow(&mut self, (index, &goal): (usize, &Goal<'_>), region: &mut Region<'_>) -> bool {
+    fn narrow(&mut self, (index, goal): (usize, &Goal<'_>), region: &mut Region<'_>) -> bool {
         if let Some(work) = region.begin(index) {
             self.bounds.work += work;
             return true;
@@ -143,12 +161,13 @@ impl<'m> Search<'m> {
         let program = self.model.program;
         let mut senses = point.clone();
         self.enter(point);
-        let met = goals.iter().all(|goal| {
-            self.bounds.work += goal.condition.code.len() + 1;
-            compute(&program.code, goal.condition.code, &mut self.registers, &mut senses);
-            let truth = self.registers[usize::from(goal.condition.truth)] > 0.5;
-            truth == goal.wanted
-        });
+        let mut is_met = |wanted: &Wanted<'_>| {
+            self.bounds.work += wanted.condition.code.len() + 1;
+            compute(&program.code, wanted.condition.code, &mut self.registers, &mut senses);
+            let truth = self.registers[usize::from(wanted.condition.truth)] > 0.5;
+            truth == wanted.truth
+        };
+        let met = goals.iter().all(|goal| goal.any.iter().any(&mut is_met));
         self.leave(point);
         met
     }

@@ -27,8 +27,10 @@ impl Search<'_> {
         // What the conditions that hold read is what counts, in the order in which they read it.
         let mut senses = point.clone();
         let mut registers = self.registers(&point);
-        for goal in goals.iter().filter(|goal| goal.wanted) {
-            compute(&program.code, goal.condition.code, &mut registers, &mut senses);
+        for wanted in goals.iter().flat_map(|goal| &goal.any).filter(|wanted| wanted.truth) {
+            if self.meets(&[Goal::holds(wanted.condition)], &point) {
+                compute(&program.code, wanted.condition.code, &mut registers, &mut senses);
+            }
         }
         let named = named_values(model, &point);
         let felt = senses.readings().into_iter().filter_map(|reading| felt(program, &senses, reading));
