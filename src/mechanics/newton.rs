@@ -4,7 +4,8 @@ use nalgebra::{Matrix2, Vector2};
 
 /// Steps after which a solution is given up.
 const STEPS: usize = 25;
-/// The change, relative to 1 or to the unknown, after which a solution has settled: the next would be about its square.
+/// The change, relative to 1 or to the unknown, after which a solution has settled: the next would be about its square. Behind a
+/// change of an unknown's sign it would be about as great, if the equations have a kink there: then its square has to be reached.
 const SETTLED: f64 = 1e-6;
 
 /// What two unknowns leave of two equations, and its derivatives by them, a row for each equation.
@@ -36,8 +37,10 @@ pub(super) fn solve(
             return None;
         }
         last = step * (reach / change).min(1.0);
+        let before = unknowns;
         unknowns -= last;
-        if change < SETTLED {
+        let has_crossed = before.zip_map(&unknowns, |before, now| before.is_sign_negative() != now.is_sign_negative());
+        if change < if has_crossed.x || has_crossed.y { SETTLED * SETTLED } else { SETTLED } {
             return Some(unknowns);
         }
     }
