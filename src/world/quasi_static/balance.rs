@@ -39,6 +39,9 @@ const TOLERANCE: f64 = 1e-10;
 /// Changes of the set of bearing contacts in one step.
 const ROUNDS: usize = 24;
 
+/// A contact that takes over less than this share of another one's force takes over nothing.
+const LEAST_SHARE: f64 = 1e-9;
+
 /// A column that has what the curvature of a gap adds.
 #[derive(Debug, Clone, Copy, Default)]
 struct Curve {
@@ -88,7 +91,13 @@ impl Balance {
         let curves = &curves[..curve_count];
         for _ in 0..ROUNDS {
             self.fill_small(free, &columns[..count], &bearing[..count], contacts, curves)?;
-            let (solution, positive) = self.small.solve()?;
+            let Some((solution, positive)) = self.small.solve() else {
+                let yields = self.yielding(&columns[..count], &bearing[..count]).filter(|_| !is_newtons)?;
+                count -= 1;
+                bearing.swap(yields, count);
+                columns.swap(yields, count);
+                continue;
+            };
             let (forces, spreads) = solution.split_at(count);
             let worst = (0..count).min_by(|&a, &b| forces[a].total_cmp(&forces[b]));
             if let Some(worst) = worst.filter(|&worst| forces[worst] < -1e-12) {
@@ -122,6 +131,25 @@ impl Balance {
         None
     }
 
+    /// Of contacts that cannot all bear by themselves, as three of one link on a circle, the last of which was added: the one that the
+    /// others can do without, because the last takes over its force first. `None` if the last leaves them all theirs.
+    ///
+    /// Goldfarb and Idnani, Mathematical Programming 27 (1983), 1: the step in the dual space alone.
+    fn yielding(&mut self, columns: &[usize], bearing: &[(usize, f64)]) -> Option<usize> {
+        let (&last, others) = columns.split_last()?;
+        let products = &self.bordered.products;
+        self.small.size = others.len();
+        for (row, &column) in others.iter().enumerate() {
+            self.small.right[row] = products[column][last];
+            for (at, &other) in others.iter().enumerate() {
+                self.small.matrix[row][at] = products[column][other];
+            }
+        }
+        let (shares, _) = self.small.solve()?;
+        let taken = (0..others.len()).filter(|&at| shares[at] > LEAST_SHARE);
+        taken.min_by(|&a, &b| (bearing[a].1 / shares[a]).total_cmp(&(bearing[b].1 / shares[b])))
+    }
+
     /// The stiffness of the joints, and what forces that turn with the links add to it.
     fn fill(&mut self, wire: &Wire, shape: &Shape, contacts: &[Contact]) {
         self.diagonal.clone_from(&wire.diagonal);
@@ -143,6 +171,8 @@ impl Balance {
         let link = contact.link;
         match contact.curving {
             Curving::None => Some(([None; 2], false)),
+            // The first link has its base where it is: it turns about that without sliding.
+            Curving::Rolling(_) if link == 0 => Some(([None; 2], false)),
             Curving::Circling(curvature) => {
                 let tangent = perpendicular(contact.normal);
                 let column = self.bordered.add(|column| levers(wire, shape, contact, tangent, column))?;
