@@ -163,8 +163,8 @@ fn inner_corners_and_pairs_are_for_a_rig_with_feelers_and_all_others_for_the_ref
         for draw in draws(&family) {
             let whiskers = draw.scene.rig.whiskers;
             assert_eq!(whiskers[..2], Rig::default().whiskers, "{}", family.name);
-            assert_eq!(whiskers.len(), if has_feelers { 4 } else { 2 }, "{}", family.name);
-            // A feeler a side, each the other's mirror image, from within the nose to before it.
+            assert_eq!(whiskers.len(), if has_feelers { 6 } else { 2 }, "{}", family.name);
+            // Two that look ahead a side, mirror images of each other, from within the nose to before it.
             for feeler in &whiskers[2..] {
                 let tip = feeler.base_body + feeler.shaft.length * unit(feeler.direction_body);
                 assert!(feeler.base_body.x < 0.108 && tip.x > 0.15 && feeler.base_body.y.abs() < 0.015);

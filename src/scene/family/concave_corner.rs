@@ -35,7 +35,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (first + second + thickness),
-        whiskers: FEELERS,
+        rig: FEELERS,
     }
 }
 

@@ -31,7 +31,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (side + back) + 0.5,
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }
 

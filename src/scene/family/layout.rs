@@ -18,8 +18,16 @@ pub(super) struct Layout {
     pub(super) aim: Aim,
     /// About how long the way is (m).
     pub(super) way: f64,
-    /// The rig's whiskers: [`REFERENCE`] or [`FEELERS`].
-    pub(super) whiskers: &'static str,
+    /// [`REFERENCE`] or [`FEELERS`].
+    pub(super) rig: Rig,
+}
+
+/// What differs between the rigs of families.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rig {
+    /// Whiskers as YAML, with a comma behind; nothing for those of the reference rig.
+    whiskers: &'static str,
+    physics: &'static str,
 }
 
 /// When a run is completed.
@@ -37,16 +45,22 @@ const APPROACH: f64 = 1.0;
 const WAYS: f64 = 6.0;
 /// Time for what does not depend on the speed (s).
 const REST: f64 = 60.0;
-/// Small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round a corner, or comes to
-/// an object on the swing, sinks in for a moment, and deeper the longer the steps are.
-const PHYSICS: &str = "physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}";
-/// The whiskers of the reference rig.
-pub(super) const REFERENCE: &str = "";
-/// The reference whiskers, and one a side near the corner of the nose that looks ahead: what turns towards the platform by more than
-/// some 60°, or stands beside its way, would else meet the nose first.
-pub(super) const FEELERS: &str = "whiskers: {r0: {}, l0: {}, \
+/// The reference rig, with small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round
+/// a corner, or comes to an object on the swing, sinks in for a moment, and deeper the longer the steps are.
+pub(super) const REFERENCE: Rig =
+    Rig { whiskers: "", physics: "physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}" };
+/// The reference rig with two whiskers more a side, which look ahead: one near the corner of the nose that leans out, since what turns
+/// towards the platform by more than some 60°, or stands beside its way, would else meet the nose first; and one that points nearly
+/// straight on, for corners that come between these. They are pressed on nearly along their shafts, under which contacts that are as
+/// long as those of the reference rig give way by millimetres.
+pub(super) const FEELERS: Rig = Rig {
+    whiskers: "whiskers: {r0: {}, l0: {}, \
      feeler_r: {base: [100 mm, -14 mm], direction: -30 deg, length: 75 mm, radius: 0.11 mm}, \
-     feeler_l: {base: [100 mm, 14 mm], direction: 30 deg, length: 75 mm, radius: 0.11 mm}}, ";
+     feeler_l: {base: [100 mm, 14 mm], direction: 30 deg, length: 75 mm, radius: 0.11 mm}, \
+     nose_r: {base: [107 mm, -8 mm], direction: -6 deg, length: 75 mm, radius: 0.11 mm}, \
+     nose_l: {base: [107 mm, 8 mm], direction: 6 deg, length: 75 mm, radius: 0.11 mm}}, ",
+    physics: "physics: {step: 0.2778 ms, contact_time: 0.6 ms, penetration_limit: 3 mm}",
+};
 
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.
@@ -57,8 +71,8 @@ impl Layout {
             Aim::Place(place) => format!("reached: {{place: {}, within: 50 mm, after: 5 s}}", point(place)),
         };
         let mut text = format!(
-            "name: {name}\ndescription: {}\nseed: {seed}\nrig: {{{}{PHYSICS}}}\nobjects:\n",
-            self.about, self.whiskers
+            "name: {name}\ndescription: {}\nseed: {seed}\nrig: {{{}{}}}\nobjects:\n",
+            self.about, self.rig.whiskers, self.rig.physics
         );
         for object in &self.objects {
             // Writing to a string cannot fail.

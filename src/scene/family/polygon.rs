@@ -33,7 +33,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * radius,
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }
 

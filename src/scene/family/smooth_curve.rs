@@ -49,7 +49,7 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }
 

@@ -20,6 +20,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: 2.0 * (length + thickness) + 0.8,
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }

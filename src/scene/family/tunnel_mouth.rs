@@ -18,6 +18,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: before(),
         aim: Aim::Place(from.position + length * unit(from.heading)),
         way: length,
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }

@@ -37,6 +37,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: beside(hand),
         aim: Aim::Loop,
         way: TAU * (radii[0] + radii[1]),
-        whiskers: FEELERS,
+        rig: FEELERS,
     }
 }

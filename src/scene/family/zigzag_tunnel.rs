@@ -31,6 +31,6 @@ fn lay(dice: &mut Dice) -> Layout {
         start: before(),
         aim: Aim::Place(from.position + along),
         way: runs.iter().map(|run| run.0).sum(),
-        whiskers: REFERENCE,
+        rig: REFERENCE,
     }
 }
