@@ -57,6 +57,7 @@ impl Activity {
         if !self.has_begun {
             self.has_begun = true;
             self.compute(program, &program.start, senses);
+            self.compute(program, &program.entry, senses);
             self.enter(program, None, (self.state(), false), now, senses);
         }
         let mut due = self.due(program, None, now, senses);
@@ -66,6 +67,7 @@ impl Activity {
             }
             match due.take() {
                 None => {
+                    self.compute(program, &program.body, senses);
                     return match self.act(program, 0, senses, action) {
                         Ok(()) => (Ok(()), None),
                         Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses, action),
@@ -191,7 +193,11 @@ impl Activity {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
                 let have_acted = match cause {
                     Cause::NotFinite => program.stays(from, *state).map_or(0, |stays| program.outward(stays).count()),
-                    Cause::Chain => 0,
+                    // Nothing has acted yet.
+                    Cause::Chain => {
+                        self.compute(program, &program.body, senses);
+                        0
+                    }
                 };
                 let acted = self.act(program, have_acted, senses, action);
                 acted.map_err(|state| Cause::NotFinite.failure(&program.states[state].name))

@@ -22,7 +22,7 @@ use super::verify::Unsound;
 pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
 /// The number of the format that is written and read. It counts the layout of [`Artifact`] and everything in it, the order of
 /// operations and quantities too.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 /// The most bytes that an artifact may have; the largest program that the compiler writes has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 

@@ -43,6 +43,10 @@ pub struct Program {
     pub initial: usize,
     /// What is done once, when a run begins: computes what follows from parameters and constants alone.
     pub start: Block,
+    /// What is done once behind that, before a state is entered: sets the machine's own memory.
+    pub entry: Block,
+    /// What is done every tick before what the active states do.
+    pub body: Block,
     /// Transitions that are tried first, whatever the state.
     pub always: Vec<Transition>,
     /// Where a state without a failsafe of its own is left to when the machine cannot go on in it.
@@ -219,17 +223,18 @@ impl Program {
         self.outward(state).find_map(own).or_else(|| Some((None, self.failsafe.as_ref()?)))
     }
 
-    /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the state
-    /// does, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
+    /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the machine and
+    /// the state do, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
         let guards = |transitions: &[Transition]| guards(transitions).len();
         let active = self.outward(state).map(|state| &self.states[state]);
-        guards(&self.always) + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
+        let own = guards(&self.always) + self.body.len();
+        own + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
 
     /// A bound on the operations of any tick: what a run begins with, eight transitions, each with the most that one can do, guards before and behind
-    /// each, a failsafe, and what states do.
+    /// each, a failsafe, and what the machine and the states do.
     #[must_use]
     pub fn most_operations(&self) -> usize {
         let most = |of: &dyn Fn(usize) -> usize| (0..self.states.len()).map(of).max().unwrap_or(0);
@@ -247,7 +252,8 @@ impl Program {
             + most(&|state| on_the_way(state, &entering));
         let look = most(&|state| on_the_way(state, &|state| guards(&state.transitions)));
         let act = most(&|state| on_the_way(state, &|state| state.body.len()));
-        self.start.len() + guards(&self.always) + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
+        let once = self.start.len() + self.entry.len() + guards(&self.always) + self.body.len();
+        once + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
     }
 
     /// Bytes that a running machine keeps: registers, times, and which state was last active in which.

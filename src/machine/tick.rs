@@ -97,8 +97,8 @@ impl Machine {
     }
 
     /// One tick: first the rules that hold always, then the active states' transitions, from the outermost state to the
-    /// innermost and in their written order (and again after each one taken, up to [`CHAIN_LIMIT`]), then what the active
-    /// states do, from the outermost to the innermost.
+    /// innermost and in their written order (and again after each one taken, up to [`CHAIN_LIMIT`]), then what the machine
+    /// itself does, and what the active states do, from the outermost to the innermost.
     ///
     /// An action with a number that is not finite is never given. Instead, and where a tick wants too many transitions, the
     /// active state is left by its failsafe, or else by the program's, and what the state entered does counts; without a

@@ -120,6 +120,8 @@ impl Program {
             states,
             initial,
             start: _,
+            entry: _,
+            body: _,
             always,
             failsafe: _,
             code,
@@ -268,8 +270,8 @@ impl Program {
             state.transitions.iter().flat_map(of_transition).chain(own).chain(failsafe).collect::<Vec<Block>>()
         };
         let failsafe = self.failsafe.iter().map(of_target);
-        let always = self.always.iter().flat_map(of_transition).chain(failsafe).chain([self.start.clone()]);
-        let always: Vec<Block> = always.collect();
+        let own = [&self.start, &self.entry, &self.body].map(Block::clone);
+        let always: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).chain(own).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));

@@ -29,6 +29,10 @@ pub(super) struct File {
     pub(super) laws: Vec<Law>,
     /// In the order of the text: an outer state comes before the states in it.
     pub(super) states: Vec<State>,
+    /// `var name = value` outside of every state
+    pub(super) memory: Vec<(Name, Expression)>,
+    /// What the machine does every tick, whatever the state.
+    pub(super) body: Vec<Statement>,
     pub(super) always: Vec<Transition>,
     /// `failsafe -> target`
     pub(super) failsafes: Vec<Target>,
@@ -209,6 +213,19 @@ pub(super) enum Statement {
     Steer(Box<Steer>),
     Hold(Span),
     Stop(Span),
+}
+
+impl Statement {
+    /// Where it is told that it stands: at what it names or reads first.
+    pub(super) fn place(&self) -> Option<Span> {
+        match self {
+            Self::Let { name, .. } | Self::Set { name, .. } | Self::Mark { name, .. } => Some(name.span),
+            Self::If { branches, .. } => branches.first().map(|(condition, _)| condition.span),
+            Self::Record(whisker) => Some(whisker.span),
+            Self::Steer(steer) => Some(steer.span),
+            Self::Do { span, .. } | Self::Hold(span) | Self::Stop(span) => Some(*span),
+        }
+    }
 }
 
 /// `steer mover along direction at speed facing angle`

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
-use super::ast::{File, Use};
+use super::ast::{File, Statement, Use};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
@@ -204,12 +204,15 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
     let parameters = file.parameters.iter().map(|parameter| parameter.name.span);
     let states = file.states.iter().map(|state| state.name.span);
     let names = file.whiskers.iter().chain(&file.initial).map(|name| name.span);
-    let rules = file.always.iter().map(|rule| rule.target.span);
+    let rules = file.always.iter().map(|rule| &rule.target).chain(&file.failsafes).map(|target| target.span);
     let tests = file.tests.iter().map(|test| test.title.span);
-    let first: Span = parameters.chain(states).chain(names).chain(rules).chain(tests).min_by_key(|span| span.start)?;
+    let memory = file.memory.iter().map(|(name, _)| name.span);
+    let statements = file.body.iter().filter_map(Statement::place);
+    let items = parameters.chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(statements);
+    let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
         Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")
             .note(file.name.span, "a library")
-            .hint("give a law what it needs as arguments; states, whiskers, parameters and tests are the machine's")
+            .hint("give a law what it needs as arguments; states, whiskers, parameters, memory and tests are the machine's")
     })
 }

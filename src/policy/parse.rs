@@ -20,7 +20,7 @@ use super::grammar::{self, Rule};
 use super::pair::{Pair, Pairs};
 use expression::{binary, climb};
 use reader::{Reader, values};
-use state::{state, target};
+use state::{state, target, variable};
 use test::test;
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
@@ -41,6 +41,8 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         derived: Vec::new(),
         laws: Vec::new(),
         states: Vec::new(),
+        memory: Vec::new(),
+        body: Vec::new(),
         always: Vec::new(),
         tests: Vec::new(),
         failsafes: Vec::new(),
@@ -76,7 +78,8 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             Rule::test => file.tests.push(test(&mut reader)?),
             Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
-            _ => {}
+            Rule::memory => file.memory.push(variable(&mut reader)?),
+            _ => file.body.push(statement(item)?),
         }
     }
     Ok(file)

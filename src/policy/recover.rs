@@ -16,12 +16,16 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Words that begin an item.
-const ITEM_WORDS: [&str; 12] =
-    ["whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library"];
+const ITEM_WORDS: [&str; 21] = [
+    "whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library",
+    "var", "set", "if", "do", "record", "mark", "steer", "hold", "stop",
+];
 /// Those among them that stand within braces, too.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
+/// Those among them that are more often what stands in a state, or go on with a statement.
+const OUTER_STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
 /// Words with which an item can go on in another line.
-const CONTINUING_WORDS: [&str; 6] = ["and", "or", "not", "in", "for", "when"];
+const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
 /// Words that begin a statement, or what else stands in a state.
 const STATEMENT_WORDS: [&str; 15] = [
     "let", "set", "if", "do", "record", "mark", "steer", "hold", "stop", "when", "after", "var", "entry", "exit",
@@ -199,8 +203,9 @@ fn indent(text: &str, at: usize) -> Option<usize> {
 /// Where the items behind the machine's name begin, and whether all braces are closed.
 ///
 /// Items begin outside of braces with their words, or with what stands for one by mistake: a word at the beginning of a line with
-/// another behind it. Where braces are not closed, a word that begins an item counts at the beginning of any line: if it can only
-/// be an item, or if it stands no farther in than the item before.
+/// another behind it; statements among them begin a line, too, no farther in than the item before. Where braces are not closed, a
+/// word that begins an item counts at the beginning of any line: if it can only be an item, or if it stands no farther in than the
+/// item before.
 fn items(text: &str) -> (bool, Vec<usize>) {
     let is_balanced = braces_close(text);
     let (mut braces, mut parentheses, mut indent) = (0_usize, 0_usize, 0);
@@ -218,7 +223,9 @@ fn items(text: &str) -> (bool, Vec<usize>) {
                 let is_item = ITEM_WORDS.contains(&word);
                 let is_first = token.indent.is_some();
                 let is_outermost = token.indent.is_some_and(|own| own <= indent);
-                let begins = if braces > 0 {
+                let begins = if OUTER_STATEMENT_WORDS.contains(&word) {
+                    is_outermost && (braces == 0 || !is_balanced)
+                } else if braces > 0 {
                     is_item && !is_balanced && if INNER_WORDS.contains(&word) { is_outermost } else { is_first }
                 } else if is_item {
                     parentheses == 0 || is_first

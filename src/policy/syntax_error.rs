@@ -9,7 +9,7 @@ use super::hint::did_you_mean;
 
 /// What begins an item, in the order in which they usually come.
 const ITEM: &str =
-    "an item (`use`, `whisker`, `param`, `initial`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
+    "an item (`use`, `whisker`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
 
 /// Words that can only stand outside of every brace.
 const ITEM_WORDS: [&str; 10] =
@@ -33,6 +33,12 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
 
     if found.is_empty() {
         return at_the_end(source, at, rules, opened);
+    }
+    if rules.contains(&Rule::open_brace)
+        && let Some(word) = in_place_of_fitted(&source.text[..at])
+    {
+        let message = format!("`{}` is unexpected here", source.slice(word));
+        return Diagnostic::error("P0101", message, word, "expected `fitted`");
     }
     if found == "\"" && !is_closed(&source.text[at..]) {
         return Diagnostic::error("P0101", "the text is not closed", span, "begins here")
@@ -77,6 +83,17 @@ fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>)
     };
     Diagnostic::error("P0101", "the policy ends too early", place, format!("expected `{close}`"))
         .note(Span::new(opened, opened + 1), format!("this `{bracket}` is never closed"))
+}
+
+/// What stands in the place of `fitted` at the end of a text that ends with a line of whiskers, whose `if` was taken for a
+/// statement.
+fn in_place_of_fitted(text: &str) -> Option<Span> {
+    let start = text.rfind("whisker ")?;
+    let (line, behind) = text[start..].split_once('\n')?;
+    let code = line.split('#').next()?;
+    let condition = start + code.find(" if ")? + " if ".len();
+    let is_all = behind.lines().map(str::trim_start).all(|line| line.is_empty() || line.starts_with('#'));
+    is_all.then(|| word_at(text, condition))
 }
 
 /// The word, or else the character, at `at`; nothing at the end of the text.
@@ -189,9 +206,10 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::bound => (0, "a number"),
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
         Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
-        // `initial` stands for all words that begin an item, and `do` for all that begin a statement.
-        Rule::kw_initial if !among.contains(&Rule::kw_do) => (2, ITEM),
-        Rule::kw_state if among.contains(&Rule::kw_do) => (3, "`state`"),
+        // `param` stands for all words that begin an item, and `do` for all that begin a statement.
+        Rule::kw_param => (2, ITEM),
+        Rule::kw_do if among.contains(&Rule::kw_param) => (3, "a statement"),
+        Rule::kw_state if among.contains(&Rule::kw_do) && !among.contains(&Rule::kw_param) => (3, "`state`"),
         Rule::kw_do => (2, "a statement"),
         Rule::kw_expect => (2, "`expect`"),
         Rule::kw_when => (3, "`when`"),
@@ -214,6 +232,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_whisker => "whisker",
         Rule::fitted => "fitted",
         Rule::kw_param => "param",
+        Rule::kw_var => "var",
         Rule::kw_initial => "initial",
         Rule::kw_let => "let",
         Rule::kw_law => "law",
@@ -226,6 +245,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_after => "after",
         Rule::kw_if => "if",
         Rule::kw_else => "else",
+        Rule::kw_set => "set",
         Rule::kw_do => "do",
         Rule::kw_record => "record",
         Rule::kw_mark => "mark",

@@ -179,6 +179,14 @@ fn items_of_several_lines_stand_apart_with_the_comments_above_them() {
 }
 
 #[test]
+fn what_the_machine_remembers_and_does_is_laid_out_as_in_a_state() {
+    let text = "var a=1 m\nvar other=2\nset a=2 m\nset other=3 if b{set a=c}else{set other=1}\nif b{\nset a=c}\nrecord w do l()";
+    let expected = "var a     = 1 m\nvar other = 2\nset a     = 2 m\nset other = 3\nif b { set a = c } else { set other = 1 }\n\n\
+                    if b {\n  set a = c\n}\n\nrecord w\ndo l()\n";
+    assert_eq!(items(text), expected);
+}
+
+#[test]
 fn blank_lines_are_one_at_most_and_none_at_the_edges_of_a_block() {
     let text = "\n\n\nstate S {\n\n\n  hold\n\n\n\n  stop\n\n}\n\n\n";
     assert_eq!(items(text), "\nstate S {\n  hold\n\n  stop\n}\n");

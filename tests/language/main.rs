@@ -12,6 +12,7 @@ mod expressions;
 mod format;
 mod index;
 mod machine;
+mod machine_memory;
 mod nesting;
 mod page;
 mod programs;

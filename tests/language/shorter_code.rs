@@ -39,6 +39,20 @@ fn what_may_have_been_left_out_is_not_relied_on() {
 }
 
 #[test]
+fn what_the_machine_itself_does_is_shortened_too() {
+    let text = "machine a  param speed = 5 cm/s in 1 .. 9 cm/s  var far = 2 * speed  var n = 0 cm/s  set n = n + 3 * speed - far
+        initial A  state A { steer body along vector(1, 0) at n turning 0 deg/s }";
+    let program = compile(&Source::new("a.fsm", text)).unwrap();
+    let ops = |block: &std::ops::Range<u32>| &program.code[block.start as usize..block.end as usize];
+    assert!(matches!(ops(&program.entry), [Op::Copy { .. }]), "{:?}", ops(&program.entry));
+    assert!(
+        matches!(ops(&program.body), [Op::Add { .. }, Op::Subtract { .. }, Op::Copy { .. }]),
+        "{:?}",
+        ops(&program.body)
+    );
+}
+
+#[test]
 fn what_parameters_fix_is_computed_when_a_run_begins() {
     let program = doing("steer body along vector(1, 0) at min(speed * speed / 3 cm/s, speed) turning 0 deg/s");
     assert!(matches!(body(&program), [Op::SteerBodyTurning { .. }]), "{:?}", body(&program));

@@ -49,8 +49,11 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
             None => used.extend(names),
         }
     }
+    file.memory.iter().for_each(|(_, value)| used.expression(value));
+    used.statements(&file.body);
     used.transitions(&file.always);
     used.targets(&file.failsafes);
+    unread.extend(file.memory.iter().map(|(name, _)| name).filter(|name| !used.has(&name.text)));
     file.tests.iter().for_each(|test| used.expressions(&test.expectations));
     for name in unread {
         warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));

@@ -20,7 +20,7 @@ pub(super) enum Expected {
     Law,
     /// The name of any state.
     State,
-    /// The memory of a state.
+    /// The memory of a state, or of the machine.
     Memory,
     /// A parameter to set.
     Parameter,
@@ -75,6 +75,8 @@ pub(super) struct Context {
     pub(super) statement: Option<usize>,
     /// Whether the place is in a transition, which does not know the names that the state's statements give.
     pub(super) in_transition: bool,
+    /// Whether the place is in a law or a derived value, which do not know the machine's memory.
+    pub(super) in_law: bool,
 }
 
 /// What may be written at the byte `at` of a text, which must be a whole character's.
@@ -89,6 +91,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state: None,
         statement: None,
         in_transition: false,
+        in_law: false,
     };
     if known.last().is_some_and(|last| is_unfinished(before, *last)) {
         return nothing;
@@ -112,6 +115,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     let head = statement.first().map(|token| token.text);
     let states = declared.frames.iter().rev().filter(|frame| frame.head == Some("state"));
     let state = states.filter_map(|frame| declared.symbols.get(frame.owner?)).map(|state| state.span).next();
+    let outermost = declared.frames.get(1).map_or(head, |frame| frame.head);
     Context {
         expected: expected(&known, statement, level, typed),
         typed,
@@ -119,6 +123,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state,
         statement: statement.first().map(|token| token.start),
         in_transition: matches!(head, Some("when" | "after" | "failsafe" | "initial" | "var")),
+        in_law: matches!(outermost, Some("law" | "let")),
     }
 }
 

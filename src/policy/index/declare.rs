@@ -82,7 +82,8 @@ impl<'t> Declared<'t> {
             self.end = text.len();
         }
         self.finish_statement();
-        for symbol in self.symbols.iter_mut().filter(|symbol| symbol.kind.is_item()) {
+        let is_the_machines = |symbol: &Symbol| symbol.kind == SymbolKind::Memory && symbol.owner.is_none();
+        for symbol in self.symbols.iter_mut().filter(|symbol| symbol.kind.is_item() || is_the_machines(symbol)) {
             symbol.visible = Span::new(0, text.len());
         }
         self.symbols

@@ -24,7 +24,7 @@ pub enum SymbolKind {
     Argument,
     /// A value that a statement names.
     Local,
-    /// What a state keeps from tick to tick.
+    /// What a state, or the machine, keeps from tick to tick.
     Memory,
 }
 

@@ -68,7 +68,8 @@ const FILE: &[Place] = &[Place::File];
 const ITEM: &[Place] = &[Place::Item];
 const STATE: &[Place] = &[Place::State];
 const ITEM_OR_STATE: &[Place] = &[Place::Item, Place::State];
-const STATEMENT: &[Place] = &[Place::State, Place::Statement];
+const COMMAND: &[Place] = &[Place::State, Place::Statement];
+const STATEMENT: &[Place] = &[Place::Item, Place::State, Place::Statement];
 const INSIDE: &[Place] = &[Place::Inside];
 const VALUE: &[Place] = &[Place::Value];
 const TRUTH: &[Place] = &[Place::Value, Place::Run];
@@ -138,7 +139,7 @@ pub(super) const WORDS: [Word; 53] = [
     ),
     entry(
         "let",
-        &[Place::Item, Place::State, Place::Statement],
+        STATEMENT,
         "let ${1:name} = ${2:value}",
         "Names a value. Outside of braces it is computed anew wherever it is used, and may have arguments.",
     ),
@@ -156,17 +157,17 @@ pub(super) const WORDS: [Word; 53] = [
     ),
     entry(
         "var",
-        STATE,
+        ITEM_OR_STATE,
         "var ${1:name} = ${2:value}",
-        "Keeps a value from tick to tick: it is set when the state is entered, and by `set`.",
+        "Keeps a value from tick to tick: it is set when the state is entered, or outside of states when a run starts, and by `set`.",
     ),
     entry("entry", STATE, "entry {\n  ${0}\n}", "Statements for when the state is entered, after its memory is set."),
     entry("exit", STATE, "exit {\n  ${0}\n}", "Statements for when the state is left."),
     entry(
         "set",
-        &[Place::State, Place::Statement, Place::Test],
+        &[Place::Item, Place::State, Place::Statement, Place::Test],
         "set ${1:name} = ${2:value}",
-        "Changes the memory of the state; in a test, gives a parameter its value for the run.",
+        "Changes memory; in a test, gives a parameter its value for the run.",
     ),
     entry("expect", &[Place::Test], "expect ${1:run.completed}", "What must be true at the end of the run."),
     entry("if", STATEMENT, "if ${1:condition} {\n  ${0}\n}", "Runs the first block whose condition holds."),
@@ -185,12 +186,12 @@ pub(super) const WORDS: [Word; 53] = [
     ),
     entry(
         "steer",
-        STATEMENT,
+        COMMAND,
         "steer ${1:body} along ${2:direction} at ${3:speed} facing ${4:angle}",
         "Moves the body, or the base of a whisker, in a direction of the world at a speed, and turns the body.",
     ),
-    entry("hold", STATEMENT, "hold", "Keeps the last command."),
-    entry("stop", STATEMENT, "stop", "Stands still."),
+    entry("hold", COMMAND, "hold", "Keeps the last command."),
+    entry("stop", COMMAND, "stop", "Stands still."),
     entry("else", INSIDE, "else {\n  ${0}\n}", "What is run when no condition before it holds."),
     entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
     entry(

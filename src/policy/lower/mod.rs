@@ -7,6 +7,7 @@ mod code;
 mod expression;
 mod function;
 mod hierarchy;
+mod memory;
 mod names;
 mod parameter;
 mod scope;
@@ -121,7 +122,7 @@ struct Compiler<'f> {
     writing: Vec<&'f Name>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
-    /// The memory that the state being written and its outer states have declared.
+    /// The memory that the machine, the state being written and its outer states have declared.
     variables: Vec<&'f str>,
     /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
     memories: Vec<(Register, u16)>,

@@ -62,7 +62,8 @@ impl<'f> Compiler<'f> {
         let derived = file.derived.iter().map(|derived| &derived.name);
         let laws = file.laws.iter().map(|law| &law.name);
         let states = file.states.iter().map(|state| &state.name);
-        for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states) {
+        let memory = file.memory.iter().map(|(name, _)| name);
+        for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states).chain(memory) {
             if is_reserved(&name.text) {
                 self.report(reserved(name));
             } else if let Some(&before) = self.names().items.get(name.text.as_str()) {

@@ -70,6 +70,16 @@ impl<'f> Compiler<'f> {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
         } else if text == "run" {
             diagnostic.hint("only the expectations of a `test` know the run")
+        } else if self.variables.contains(&text.as_str()) {
+            // Whoever knows memory at all knows a state's where that is written; so it is the machine's.
+            diagnostic.hint(if self.writing.is_empty() && self.figures.is_none() {
+                format!("it is memory that is set further down: write `var {text} = \u{2026}` above this")
+            } else {
+                format!(
+                    "`{text}` is memory of the machine: states and `always` rules know it, and a law or a derived value if it is given \
+                     it as an argument"
+                )
+            })
         } else if self.names().items.contains_key(text.as_str()) {
             // Everything else that has a name is a value.
             diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))

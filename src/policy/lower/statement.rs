@@ -76,7 +76,7 @@ impl<'f> Compiler<'f> {
             let message = format!("{place} gives no command");
             self.report(
                 Diagnostic::error("P0407", message, span, "a command")
-                    .hint("what the state does every tick commands; the tick that enters a state runs that too"),
+                    .hint("put it among what a state does every tick; the tick that enters a state runs that too"),
             );
             return None;
         }
@@ -89,11 +89,15 @@ impl<'f> Compiler<'f> {
         if !self.writing.is_empty() || !self.variables.contains(&name.text.as_str()) {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
-            let label = if self.writing.is_empty() { "not memory of this state" } else { "a law has no memory to set" };
-            let diagnostic = Diagnostic::error("P0406", message, name.span, label);
-            let diagnostic = did_you_mean(diagnostic, &name.text, self.variables.iter().copied());
+            let diagnostic = if self.writing.is_empty() {
+                let diagnostic = Diagnostic::error("P0406", message, name.span, "no memory that is known here");
+                did_you_mean(diagnostic, &name.text, self.variables.iter().copied())
+            } else {
+                Diagnostic::error("P0406", message, name.span, "a law has no memory to set")
+            };
             self.report(diagnostic.hint(format!(
-                "only what a state declares with `var {} = \u{2026}` can be set, in that state and in the states in it",
+                "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or in all states if it stands outside of \
+                 them",
                 name.text
             )));
             return None;

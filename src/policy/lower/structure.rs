@@ -48,15 +48,19 @@ pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
 
 /// Checks a policy and writes its program. `None` when it has no state to start in.
 pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Option<Program> {
-    let parameters = items(compiler, files);
     let file = &files.main;
+    // Laws and derived values, which come first, are told that they do not know it.
+    compiler.variables.extend(file.memory.iter().map(|(name, _)| name.text.as_str()));
+    let parameters = items(compiler, files);
+    let scope = compiler.own_memory(file);
+    let (entry, body) = compiler.own_code(&scope, file);
     // Every state's arguments need their places before any transition can lead there.
     compiler.hierarchy = Hierarchy::new(&file.states);
-    let declared = compiler.declare(file);
+    let declared = compiler.declare(file, &scope);
     let mut timers = 0;
-    let always = compiler.transitions(&Scope::default(), None, &file.always, &mut timers);
-    let failsafe = compiler.failsafe(&Scope::default(), None, &file.failsafes);
-    let states = compiler.states(file, declared, &mut timers);
+    let always = compiler.transitions(&scope, None, &file.always, &mut timers);
+    let failsafe = compiler.failsafe(&scope, None, &file.failsafes);
+    let states = compiler.states(file, &scope, declared, &mut timers);
     let initial = compiler.initial(file);
     let tip_models = compiler.tip_models(file);
     compiler.check_whisker_arguments(file);
@@ -73,6 +77,8 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         initial: initial?,
         // The optimiser finds out what need not be done in every tick.
         start: 0..0,
+        entry,
+        body,
         always,
         failsafe,
         code: std::mem::take(&mut compiler.code.ops),
@@ -187,12 +193,26 @@ impl<'f> Compiler<'f> {
         }
     }
 
+    /// Writes what sets the machine's own memory, and what the machine does every tick.
+    fn own_code(&mut self, scope: &Scope<'f>, file: &'f File) -> (Block, Block) {
+        let start = self.code.here();
+        self.set_memory(scope, &file.memory);
+        let entry = self.code.since(start);
+        self.commandless = Some("the machine itself");
+        let start = self.code.here();
+        self.statements(&mut scope.clone(), &file.body);
+        let body = self.code.since(start);
+        self.commandless = None;
+        self.watch_growth(file.name.span);
+        (entry, body)
+    }
+
     /// Makes all states known, with places for their arguments and memory. Gives the names that each state adds to those of
-    /// its outer states.
-    fn declare(&mut self, file: &'f File) -> Vec<Vec<(&'f Name, Meaning)>> {
+    /// its outer states and `own`, which the machine gives.
+    fn declare(&mut self, file: &'f File, own: &Scope<'f>) -> Vec<Vec<(&'f Name, Meaning)>> {
         // How many names there are when a state has given its own.
         let mut ends: Vec<usize> = Vec::with_capacity(file.states.len());
-        let mut scope = Scope::default();
+        let mut scope = own.clone();
         let mut declared = Vec::with_capacity(file.states.len());
         for (index, state) in file.states.iter().enumerate() {
             if self.hierarchy.outward(index).count() == NESTING_LIMIT + 1 {
@@ -200,43 +220,35 @@ impl<'f> Compiler<'f> {
                 let diagnostic = Diagnostic::error("P0410", message, state.name.span, "this one is too deep");
                 self.report(diagnostic.hint("put fewer of them into one another"));
             }
-            let start = state.parent.map_or(0, |parent| ends[parent]);
+            let start = state.parent.map_or(own.len(), |parent| ends[parent]);
             scope.truncate(start);
             self.bind_arguments(&mut scope, &state.arguments);
             let names = state.arguments.iter().map(|argument| &argument.name.text);
             let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
             self.states.insert(&state.name.text, StateEntry { index, arguments });
-            self.remember(&mut scope, state);
+            for (name, value) in &state.memory {
+                let memory = self.remember(&scope, value);
+                self.bind(&mut scope, name, memory);
+            }
             ends.push(scope.len());
             declared.push(scope.since(start));
         }
         declared
     }
 
-    /// Gives a state's memory its places. The values are written into the entry, which comes last, when it is known what
-    /// else there is to reset.
-    fn remember(&mut self, scope: &mut Scope<'f>, state: &'f State) {
-        for (name, value) in &state.memory {
-            let mark = self.code.mark();
-            let value = self.expression(scope, value);
-            self.code.rewind(mark);
-            let memory = value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) });
-            self.bind(scope, name, memory);
-        }
-    }
-
-    /// Writes all states; `declared` are the names that each adds to those of its outer states.
+    /// Writes all states; `declared` are the names that each adds to those of its outer states and `own`, which the machine gives.
     fn states(
         &mut self,
         file: &'f File,
+        own: &Scope<'f>,
         declared: Vec<Vec<(&'f Name, Meaning)>>,
         timers: &mut usize,
     ) -> Vec<machine::State> {
         let mut ends: Vec<(usize, usize)> = Vec::with_capacity(file.states.len());
-        let mut scope = Scope::default();
+        let (mut scope, own) = (own.clone(), (own.len(), self.variables.len()));
         let states = file.states.iter().zip(declared).enumerate();
         let states = states.map(|(index, (state, names))| {
-            let (start, variables) = state.parent.map_or((0, 0), |parent| ends[parent]);
+            let (start, variables) = state.parent.map_or(own, |parent| ends[parent]);
             scope.truncate(start);
             self.variables.truncate(variables);
             for (name, meaning) in names {
@@ -247,7 +259,7 @@ impl<'f> Compiler<'f> {
             self.state(index, state, &mut scope, timers)
         });
         let states = states.collect();
-        self.variables.clear();
+        self.variables.truncate(own.1);
         states
     }
 
@@ -277,14 +289,7 @@ impl<'f> Compiler<'f> {
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
         self.commandless = Some("entering a state");
         let start = self.code.here();
-        for (name, value) in &state.memory {
-            // A fault of the value has been reported when its place was made.
-            if let Some(memory) = scope.get(&name.text).flatten()
-                && let Some(value) = self.expression(scope, value)
-            {
-                self.code.copy(memory.register, value.register, value.r#type.width());
-            }
-        }
+        self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {
             self.code.push(Op::Clear { memory, count });
         }

@@ -91,6 +91,7 @@ fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
     };
     let mut blocks = of_list(&program.always);
     blocks.extend(program.failsafe.iter().map(of_target));
+    blocks.extend([&program.entry, &program.body].map(Block::clone));
     for state in &program.states {
         blocks.extend(of_list(&state.transitions));
         blocks.extend([&state.entry, &state.body, &state.exit].map(Block::clone));
@@ -118,6 +119,7 @@ fn blocks(program: &mut Program) -> Vec<&mut Block> {
     }
     let mut blocks: Vec<&mut Block> = of_list(&mut program.always).collect();
     blocks.extend(program.failsafe.as_mut().and_then(of_target));
+    blocks.extend([&mut program.entry, &mut program.body]);
     for state in &mut program.states {
         blocks.extend(of_list(&mut state.transitions));
         blocks.extend([&mut state.entry, &mut state.body, &mut state.exit]);

@@ -1,7 +1,7 @@
 //! States, the states in them, and what leads to them.
 
 use crate::diagnostic::Span;
-use crate::policy::ast::{State, Step, Target};
+use crate::policy::ast::{Expression, Name, State, Step, Target};
 use crate::policy::grammar::Rule;
 use crate::policy::pair::Pair;
 
@@ -24,16 +24,18 @@ pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut
             Rule::start => state.initial.push(step(pair)?),
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
             Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
-            Rule::memory => {
-                let mut memory = Reader::new(pair);
-                state.memory.push((memory.name()?, memory.expression()?));
-            }
+            Rule::memory => state.memory.push(variable(&mut Reader::new(pair))?),
             Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
             Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
             _ => state.body.push(statement(pair)?),
         }
     }
     Ok(())
+}
+
+/// `var name = value`
+pub(super) fn variable(reader: &mut Reader<'_>) -> Parsed<(Name, Expression)> {
+    Ok((reader.name()?, reader.expression()?))
 }
 
 fn step(pair: Pair<'_>) -> Parsed<Step> {

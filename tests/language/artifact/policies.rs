@@ -21,6 +21,8 @@ law touch(w: whisker, s: speed) {
   else if w.contour.curvature == 0 rad/m { hold }
   else { steer w along v at s facing angle(w.contour.end - body.position) }
 }
+var farthest = 0 m
+if a.touching { set farthest = max(farthest, |a.tip|)  mark found a }
 initial Start
 state Start {
   var closest = 1 m
@@ -41,7 +43,7 @@ state Touch(w: whisker, s: speed, v: vector) {
 }
 failsafe -> Start
 always when time > 2 s for 1 s -> Failure("too long")
-always when cross(body.position, vector(1, 0)) > 1e6 m -> Failure("too far")
+always when cross(body.position, vector(1, 0)) > 1e6 m + farthest -> Failure("too far")
 "#;
 
 /// A text's artifact.

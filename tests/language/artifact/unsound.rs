@@ -81,6 +81,8 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
     told(|program| program.states[0].entry.end = u32::MAX);
     told(|program| program.states[0].entry.start -= 1);
     told(|program| program.states[0].exit.end += 1);
+    told(|program| program.entry.start -= 1);
+    told(|program| program.body.end = u32::MAX);
     told(|program| {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
@@ -106,6 +108,11 @@ fn a_tick_does_no_code_twice() {
         for state in &mut program.states {
             (state.entry, state.exit) = (longest.clone(), longest.clone());
         }
+    });
+    assert!(told.contains("operations a tick"), "{told}");
+    let told = refusal(|program| {
+        let longest = program.states[1].body.clone();
+        (program.entry, program.body, program.start) = (longest.clone(), longest.clone(), longest);
     });
     assert!(told.contains("operations a tick"), "{told}");
     let told = refusal(|program| {

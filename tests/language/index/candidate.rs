@@ -117,6 +117,34 @@ fn a_value_is_one_that_is_known_at_the_place() {
 }
 
 #[test]
+fn the_machines_memory_is_known_to_all_but_laws_and_derived_values() {
+    let has = |place: &str, word: &str| {
+        let text = format!("machine m\nvar met = 1\nparam p = 1 m\n{place}\n\nvar later = met\n");
+        labels(&text).contains(&word.to_owned())
+    };
+    for place in ["state S { set \u{a7} = 1 }", "set \u{a7}", "if true {\n  set \u{a7}\n}"] {
+        assert!(has(place, "met") && has(place, "later"), "{place}");
+    }
+    for place in
+        ["always when \u{a7}", "state S {\n  when \u{a7}", "state S {\n  state T { var x = \u{a7}", "var x = \u{a7}"]
+    {
+        assert!(has(place, "met") && has(place, "p"), "{place}");
+    }
+    for place in [
+        "let x = \u{a7}",
+        "let x(a: length) = a + \u{a7}",
+        "law l() {\n  if \u{a7}",
+        "law l() {\n  if true {\n    let x = \u{a7}",
+    ] {
+        assert!(!has(place, "met") && has(place, "p"), "{place}");
+    }
+    assert!(!has("test \"t\" in \"s\" {\n  expect \u{a7}", "met"));
+    for (place, word) in [("\u{a7}", "var"), ("se\u{a7}", "set"), ("var n = p\n\u{a7}", "if")] {
+        assert!(has(place, word) && !has(place, "steer"), "{place}");
+    }
+}
+
+#[test]
 fn units_follow_numbers_and_types_follow_colons() {
     for place in ["let x = 50 \u{a7}", "let x = 50 m\u{a7}", "after 5 \u{a7}", "}\nparam x = 1 \u{a7}"] {
         let labels = labels(&writing(place));

@@ -2,7 +2,7 @@
 
 use vibrissa::diagnostic::{Diagnostic, Source, Span};
 use vibrissa::machine::Program;
-use vibrissa::policy::index::{Index, RenameError};
+use vibrissa::policy::index::{Index, RenameError, Role, SymbolKind};
 use vibrissa::policy::{check, compile};
 
 use super::policies::{SWIPE, THESIS, gathered, index, policies};
@@ -51,6 +51,23 @@ fn whatever_is_renamed_the_machine_stays_the_same() {
         }
     }
     assert!(renamed > 250, "{renamed}");
+}
+
+#[test]
+fn the_machines_memory_has_one_name_wherever_it_is_known() {
+    let text = "machine m\nstate S {\n  set n = n + 1\n  stop\n}\nset n = 2 * n\nalways when n > limit -> S\nvar n = 0\n\
+                param limit = 3\ninitial S\nlaw l(x: number) { stop }\n";
+    let index = index(text);
+    let at = text.rfind("n = 0").unwrap();
+    let symbol = index.symbols().iter().find(|symbol| symbol.span.start == at).unwrap();
+    assert_eq!((symbol.kind, symbol.owner), (SymbolKind::Memory, None));
+    assert_eq!(index.references(at).iter().filter(|(_, role)| *role == Role::Writes).count(), 2);
+    let renamed = replaced(text, &index.rename(at, "count").unwrap(), "count");
+    assert_eq!(renamed.matches("count").count(), 6);
+    assert!(compile(&Source::new("renamed.fsm", renamed)).is_ok());
+    for taken in ["limit", "S", "x"] {
+        assert!(matches!(index.rename(at, taken), Err(RenameError::Taken { .. })), "{taken}");
+    }
 }
 
 #[test]

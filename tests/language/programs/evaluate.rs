@@ -115,6 +115,9 @@ impl Interpreter<'_> {
         if let Some(value) = around.iter().rev().find_map(|&state| self.kept[state].get(name)) {
             return *value;
         }
+        if let Some(value) = self.own.get(name) {
+            return *value;
+        }
         if let Some((_, value)) = self.program.parameters.iter().find(|(known, _)| known == name) {
             self.seen("a parameter", Some(place.part));
             return self.value(value, &mut Place::new(None, "a parameter"));
@@ -213,12 +216,14 @@ impl Interpreter<'_> {
             }
             Statement::Set(name, value) => {
                 let value = self.value(value, place);
-                let around = self.program.way(place.sees.unwrap());
-                let owner = around.into_iter().rev().find(|&state| self.kept[state].contains_key(name)).unwrap();
-                self.kept[owner].insert(name.clone(), value);
+                let around = place.sees.map_or_else(Vec::new, |state| self.program.way(state));
+                let owner = around.into_iter().rev().find(|&state| self.kept[state].contains_key(name));
+                owner.map_or(&mut self.own, |owner| &mut self.kept[owner]).insert(name.clone(), value);
                 let was_copied = place.copies.iter().any(|(memory, _)| memory == name);
                 self.seen("set of what was named before", was_copied.then_some(place.part));
-                self.seen("set of an outer state's memory", (Some(owner) != place.sees).then_some(place.part));
+                self.seen("set of the machine's memory", owner.is_none().then_some(place.part));
+                let is_outer = owner.is_some() && owner != place.sees;
+                self.seen("set of an outer state's memory", is_outer.then_some(place.part));
                 self.seen("set", Some(place.part));
             }
             Statement::If(branches, otherwise) => {

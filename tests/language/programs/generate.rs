@@ -7,7 +7,7 @@ use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, Sta
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {
-    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 50)
+    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 52)
         .prop_map(|parts| Grower::new(&parts).grow_program())
 }
 
@@ -52,6 +52,9 @@ impl Grower<'_> {
             self.scope.truncate(globals);
             self.program.laws.push(Law { name: format!("l{index}"), arguments, commands, body });
         }
+        self.next_part();
+        self.grow_own();
+        let globals = self.scope.len();
         for index in 0..=states {
             self.next_part();
             self.declare(index, globals);
@@ -70,6 +73,28 @@ impl Grower<'_> {
             self.program.failsafe = Some(self.target(None));
         }
         self.program
+    }
+
+    /// What the machine itself remembers and does.
+    fn grow_own(&mut self) {
+        for index in 0..self.pick(4) {
+            let r#type = self.one_of(&Type::ALL);
+            // Laws and derived values do not know it, and their arguments cannot be called so.
+            let (name, value) = (format!("m{index}"), self.expression(r#type, 2));
+            self.know(&name, r#type, true);
+            self.program.memory.push((name, r#type, value));
+        }
+        self.next_part();
+        let known = self.scope.len();
+        for _ in 0..self.pick(8) {
+            let statement = self.statement(May { command: false, set: true }, 2);
+            self.scope.truncate(known);
+            // Outside of states a `let` is a derived value.
+            self.program.body.push(match statement {
+                Statement::Let(..) => Statement::If(vec![(Expression::Truth(true), vec![statement])], Vec::new()),
+                statement => statement,
+            });
+        }
     }
 
     /// Makes the next state, beside the one before, in it, or beside one around it, with what it knows.

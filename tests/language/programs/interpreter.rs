@@ -24,6 +24,8 @@ pub(crate) struct Interpreter<'p> {
     pub(crate) senses: Script,
     /// What every state was entered with last, and its memory.
     pub(crate) kept: Vec<HashMap<String, Value>>,
+    /// The machine's own memory.
+    pub(crate) own: HashMap<String, Value>,
     /// By the state in which it stands and the uses that lead to it.
     pub(crate) filters: HashMap<(Option<usize>, Vec<usize>), Filter>,
     /// From the outermost to the innermost.
@@ -47,6 +49,7 @@ impl<'p> Interpreter<'p> {
             program,
             senses,
             kept: vec![HashMap::new(); program.states.len()],
+            own: HashMap::new(),
             filters: HashMap::new(),
             active: Vec::new(),
             entered_at: vec![0.0; program.states.len()],
@@ -81,6 +84,10 @@ impl<'p> Interpreter<'p> {
 
     fn try_tick(&mut self, failsafe: &mut Option<(String, Cause)>) -> Result<Action, Failure> {
         if self.active.is_empty() {
+            for (name, _, value) in &self.program.memory {
+                let value = self.value(value, &mut Place::new(None, "a memory"));
+                self.own.insert(name.clone(), value);
+            }
             self.enter(0, false);
         }
         let mut due = self.due(None);
@@ -95,6 +102,7 @@ impl<'p> Interpreter<'p> {
             self.seen("a transition", Some(if from.is_some() { "a state" } else { "the machine" }));
             self.take(from, target)?;
         }
+        self.run_own();
         match self.act(0) {
             Err(stuck) => self.leave(stuck, Cause::NotFinite, failsafe),
             Ok(action) => Ok(action.unwrap_or(Action::Hold)),
@@ -219,6 +227,11 @@ impl<'p> Interpreter<'p> {
         self.run(&self.program.states[state].entry, &mut Place::new(Some(state), "an entry"));
     }
 
+    /// Runs what the machine itself does, which gives no command.
+    fn run_own(&mut self) {
+        self.run(&self.program.body, &mut Place::new(None, "the machine"));
+    }
+
     /// Runs the active states' statements, but for the `done` outermost ones; the last command that they give. If it is not
     /// finite, the state that gave it.
     fn act(&mut self, done: usize) -> Result<Option<Action>, usize> {
@@ -251,10 +264,12 @@ impl<'p> Interpreter<'p> {
         self.seen("failsafe", Some(whose[usize::from(from.is_some()) + usize::from(from == Some(stuck))]));
         *failsafe = Some((self::name(stuck), cause));
         self.take(from, target)?;
-        // Those that stay active have run in this tick.
-        let done = match (target, cause) {
-            (Target::State { way, .. }, Cause::NotFinite) => self.program.way(way[0].0).len() - 1,
-            _ => 0,
+        // The machine and those that stay active have run in this tick.
+        let done = if let (Target::State { way, .. }, Cause::NotFinite) = (target, cause) {
+            self.program.way(way[0].0).len() - 1
+        } else {
+            self.run_own();
+            0
         };
         let action = self.act(done).map_err(|state| Failure::NotFinite { state: name(state) })?;
         Ok(action.unwrap_or(Action::Hold))

@@ -32,8 +32,26 @@ impl Type {
 impl Program {
     /// The program as a policy.
     pub(crate) fn text(&self) -> String {
+        let mut text = self.head("S0");
+        self.write_own(&mut text);
+        for Rule { guard, target } in &self.always {
+            writeln!(text, "always {} -> {}", guard.text(), target.text()).unwrap();
+        }
+        text
+    }
+
+    /// The program, but for its rules that hold always, as a policy with one state around all others, which has the machine's memory.
+    pub(crate) fn wrapped(&self) -> String {
+        let mut text = self.head("Whole");
+        text.push_str("state Whole {\ninitial S0\n");
+        self.write_own(&mut text);
+        text + "}\n"
+    }
+
+    /// What is written before states and memory.
+    fn head(&self, initial: &str) -> String {
         let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
-        let mut text = format!("machine m\nwhisker {}\ninitial S0\n", whiskers.join(", "));
+        let mut text = format!("machine m\nwhisker {}\ninitial {initial}\n", whiskers.join(", "));
         for (name, value) in &self.parameters {
             writeln!(text, "param {name} = {}", value.text()).unwrap();
         }
@@ -44,14 +62,19 @@ impl Program {
             let typed: Vec<String> = typed(arguments);
             writeln!(text, "law {name}({}) {{\n{}}}", typed.join(", "), block(body)).unwrap();
         }
-        self.write_inside(None, &mut text);
-        for Rule { guard, target } in &self.always {
-            writeln!(text, "always {} -> {}", guard.text(), target.text()).unwrap();
+        text
+    }
+
+    /// What the machine remembers and does, its states, and its failsafe.
+    fn write_own(&self, text: &mut String) {
+        for (name, _, value) in &self.memory {
+            writeln!(text, "var {name} = {}", value.text()).unwrap();
         }
+        text.push_str(&block(&self.body));
+        self.write_inside(None, text);
         if let Some(target) = &self.failsafe {
             writeln!(text, "failsafe -> {}", target.text()).unwrap();
         }
-        text
     }
 
     fn write_inside(&self, parent: Option<usize>, text: &mut String) {

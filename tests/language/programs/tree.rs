@@ -136,6 +136,9 @@ pub(crate) struct Program {
     pub(crate) parameters: Vec<(String, Expression)>,
     pub(crate) derived: Vec<Derived>,
     pub(crate) laws: Vec<Law>,
+    /// What the machine itself remembers, and what it does every tick; a `let` stands only in the blocks of an `if`.
+    pub(crate) memory: Vec<(String, Type, Expression)>,
+    pub(crate) body: Vec<Statement>,
     /// An outer state comes before those in it; the machine begins in the first.
     pub(crate) states: Vec<State>,
     pub(crate) always: Vec<Rule>,
