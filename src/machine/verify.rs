@@ -59,7 +59,7 @@ pub enum Unsound {
     Work {
         /// Index of the state.
         state: usize,
-        /// Operations of all its blocks and of the rules that hold always.
+        /// Operations of all its blocks, of those of the states around it, and of the machine's own.
         operations: usize,
     },
     /// A state lies in one that does not come before it, or too deep.
@@ -270,10 +270,10 @@ impl Program {
             state.transitions.iter().flat_map(of_transition).chain(own).chain(failsafe).collect::<Vec<Block>>()
         };
         let failsafe = self.failsafe.iter().map(of_target);
-        let own = [&self.start, &self.entry, &self.body].map(Block::clone);
-        let always: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).chain(own).collect();
+        let acts = [&self.start, &self.entry, &self.body].map(Block::clone);
+        let own: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).chain(acts).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
-        let mut blocks: Vec<Block> = states.iter().flatten().chain(&always).cloned().collect();
+        let mut blocks: Vec<Block> = states.iter().flatten().chain(&own).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));
         blocks.dedup();
 
@@ -295,7 +295,7 @@ impl Program {
         let sum = |blocks: &[Block]| blocks.iter().map(ExactSizeIterator::len).sum::<usize>();
         let mut sums: Vec<usize> = Vec::with_capacity(states.len());
         for (index, state) in states.iter().enumerate() {
-            let outer = self.states[index].parent.map_or_else(|| sum(&always), |parent| sums[parent]);
+            let outer = self.states[index].parent.map_or_else(|| sum(&own), |parent| sums[parent]);
             let operations = outer + sum(state);
             if operations > self.code.len() {
                 return Err(Unsound::Work { state: index, operations });

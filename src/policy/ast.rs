@@ -31,6 +31,8 @@ pub(super) struct File {
     pub(super) states: Vec<State>,
     /// `var name = value` outside of every state
     pub(super) memory: Vec<(Name, Expression)>,
+    /// Where the first of the statements stands that are the machine's own.
+    pub(super) acts: Option<Span>,
     /// What the machine does every tick, whatever the state.
     pub(super) body: Vec<Statement>,
     pub(super) always: Vec<Transition>,
@@ -213,19 +215,6 @@ pub(super) enum Statement {
     Steer(Box<Steer>),
     Hold(Span),
     Stop(Span),
-}
-
-impl Statement {
-    /// Where it is told that it stands: at what it names or reads first.
-    pub(super) fn place(&self) -> Option<Span> {
-        match self {
-            Self::Let { name, .. } | Self::Set { name, .. } | Self::Mark { name, .. } => Some(name.span),
-            Self::If { branches, .. } => branches.first().map(|(condition, _)| condition.span),
-            Self::Record(whisker) => Some(whisker.span),
-            Self::Steer(steer) => Some(steer.span),
-            Self::Do { span, .. } | Self::Hold(span) | Self::Stop(span) => Some(*span),
-        }
-    }
 }
 
 /// `steer mover along direction at speed facing angle`

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
-use super::ast::{File, Statement, Use};
+use super::ast::{File, Use};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
@@ -207,8 +207,7 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
     let rules = file.always.iter().map(|rule| &rule.target).chain(&file.failsafes).map(|target| target.span);
     let tests = file.tests.iter().map(|test| test.title.span);
     let memory = file.memory.iter().map(|(name, _)| name.span);
-    let statements = file.body.iter().filter_map(Statement::place);
-    let items = parameters.chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(statements);
+    let items = parameters.chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
         Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")

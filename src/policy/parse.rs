@@ -42,6 +42,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         laws: Vec::new(),
         states: Vec::new(),
         memory: Vec::new(),
+        acts: None,
         body: Vec::new(),
         always: Vec::new(),
         tests: Vec::new(),
@@ -60,7 +61,11 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 let model =
                     if reader.has(Rule::model) { Some(Reader::new(reader.take(Rule::model)?).name()?) } else { None };
                 file.tip_models.resize(file.whiskers.len(), model);
-                file.optional.resize(file.whiskers.len(), reader.has(Rule::optional));
+                let is_optional = reader.has(Rule::optional);
+                if is_optional {
+                    fitted(reader.take(Rule::optional)?)?;
+                }
+                file.optional.resize(file.whiskers.len(), is_optional);
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),
@@ -79,7 +84,10 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::test => file.tests.push(test(&mut reader)?),
             Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             Rule::memory => file.memory.push(variable(&mut reader)?),
-            _ => file.body.push(statement(item)?),
+            _ => {
+                file.acts.get_or_insert(item.place());
+                file.body.push(statement(item)?);
+            }
         }
     }
     Ok(file)
@@ -97,6 +105,17 @@ fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
     };
     let names = if reader.has(Rule::chosen) { Some(Reader::new(reader.take(Rule::chosen)?).names()?) } else { None };
     Ok(Use { from, span, names })
+}
+
+/// Refuses any other word behind the `if` of whiskers.
+fn fitted(optional: Pair<'_>) -> Parsed<()> {
+    let word = Reader::new(optional).next()?;
+    if word.as_rule() == Rule::fitted {
+        return Ok(());
+    }
+    let message = format!("`{}` is unexpected here", word.as_str());
+    // The `if` may be that of a statement.
+    Err(Box::new(Diagnostic::error("P0101", message, word.place(), "expected `fitted`, or `{` behind this")))
 }
 
 fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {

@@ -16,21 +16,16 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Words that begin an item.
-const ITEM_WORDS: [&str; 21] = [
-    "whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library",
-    "var", "set", "if", "do", "record", "mark", "steer", "hold", "stop",
-];
+const ITEM_WORDS: [&str; 12] =
+    ["whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library"];
 /// Those among them that stand within braces, too.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
-/// Those among them that are more often what stands in a state, or go on with a statement.
-const OUTER_STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
+/// Words that begin a statement or memory, in a state or outside of all.
+const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
 /// Words with which an item can go on in another line.
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
-/// Words that begin a statement, or what else stands in a state.
-const STATEMENT_WORDS: [&str; 15] = [
-    "let", "set", "if", "do", "record", "mark", "steer", "hold", "stop", "when", "after", "var", "entry", "exit",
-    "failsafe",
-];
+/// Words that begin what else stands in a state.
+const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
 
 /// What was left out of the texts of a policy, and why.
 #[derive(Debug, Default)]
@@ -165,7 +160,7 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
     {
         let (starts, end) = statements(text, brace + 1);
         let is_whole = |region: &Span| braces_close(&text[region.start..region.end]);
-        regions.extend(around(text, at, (&starts, &STATEMENT_WORDS), (brace + 1, end)).into_iter().filter(is_whole));
+        regions.extend(around(text, at, (&starts, &PART_WORDS), (brace + 1, end)).into_iter().filter(is_whole));
     }
     // Without the machine's name there is no file.
     let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2);
@@ -175,7 +170,7 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
     regions
 }
 
-/// What may be at fault at `at` among parts that begin at `starts`, with one of the `words`, within bounds.
+/// What may be at fault at `at` among parts that begin at `starts`, with one of the `words` or that of a statement, within bounds.
 fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, high): (usize, usize)) -> Vec<Span> {
     if at < low || at > high {
         return Vec::new();
@@ -184,7 +179,7 @@ fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, hig
     let behind = starts.iter().copied().find(|&start| start > at).unwrap_or(high);
     let word: &str = text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default();
     let is_start = starts.contains(&at);
-    if is_start && words.contains(&word) {
+    if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word)) {
         // The part before lacks its end, or this one should not be here.
         vec![Span::new(before, at), Span::new(at, behind)]
     } else if is_start || indent(text, at).is_some_and(|own| Some(own) <= indent(text, before)) {
@@ -223,7 +218,8 @@ fn items(text: &str) -> (bool, Vec<usize>) {
                 let is_item = ITEM_WORDS.contains(&word);
                 let is_first = token.indent.is_some();
                 let is_outermost = token.indent.is_some_and(|own| own <= indent);
-                let begins = if OUTER_STATEMENT_WORDS.contains(&word) {
+                // Farther in, or behind another word, it belongs to a state, or to a `whisker` or an `else` before its `if`.
+                let begins = if STATEMENT_WORDS.contains(&word) {
                     is_outermost && (braces == 0 || !is_balanced)
                 } else if braces > 0 {
                     is_item && !is_balanced && if INNER_WORDS.contains(&word) { is_outermost } else { is_first }
@@ -255,7 +251,10 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             "(" => parentheses += 1,
             ")" => parentheses = parentheses.saturating_sub(1),
             // At the beginning of a line a statement begins even if a parenthesis was left open.
-            word if braces == 0 && STATEMENT_WORDS.contains(&word) && (parentheses == 0 || token.indent.is_some()) => {
+            word if braces == 0
+                && (STATEMENT_WORDS.contains(&word) || PART_WORDS.contains(&word))
+                && (parentheses == 0 || token.indent.is_some()) =>
+            {
                 starts.push(start + token.start);
                 parentheses = 0;
             }

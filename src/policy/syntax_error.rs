@@ -34,12 +34,6 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     if found.is_empty() {
         return at_the_end(source, at, rules, opened);
     }
-    if rules.contains(&Rule::open_brace)
-        && let Some(word) = in_place_of_fitted(&source.text[..at])
-    {
-        let message = format!("`{}` is unexpected here", source.slice(word));
-        return Diagnostic::error("P0101", message, word, "expected `fitted`");
-    }
     if found == "\"" && !is_closed(&source.text[at..]) {
         return Diagnostic::error("P0101", "the text is not closed", span, "begins here")
             .hint("end it with `\"` on the same line");
@@ -83,17 +77,6 @@ fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>)
     };
     Diagnostic::error("P0101", "the policy ends too early", place, format!("expected `{close}`"))
         .note(Span::new(opened, opened + 1), format!("this `{bracket}` is never closed"))
-}
-
-/// What stands in the place of `fitted` at the end of a text that ends with a line of whiskers, whose `if` was taken for a
-/// statement.
-fn in_place_of_fitted(text: &str) -> Option<Span> {
-    let start = text.rfind("whisker ")?;
-    let (line, behind) = text[start..].split_once('\n')?;
-    let code = line.split('#').next()?;
-    let condition = start + code.find(" if ")? + " if ".len();
-    let is_all = behind.lines().map(str::trim_start).all(|line| line.is_empty() || line.starts_with('#'));
-    is_all.then(|| word_at(text, condition))
 }
 
 /// The word, or else the character, at `at`; nothing at the end of the text.

@@ -1,7 +1,7 @@
 //! What the machine itself remembers and does, outside of states.
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use vibrissa::diagnostic::Source;
+use vibrissa::diagnostic::{Diagnostic, Source};
 use vibrissa::machine::{Action, Cause, Failsafe, Failure};
 use vibrissa::policy::{chart, compile_with_warnings};
 
@@ -152,6 +152,48 @@ fn an_if_behind_whiskers_is_a_statement_unless_it_says_that_a_rig_may_lack_them(
         );
         assert_eq!(program(&text).optional, [false], "{condition}");
     }
+}
+
+#[test]
+fn what_stands_in_the_place_of_fitted_is_told_and_nothing_else_is_taken_for_it() {
+    let told = |text: &str| {
+        let faults = compile_with_warnings(&Source::new("m.fsm", text)).unwrap_err();
+        let told = |fault: &Diagnostic| (fault.code, text[fault.primary.span.start..fault.primary.span.end].to_owned());
+        faults.iter().map(told).collect::<Vec<_>>()
+    };
+    let rest = "initial A\nstate A { stop }\n";
+    for slip in ["if fited", "if  fited", "if\n  fited", "\nif # fitted\n  fited", ", v by sliding if fited # near {"] {
+        for text in [
+            format!("machine m\nwhisker w {slip}\n{rest}"),
+            format!("machine m\nwhisker w {slip}\nvar n = 0\n{rest}"),
+            format!("machine m\n{rest}whisker w {slip}"),
+        ] {
+            assert_eq!(told(&text), [("P0101", "fited".to_owned())], "{text}");
+        }
+    }
+    for other in [
+        "whisker w\nif w.touching  # what it feels if near\nrecord w",
+        "whisker v\nlaw f(w: whisker ) { if w.touching\nrecord w }",
+        "whisker w\nif near()\nrecord w",
+    ] {
+        assert_eq!(told(&format!("machine m\n{rest}{other}"))[0], ("P0101", "record".to_owned()), "{other}");
+    }
+}
+
+#[test]
+fn it_is_told_what_of_it_grows_too_large() {
+    let sum = |name: &str, count| vec![name; count].join(" + ");
+    let (little, much) = (sum("w.deflection", 120), sum("little", 100));
+    let told = |own: &str| {
+        let text = format!(
+            "machine m whisker w initial A  let little = {little}  let much = {much}
+            law think() {{ let x = much }}  {own}  state A {{ stop }}"
+        );
+        let fault = compile_with_warnings(&Source::new("m.fsm", text.as_str())).unwrap_err().remove(0);
+        (fault.code, text[fault.primary.span.start..fault.primary.span.end].to_owned())
+    };
+    assert_eq!(told("var a = much  var b = much + much"), ("P0402", "b".to_owned()));
+    assert_eq!(told("var a = 1  do think() do think() do think()"), ("P0402", "do think()".to_owned()));
 }
 
 #[test]

@@ -124,7 +124,7 @@ impl Index {
             (symbol.visible.start..=symbol.visible.end).contains(&at)
                 && context.statement != Some(symbol.whole.start)
                 && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
-                && !(context.in_law && symbol.kind == SymbolKind::Memory)
+                && (symbol.kind != SymbolKind::Memory || symbol.span.start < context.memory_end)
         })
     }
 

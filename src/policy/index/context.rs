@@ -75,8 +75,9 @@ pub(super) struct Context {
     pub(super) statement: Option<usize>,
     /// Whether the place is in a transition, which does not know the names that the state's statements give.
     pub(super) in_transition: bool,
-    /// Whether the place is in a law or a derived value, which do not know the machine's memory.
-    pub(super) in_law: bool,
+    /// Memory that is declared from here on is not known: laws and derived values know none, a `var` of the machine what stands
+    /// above it, all else whatever there is.
+    pub(super) memory_end: usize,
 }
 
 /// What may be written at the byte `at` of a text, which must be a whole character's.
@@ -91,7 +92,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state: None,
         statement: None,
         in_transition: false,
-        in_law: false,
+        memory_end: 0,
     };
     if known.last().is_some_and(|last| is_unfinished(before, *last)) {
         return nothing;
@@ -123,7 +124,11 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state,
         statement: statement.first().map(|token| token.start),
         in_transition: matches!(head, Some("when" | "after" | "failsafe" | "initial" | "var")),
-        in_law: matches!(outermost, Some("law" | "let")),
+        memory_end: match outermost {
+            Some("law" | "let") => 0,
+            Some("var") => at,
+            _ => text.len(),
+        },
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is kept from tick to tick: by the machine itself, and by states.
 
+use crate::machine::Block;
 use crate::policy::ast::{Expression, File, Name};
 use crate::policy::types::Value;
 
@@ -7,19 +8,21 @@ use super::Compiler;
 use super::scope::{Meaning, Scope};
 
 impl<'f> Compiler<'f> {
-    /// Gives the machine's own memory its places. The names that all states know.
-    pub(super) fn own_memory(&mut self, file: &'f File) -> Scope<'f> {
+    /// Writes what sets the machine's own memory. The names that all states know, and the code.
+    pub(super) fn own_memory(&mut self, file: &'f File) -> (Scope<'f>, Block) {
         let mut scope = Scope::default();
+        let start = self.code.here();
         for (name, value) in &file.memory {
-            let memory = self.remember(&scope, value);
+            let memory = self.expression(&scope, value).map(|value| self.copied(value));
             self.note_type(name, memory);
+            self.watch_growth(name.span);
             // That the name is not taken was seen to with those of the other items.
             scope.insert(name, memory);
         }
-        scope
+        (scope, self.code.since(start))
     }
 
-    /// A place for memory that is set to a value. That is written into the entry, which of a state comes last, when it is known
+    /// A place for a state's memory that is set to a value. That is written into the entry, which comes last, when it is known
     /// what else there is to reset.
     pub(super) fn remember(&mut self, scope: &Scope<'f>, value: &'f Expression) -> Meaning {
         let mark = self.code.mark();
@@ -28,7 +31,7 @@ impl<'f> Compiler<'f> {
         value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) })
     }
 
-    /// Writes what sets memory, the machine's or a state's, to what it begins with.
+    /// Writes what sets a state's memory to what it begins with.
     pub(super) fn set_memory(&mut self, scope: &Scope<'f>, memory: &'f [(Name, Expression)]) {
         for (name, value) in memory {
             // A fault of the value has been reported when its place was made.

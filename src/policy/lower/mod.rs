@@ -104,6 +104,13 @@ struct StateEntry {
     arguments: Vec<(String, Meaning)>,
 }
 
+/// What gives no command, and where to put one instead.
+#[derive(Clone, Copy)]
+struct Commandless {
+    place: &'static str,
+    hint: &'static str,
+}
+
 /// Everything that is known while code is written.
 struct Compiler<'f> {
     code: Code,
@@ -130,7 +137,9 @@ struct Compiler<'f> {
     figures: Option<Vec<FigurePlace>>,
     tests: Vec<PolicyTest>,
     /// Why commands are not allowed in what is being written, if they are not.
-    commandless: Option<&'static str>,
+    commandless: Option<Commandless>,
+    /// Where the outermost of the laws is used that are being written.
+    used: Option<Span>,
     /// How deep the walk through the syntax tree is, and how many nodes it has visited.
     depth: usize,
     work: usize,
@@ -156,6 +165,7 @@ impl<'f> Compiler<'f> {
             figures: None,
             tests: Vec::new(),
             commandless: None,
+            used: None,
             depth: 0,
             work: 0,
             outgrown: None,

@@ -73,7 +73,7 @@ impl<'f> Compiler<'f> {
         } else if self.variables.contains(&text.as_str()) {
             // Whoever knows memory at all knows a state's where that is written; so it is the machine's.
             diagnostic.hint(if self.writing.is_empty() && self.figures.is_none() {
-                format!("it is memory that is set further down: write `var {text} = \u{2026}` above this")
+                format!("`{text}` is memory of the machine: a `var` of the machine knows only those above it")
             } else {
                 format!(
                     "`{text}` is memory of the machine: states and `always` rules know it, and a law or a derived value if it is given \

@@ -6,8 +6,8 @@ use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
 
-use super::Compiler;
 use super::scope::{Scope, in_the_standard_library};
+use super::{Commandless, Compiler};
 
 impl<'f> Compiler<'f> {
     /// Writes the code of statements; names given in them end with them.
@@ -64,6 +64,11 @@ impl<'f> Compiler<'f> {
         if !self.variables.iter().any(memory) {
             return value;
         }
+        self.copied(value)
+    }
+
+    /// A value of its own that begins as another.
+    pub(super) fn copied(&mut self, value: Value) -> Value {
         let width = value.r#type.width();
         let register = self.code.place(width);
         self.code.copy(register, value.register, width);
@@ -72,12 +77,16 @@ impl<'f> Compiler<'f> {
 
     /// Writes a command, unless there can be none here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
-        if let Some(place) = self.commandless {
+        if let Some(Commandless { place, hint }) = self.commandless {
             let message = format!("{place} gives no command");
-            self.report(
-                Diagnostic::error("P0407", message, span, "a command")
-                    .hint("put it among what a state does every tick; the tick that enters a state runs that too"),
-            );
+            let diagnostic = match (self.used, self.writing.first()) {
+                // Others may use the law: its commands are at fault only here.
+                (Some(used), Some(law)) => {
+                    Diagnostic::error("P0407", message, used, format!("`{}` gives one", law.text))
+                }
+                _ => Diagnostic::error("P0407", message, span, "a command"),
+            };
+            self.report(diagnostic.hint(hint));
             return None;
         }
         self.code.push(op);
@@ -89,17 +98,17 @@ impl<'f> Compiler<'f> {
         if !self.writing.is_empty() || !self.variables.contains(&name.text.as_str()) {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
-            let diagnostic = if self.writing.is_empty() {
+            self.report(if self.writing.is_empty() {
                 let diagnostic = Diagnostic::error("P0406", message, name.span, "no memory that is known here");
-                did_you_mean(diagnostic, &name.text, self.variables.iter().copied())
+                did_you_mean(diagnostic, &name.text, self.variables.iter().copied()).hint(format!(
+                    "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or by the machine and all states if \
+                     it stands outside of them",
+                    name.text
+                ))
             } else {
-                Diagnostic::error("P0406", message, name.span, "a law has no memory to set")
-            };
-            self.report(diagnostic.hint(format!(
-                "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or in all states if it stands outside of \
-                 them",
-                name.text
-            )));
+                Diagnostic::error("P0406", message, name.span, "a law sets no memory")
+                    .hint("compute the value with a `let` outside of the law, and `set` it where the law is used")
+            });
             return None;
         }
         let Some(variable) = meaning.flatten() else {
@@ -143,10 +152,13 @@ impl<'f> Compiler<'f> {
         };
         let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
         self.writing.push(&law.name);
+        let used = self.used;
+        self.used = used.or(Some(span));
         let written = self.descend(span, |compiler| {
             compiler.within(file, |compiler| compiler.statements(&mut inner, &law.body));
             Some(())
         });
+        self.used = used;
         self.writing.pop();
         written
     }

@@ -12,10 +12,12 @@ use crate::signal::MAX_WHISKERS;
 
 use super::hierarchy::Hierarchy;
 use super::scope::{Meaning, Scope};
-use super::{Compiler, StateEntry};
+use super::{Commandless, Compiler, StateEntry};
 
 /// The target that ends a run in failure; no state may have its name.
 pub(super) const FAILURE: &str = "Failure";
+/// Where a command belongs that an entry or an exit cannot give.
+const ENTERED: &str = "put it among what a state does every tick; the tick that enters a state runs that too";
 
 /// Checks what a policy and its libraries name, and all laws and derived values by themselves. The parameters of the policy.
 pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<machine::Parameter> {
@@ -52,8 +54,8 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     // Laws and derived values, which come first, are told that they do not know it.
     compiler.variables.extend(file.memory.iter().map(|(name, _)| name.text.as_str()));
     let parameters = items(compiler, files);
-    let scope = compiler.own_memory(file);
-    let (entry, body) = compiler.own_code(&scope, file);
+    let (scope, entry) = compiler.own_memory(file);
+    let body = compiler.own_body(&scope, file);
     // Every state's arguments need their places before any transition can lead there.
     compiler.hierarchy = Hierarchy::new(&file.states);
     let declared = compiler.declare(file, &scope);
@@ -187,24 +189,22 @@ impl<'f> Compiler<'f> {
     }
 
     /// Remembers the item at `span` if the program has just outgrown its limits.
-    fn watch_growth(&mut self, span: Span) {
+    pub(super) fn watch_growth(&mut self, span: Span) {
         if self.code.full || self.work > super::WORK_LIMIT {
             self.outgrown.get_or_insert(span);
         }
     }
 
-    /// Writes what sets the machine's own memory, and what the machine does every tick.
-    fn own_code(&mut self, scope: &Scope<'f>, file: &'f File) -> (Block, Block) {
-        let start = self.code.here();
-        self.set_memory(scope, &file.memory);
-        let entry = self.code.since(start);
-        self.commandless = Some("the machine itself");
+    /// Writes what the machine does every tick.
+    fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
+        self.commandless =
+            Some(Commandless { place: "the machine itself", hint: "put it among what a state does every tick" });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
         self.commandless = None;
-        self.watch_growth(file.name.span);
-        (entry, body)
+        self.watch_growth(file.acts.unwrap_or(file.name.span));
+        body
     }
 
     /// Makes all states known, with places for their arguments and memory. Gives the names that each state adds to those of
@@ -274,7 +274,7 @@ impl<'f> Compiler<'f> {
         let body = self.code.since(start);
         let initial = self.inner_initial(scope, index, state);
 
-        self.commandless = Some("leaving a state");
+        self.commandless = Some(Commandless { place: "leaving a state", hint: ENTERED });
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
@@ -287,7 +287,7 @@ impl<'f> Compiler<'f> {
 
     /// Writes what a state does when it is entered.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
-        self.commandless = Some("entering a state");
+        self.commandless = Some(Commandless { place: "entering a state", hint: ENTERED });
         let start = self.code.here();
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {

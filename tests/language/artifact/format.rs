@@ -7,6 +7,8 @@ use vibrissa::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, Wh
 
 use crate::snapshots::snapshots;
 
+use super::policies;
+
 /// The variants of an enum with the numbers that stand for them in an artifact.
 fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
     (0..128_u8)
@@ -14,6 +16,30 @@ fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
         .enumerate()
         .map(|(number, variant)| format!("{number} {variant:?}"))
         .collect()
+}
+
+/// A policy in which every part of an artifact has something, and next to nothing is computed.
+const SMALL: &str = r#"
+machine small
+whisker a, b by sliding if fitted
+param low = 1 in 0 .. 2  # described
+var n = low
+record a
+initial Rest
+state Outer(w: whisker) { initial Inner(low)  failsafe -> Rest  state Inner(x: number) { stop } }
+state Rest { entry { set n = 1 }  hold  exit { set n = 2 }  after 1 s -> resume Outer(a) }
+always when a.touching for 1 s -> Failure("touched")
+failsafe -> Rest
+"#;
+
+/// Where this fails, and not because the compiler writes other code, the layout is another: raise [`FORMAT`], as below.
+#[test]
+fn the_layout_belongs_to_the_format() {
+    let mut artifact = policies::artifact("small.fsm", SMALL);
+    artifact.origin.compiler = "any".to_owned();
+    let bytes = artifact.to_bytes().unwrap();
+    let rows: Vec<String> = bytes.chunks(24).map(|row| format!("{row:02x?}")).collect();
+    snapshots("artifact").bind(|| insta::assert_snapshot!(format!("layout_{FORMAT}"), rows.join("\n")));
 }
 
 /// Where this fails and artifacts have been handed out, raise [`FORMAT`]: what they say would be taken for something else.

@@ -129,6 +129,8 @@ fn the_machines_memory_is_known_to_all_but_laws_and_derived_values() {
         ["always when \u{a7}", "state S {\n  when \u{a7}", "state S {\n  state T { var x = \u{a7}", "var x = \u{a7}"]
     {
         assert!(has(place, "met") && has(place, "p"), "{place}");
+        // A `var` of the machine knows what stands above it, all others what stands below them, too.
+        assert_eq!(has(place, "later"), !place.starts_with("var"), "{place}");
     }
     for place in [
         "let x = \u{a7}",
