@@ -81,7 +81,7 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
     told(|program| program.states[0].entry.end = u32::MAX);
     told(|program| program.states[0].entry.start -= 1);
     told(|program| program.states[0].exit.end += 1);
-    told(|program| program.entry.start -= 1);
+    told(|program| program.entry.end += 1);
     told(|program| program.body.end = u32::MAX);
     told(|program| {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
