@@ -94,7 +94,8 @@ impl Follower {
         self.shape.base.position + self.wire.link * along
     }
 
-    /// The force (N) that the whisker passes on to its base, in the world.
+    /// The force (N) that the whisker passes on to its base, in the world. While it is on its way from one equilibrium to the next, that
+    /// of the one that it left.
     pub(super) fn force(&self) -> Vector2 {
         self.force
     }
@@ -126,7 +127,7 @@ impl Follower {
         }
         self.before.copy_from_slice(&self.shape.angles);
         let least = (0.5 * self.wire.end_radius(self.wire.links() - 1)).max(way / MOST_PARTS);
-        let (mut done, mut settled) = (0.0, true);
+        let (mut done, mut settled, force) = (0.0, true, self.force);
         while done < 1.0 {
             let stride = (0.8 * self.nearest()).max(least);
             let share = if way > 0.0 { (stride / way).min(1.0 - done) } else { 1.0 };
@@ -147,6 +148,10 @@ impl Follower {
             settled = self.settle(if done < 1.0 { part } else { base }, surfaces)?;
         }
         self.restless = if settled { 0 } else { self.restless + 1 };
+        if !settled {
+            // A step that was not taken as a whole has the forces of its end, which is nowhere near.
+            self.force = force;
+        }
         if self.restless > PATIENCE {
             return Err(Lost::Restless);
         }

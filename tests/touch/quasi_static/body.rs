@@ -1,11 +1,11 @@
 //! The platform's body among the solids.
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Point2, Segment, polygon};
+use vibrissa::geometry::{Contour, Point2, Segment, polygon};
 use vibrissa::rig::Rig;
 use vibrissa::world::{Fault, QuasiStaticWorld, World};
 
-use super::scene::{START, command, drive, outlines, points, solids};
+use super::scene::{START, command, drive, one_whisker, outlines, points, solids};
 
 /// A wall 20 mm before the nose, out of the whiskers' reach.
 fn wall_ahead() -> Vec<vibrissa::scene::Solid> {
@@ -79,4 +79,67 @@ proptest! {
             }
         }
     }
+}
+
+/// A command along x and y (m/s) with a yaw rate (rad/s), and for how many ticks.
+type Way = (f64, f64, f64, usize);
+
+/// What a whisker passes on to its base is some hundredths of a newton, also while it springs from one place to another. Only its
+/// first two links cannot give way.
+fn is_hardly_moved(outline: &Contour, ways: &[Way]) -> Result<(), String> {
+    let (rig, tick) = (one_whisker(), 1.0 / 30.0);
+    let mut world = QuasiStaticWorld::new(&rig, &solids([outline.clone()]), START, 0).unwrap();
+    let mut before = START;
+    for &(x, y, yaw, ticks) in ways {
+        for _ in 0..ticks {
+            let Ok(samples) = world.advance(&command(x, y, yaw)) else { return Ok(()) };
+            let body = samples.last().unwrap().body;
+            if outline.signed_distance(body.point_to_world(rig.whiskers[0].base_body)) < 12.5e-3 {
+                return Ok(());
+            }
+            let (way, turn) = ((body.position - before.position).norm(), (body.heading - before.heading).abs());
+            if way > 0.15 * tick || turn > 3.0 * tick {
+                return Err(format!("{way} m and {turn} rad in a tick at {}", before.position));
+            }
+            before = body;
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_whisker_hardly_moves_the_body(
+        ways in proptest::collection::vec((-0.05..0.08_f64, -0.05..0.05_f64, -2.5..2.5_f64, 1..12_usize), 5..40),
+        which in 0..11_usize,
+    ) {
+        let (name, outline) = outlines().swap_remove(which);
+        let checked = is_hardly_moved(&outline, &ways);
+        prop_assert!(checked.is_ok(), "{name}: {}", checked.unwrap_err());
+    }
+}
+
+/// The steps of Newton's method on its way had forces that threw the body by 8e18 m.
+#[test]
+fn a_whisker_on_its_way_does_not_throw_the_body() {
+    let ways = [
+        (0.0519266050456872, -0.049042736207302776, 1.5822152860592653, 5),
+        (-0.036538541814679144, -0.004984581526597484, 1.1495372234735972, 11),
+        (0.023061157033956673, 0.0, 0.08398256474073658, 8),
+        (-0.02428610781116401, -0.019824797162098704, 1.6863325911993718, 2),
+        (0.03482700369232621, -0.033376948497490525, -2.1063168399606194, 2),
+        (-0.03692388415555793, 0.0495899300369841, -1.7167463409262604, 7),
+        (0.018286341719507923, 0.033903920597261133, 0.3264319263862481, 9),
+        (0.05319946554197992, 0.047842371908134666, -2.0487938605604454, 7),
+        (0.05265195949513242, 0.011595505054570491, -1.8191790817677762, 7),
+        (0.07055640784245593, 0.0, 0.0, 2),
+        (0.0685943312480546, 0.0, -1.9190408837208026, 11),
+        (0.047036307726561574, 0.0, -0.04386249689368244, 3),
+        (0.03387123020077609, 0.0, 2.3689687157486468, 5),
+        (-0.022192383330070203, -0.041232946851410414, 1.4124811845742067, 8),
+    ];
+    let (_, notch) = outlines().swap_remove(8);
+    assert_eq!(is_hardly_moved(&notch, &ways), Ok(()));
 }
