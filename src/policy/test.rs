@@ -72,6 +72,8 @@ pub enum RunFigure {
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
     Coverage,
+    /// How often the platform's body touched something.
+    Collisions,
     /// How often the state with this index was entered.
     Visits(usize),
     /// For how long the state with this index was active (s).
@@ -85,7 +87,7 @@ impl RunFigure {
             _ if value.is_nan() => "not known".to_owned(),
             Self::Time | Self::TimeIn(_) => format_si(value, Dimension::TIME),
             Self::ErrorMean | Self::ErrorP95 | Self::ErrorMax | Self::Hausdorff => format_si(value, Dimension::LENGTH),
-            Self::Coverage | Self::Visits(_) => format_si(value, Dimension::NUMBER),
+            Self::Coverage | Self::Collisions | Self::Visits(_) => format_si(value, Dimension::NUMBER),
         }
     }
 }

@@ -29,6 +29,7 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
         RunFigure::ErrorMax => measured(Metric::ErrorMax),
         RunFigure::Hausdorff => measured(Metric::Hausdorff),
         RunFigure::Coverage => measured(Metric::Coverage),
+        RunFigure::Collisions => measured(Metric::Collisions),
         RunFigure::Visits(state) => {
             let mut was_active = false;
             let entered = run.trace.ticks.iter().filter(|tick| {

@@ -18,7 +18,11 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
     let figure = |figure| match figure {
         RunFigure::Failed | RunFigure::Visits(_) => 1.0,
         RunFigure::TimeIn(_) | RunFigure::Time => 5.1,
-        RunFigure::Completed | RunFigure::TimedOut | RunFigure::Diverged | RunFigure::Coverage => 0.0,
+        RunFigure::Completed
+        | RunFigure::TimedOut
+        | RunFigure::Diverged
+        | RunFigure::Coverage
+        | RunFigure::Collisions => 0.0,
         RunFigure::ErrorMean | RunFigure::ErrorP95 | RunFigure::ErrorMax | RunFigure::Hausdorff => f64::NAN,
     };
     let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));

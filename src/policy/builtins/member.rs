@@ -163,7 +163,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 12] = [
+const RUN: [Member; 13] = [
     figure(
         "completed",
         Type::Truth,
@@ -189,6 +189,7 @@ const RUN: [Member; 12] = [
         "the Hausdorff distance between the measured contour and the object's",
     ),
     figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the object's outline that was traced, 0 to 1"),
+    figure("collisions", Type::NUMBER, RunFigure::Collisions, "how often the platform's body touched something"),
     member(
         "visits",
         Type::NUMBER,
