@@ -72,6 +72,12 @@ pub enum RunFigure {
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
     Coverage,
+    /// The greatest distance of an estimated corner from the exact one (m).
+    CornerPlaceMax,
+    /// The longest time that a corner cost (s).
+    CornerTimeMax,
+    /// The longest path of the platform that a corner cost (m).
+    CornerPathMax,
     /// How often the platform's body touched something.
     Collisions,
     /// How often the state with this index was entered.
@@ -85,8 +91,13 @@ impl RunFigure {
         match self {
             Self::Completed | Self::Failed | Self::TimedOut | Self::Diverged => (value > 0.5).to_string(),
             _ if value.is_nan() => "not known".to_owned(),
-            Self::Time | Self::TimeIn(_) => format_si(value, Dimension::TIME),
-            Self::ErrorMean | Self::ErrorP95 | Self::ErrorMax | Self::Hausdorff => format_si(value, Dimension::LENGTH),
+            Self::Time | Self::TimeIn(_) | Self::CornerTimeMax => format_si(value, Dimension::TIME),
+            Self::ErrorMean
+            | Self::ErrorP95
+            | Self::ErrorMax
+            | Self::Hausdorff
+            | Self::CornerPlaceMax
+            | Self::CornerPathMax => format_si(value, Dimension::LENGTH),
             Self::Coverage | Self::Collisions | Self::Visits(_) => format_si(value, Dimension::NUMBER),
         }
     }

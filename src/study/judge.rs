@@ -29,6 +29,9 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
         RunFigure::ErrorMax => measured(Metric::ErrorMax),
         RunFigure::Hausdorff => measured(Metric::Hausdorff),
         RunFigure::Coverage => measured(Metric::Coverage),
+        RunFigure::CornerPlaceMax => measured(Metric::CornerPlaceMax),
+        RunFigure::CornerTimeMax => measured(Metric::CornerTimeMax),
+        RunFigure::CornerPathMax => measured(Metric::CornerPathMax),
         RunFigure::Collisions => measured(Metric::Collisions),
         RunFigure::Visits(state) => {
             let mut was_active = false;

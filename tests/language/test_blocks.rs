@@ -23,7 +23,13 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
         | RunFigure::Diverged
         | RunFigure::Coverage
         | RunFigure::Collisions => 0.0,
-        RunFigure::ErrorMean | RunFigure::ErrorP95 | RunFigure::ErrorMax | RunFigure::Hausdorff => f64::NAN,
+        RunFigure::ErrorMean
+        | RunFigure::ErrorP95
+        | RunFigure::ErrorMax
+        | RunFigure::Hausdorff
+        | RunFigure::CornerPlaceMax
+        | RunFigure::CornerTimeMax
+        | RunFigure::CornerPathMax => f64::NAN,
     };
     let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));
     let faults: Vec<Diagnostic> = faults.collect();

@@ -163,7 +163,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 13] = [
+const RUN: [Member; 16] = [
     figure(
         "completed",
         Type::Truth,
@@ -189,6 +189,24 @@ const RUN: [Member; 13] = [
         "the Hausdorff distance between the measured contour and the object's",
     ),
     figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the object's outline that was traced, 0 to 1"),
+    figure(
+        "corner_place_max",
+        Type::LENGTH,
+        RunFigure::CornerPlaceMax,
+        "how far the worst sharp corner was from where it is; not known if there is none, or one was not traced",
+    ),
+    figure(
+        "corner_time_max",
+        Type::TIME,
+        RunFigure::CornerTimeMax,
+        "the longest time that a sharp corner cost; not known if there is none, or one was not traced",
+    ),
+    figure(
+        "corner_path_max",
+        Type::LENGTH,
+        RunFigure::CornerPathMax,
+        "the longest path of the platform that one cost; not known if there is none, or one was not traced",
+    ),
     figure("collisions", Type::NUMBER, RunFigure::Collisions, "how often the platform's body touched something"),
     member(
         "visits",
