@@ -184,6 +184,11 @@ impl Facet {
         })
     }
 
+    /// Whether a point is on the outer side of the line or the circle that this facet is a part of.
+    pub(super) fn is_outside(&self, point: Point2) -> bool {
+        self.continued(point).is_some_and(|foot| foot.height > 0.0)
+    }
+
     /// The foot of a point on the line or the circle that this facet is a part of.
     fn continued(&self, point: Point2) -> Option<Foot> {
         match self.form {
@@ -264,6 +269,19 @@ impl Form {
 }
 
 impl Corner {
+    /// Whether it turns by more than 15°, as a polygon's corners do and not those of a curve drawn in pieces.
+    pub(super) fn is_sharp(&self) -> bool {
+        const COS_15_DEG: f64 = 0.966;
+        self.into.dot(&self.out) < COS_15_DEG
+    }
+
+    /// On which side of a line through the corner all is that is solid at it: +1 towards `left` of the line, −1 away from it; `None`
+    /// if the line goes through it.
+    pub(super) fn side_of(&self, left: Vector2) -> Option<f64> {
+        let (behind, before) = (-self.into.dot(&left), self.out.dot(&left));
+        (behind * before > 0.0).then(|| before.signum())
+    }
+
     /// The foot of a point whose nearest point of the outline is the corner.
     pub(super) fn foot(&self, point: Point2) -> Option<Foot> {
         let outward = point - self.point;

@@ -18,8 +18,8 @@ pub(super) struct Pair {
 /// What may touch what.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
-    /// The far end of the link and the facet with this index; and whether the end has been outside of it since it came beside it.
-    /// If not, it is behind what is solid, and came there round its other end.
+    /// The far end of the link and the facet with this index; and whether the end was outside of it when it came beside it, or has been
+    /// since. If not, it is behind what is solid.
     EndOnFacet(usize, bool),
     /// The far end of the link and the corner behind a facet.
     EndOnCorner(usize),
@@ -62,11 +62,10 @@ const WATCHED: f64 = 5e-3;
 /// How far (m) from the whisker facets are looked for.
 const LOOKED_FOR: f64 = 20e-3;
 
-/// Finds all pairs that are near each other, keeps the forces of those that were `pairs` already, and gives a distance (m) that
+/// Finds all pairs that are near each other, keeps what is known of those that were `pairs` already, and gives a distance (m) that
 /// all others are apart.
 pub(super) fn survey(wire: &Wire, shape: &Shape, surfaces: &Surfaces, pairs: &mut Vec<Pair>) -> f64 {
-    let known: Vec<Pair> = pairs.iter().copied().filter(|pair| pair.force > 0.0).collect();
-    pairs.clear();
+    let known = std::mem::take(pairs);
     let mut clear = LOOKED_FOR;
     let mut take = |link: usize, part: Part, distance: f64| {
         if distance < WATCHED {
@@ -85,8 +84,7 @@ pub(super) fn survey(wire: &Wire, shape: &Shape, surfaces: &Surfaces, pairs: &mu
                 continue;
             }
             let radius = wire.end_radius(link);
-            let is_outside = facet.foot(end).is_some_and(|foot| foot.height > -radius);
-            take(link, Part::EndOnFacet(index, is_outside), facet.distance(end) - radius);
+            take(link, Part::EndOnFacet(index, facet.is_outside(end)), facet.distance(end) - radius);
             if let Joint::Convex(corner) = facet.joint {
                 take(link, Part::EndOnCorner(index), (end - corner.point).norm() - radius);
                 let (along, aside) = beside(shape, link, corner.point);
@@ -148,7 +146,7 @@ impl Pair {
             Part::EndOnFacet(index, is_outside) => {
                 let facet = surfaces.facet(*index);
                 let foot = if *is_outside { facet.foot_of_known(end) } else { facet.foot(end) };
-                *is_outside = foot.is_some_and(|foot| *is_outside || foot.height > -wire.end_radius(link));
+                *is_outside = facet.is_outside(end) || (*is_outside && foot.is_some());
                 foot.filter(|_| *is_outside).map(of_end)
             }
             Part::EndOnCorner(index) => {
@@ -158,12 +156,13 @@ impl Pair {
             Part::SideOnCorner(index, side) => {
                 let Joint::Convex(corner) = surfaces.facet(*index).joint else { return None };
                 let (along, aside) = beside(shape, link, corner.point);
-                if !(along > 0.0 && along < wire.link) {
-                    // Only now can it change sides.
+                let is_beside = along > 0.0 && along < wire.link;
+                // It changes sides beyond the link's ends, or where the end came off a facet over the corner: then all that is solid is
+                // on the side on which the corner is.
+                if !is_beside || corner.side_of(shape.left(link)) == Some(aside.signum()) {
                     *side = aside.signum();
-                    return None;
                 }
-                Some(of_side(along, aside, *side, wire.radius(link)))
+                is_beside.then(|| of_side(along, aside, *side, wire.radius(link)))
             }
             Part::SideOnBulge(index) => {
                 let facet = surfaces.facet(*index);
@@ -174,6 +173,13 @@ impl Pair {
                 faces.then(|| of_side(along, aside, side, radius + wire.radius(link)))
             }
         }
+    }
+
+    /// How far (m) an end is from the sharp corner that it may touch.
+    pub(super) fn sharp_corner(&self, shape: &Shape, surfaces: &Surfaces) -> Option<f64> {
+        let Part::EndOnCorner(index) = self.part else { return None };
+        let Joint::Convex(corner) = surfaces.facet(index).joint else { return None };
+        corner.is_sharp().then(|| (shape.ends[self.link + 1] - corner.point).norm())
     }
 
     /// Whether it is one of the first link.
@@ -222,7 +228,8 @@ pub(super) fn contacts(
 /// A pair this near (m) takes over the force of one that faces each other no longer.
 const HEIR: f64 = 1e-5;
 
-/// Of two facets that meet smoothly or in a corner that sticks out, an end inside of both is to leave by the nearer.
+/// Of two facets that meet smoothly or in a corner that sticks out, an end inside of both is to leave by the one on which it bears, or
+/// by the nearer.
 fn drop_hidden(surfaces: &Surfaces, pairs: &[Pair], contacts: &mut Vec<Contact>) {
     let facet = |contact: &Contact| pairs[contact.pair].facet();
     let mut index = 0;
@@ -238,7 +245,7 @@ fn drop_hidden(surfaces: &Surfaces, pairs: &[Pair], contacts: &mut Vec<Contact>)
                 at != index
                     && one.link == two.link
                     && facet(two).is_some_and(|other| other != own && meet(other))
-                    && (one.gap, index) < (two.gap, at)
+                    && (one.force > 0.0, one.gap, index) < (two.force > 0.0, two.gap, at)
             })
         });
         if is_hidden {

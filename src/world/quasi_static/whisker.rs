@@ -6,7 +6,7 @@ use crate::rig::Whisker;
 use super::balance::{Balance, Step};
 use super::lag::Lag;
 use super::surface::Surfaces;
-use super::touch::{Contact, Pair, contacts, survey};
+use super::touch::{Contact, Curving, Pair, contacts, survey};
 use super::wire::{Shape, Wire};
 
 /// One whisker, from equilibrium to equilibrium.
@@ -126,11 +126,13 @@ impl Follower {
             self.pace = None;
         }
         self.before.copy_from_slice(&self.shape.angles);
-        let least = (0.5 * self.wire.end_radius(self.wire.links() - 1)).max(way / MOST_PARTS);
+        // How far anything of it goes before it is let go towards its equilibrium, at most.
+        let reach = way + self.pace.as_deref().map_or(0.0, |pace| self.swept(pace));
+        let least = (0.5 * self.wire.end_radius(self.wire.links() - 1)).max(reach / MOST_PARTS);
         let (mut done, mut settled, force) = (0.0, true, self.force);
         while done < 1.0 {
-            let stride = (0.8 * self.nearest()).max(least);
-            let share = if way > 0.0 { (stride / way).min(1.0 - done) } else { 1.0 };
+            let stride = (0.8 * self.nearest(surfaces)).max(least);
+            let share = if reach > 0.0 { (stride / reach).min(1.0 - done) } else { 1.0 };
             done += share;
             if done > 1.0 - 1e-9 {
                 done = 1.0;
@@ -144,7 +146,7 @@ impl Follower {
                 position: from.position + done * (base.position - from.position),
                 heading: from.heading + done * (base.heading - from.heading),
             };
-            self.clear -= 2.0 * share * way;
+            self.clear -= share * reach;
             settled = self.settle(if done < 1.0 { part } else { base }, surfaces)?;
         }
         self.restless = if settled { 0 } else { self.restless + 1 };
@@ -167,10 +169,16 @@ impl Follower {
         Ok(())
     }
 
-    /// How near (m) anything is that does not bear yet.
-    fn nearest(&self) -> f64 {
-        let idle = self.contacts.iter().filter(|contact| contact.force == 0.0);
-        idle.map(|contact| contact.gap).fold(self.clear, f64::min)
+    /// How near (m) anything is that does not bear yet, or the place where what bears has turned away: behind a
+    /// sharp corner an end may come out of another side than it went in.
+    fn nearest(&self, surfaces: &Surfaces) -> f64 {
+        let distance = |contact: &Contact| match contact.curving {
+            _ if contact.force == 0.0 => contact.gap,
+            Curving::Circling(curvature) => curvature.abs().recip(),
+            Curving::None | Curving::Rolling(_) => f64::INFINITY,
+        };
+        let corners = self.pairs.iter().filter_map(|pair| pair.sharp_corner(&self.shape, surfaces));
+        self.contacts.iter().map(distance).chain(corners).fold(self.clear, f64::min)
     }
 
     /// Takes the equilibrium on a base, or goes towards it; whether it is there.
@@ -247,9 +255,18 @@ impl Follower {
         let pace = self.pace.get_or_insert_with(Vec::new);
         pace.clear();
         pace.extend(self.shape.angles.iter().zip(&self.before).map(|(now, before)| now - before));
-        self.went = self.wire.length() * pace.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
-        if !settled || self.went > EVEN * way || self.shape.is_straight() {
+        let is_straight = self.shape.is_straight();
+        self.went = self.pace.as_deref().map_or(0.0, |pace| self.swept(pace));
+        if !settled || self.went > EVEN * way || is_straight {
             self.pace = None;
         }
     }
+
+    /// How far (m) the tip goes at most while every link turns by so much (rad).
+    fn swept(&self, turns: &[f64]) -> f64 {
+        self.wire.length() * turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
+    }
 }
+
+#[cfg(test)]
+mod passing;
