@@ -9,8 +9,9 @@ use crate::scene::{Scene, WorldSetup};
 use crate::study::sweep::Shard;
 
 use super::language_arguments::{CheckArguments, CompileArguments, FmtArguments, GraphArguments, TestArguments};
-pub(super) use super::values::{Setting, TierName, World};
-use super::values::{parse_angle, parse_friction, parse_length, parse_setting};
+use super::settings::Settings;
+pub(super) use super::values::{TierName, World};
+use super::values::{parse_angle, parse_friction, parse_length};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -74,9 +75,8 @@ pub(super) struct RunArguments {
     /// names none
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
-    /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
-    pub(super) settings: Vec<Setting>,
+    #[command(flatten)]
+    pub(super) settings: Settings,
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
     pub(super) world: Option<World>,
@@ -108,6 +108,8 @@ pub(super) struct BenchArguments {
     /// Policy, or compiled machine, to run instead of those that are built in; may be given several times
     #[arg(long = "policy", value_name = "FILE")]
     pub(super) policies: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) settings: Settings,
     /// Coefficients of friction of what is touched, with a run for each: --friction 0,0.1,0.3
     #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", value_parser = parse_friction)]
     pub(super) friction: Vec<f64>,
@@ -121,7 +123,7 @@ pub(super) struct BenchArguments {
     pub(super) pruning: Pruning,
     /// Compare tip models instead, by what `vibrissa.fsm` feels in every scene: without noise, with that of the real sensor, and with
     /// ten times that
-    #[arg(long, conflicts_with_all = ["policies", "friction", "noise", "out"])]
+    #[arg(long, conflicts_with_all = ["policies", "settings", "friction", "noise", "out"])]
     pub(super) estimators: bool,
     /// Compare worlds instead, by the same policies in every scene: how far tips, moments and contours are from those of MuJoCo's chains
     #[arg(long, value_enum, value_name = "TIER", value_delimiter = ',',
@@ -237,6 +239,8 @@ pub(super) struct FamiliesArguments {
     /// Policy, or compiled machine, to run instead of the one that is built in; it has a parameter `speed`
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) settings: Settings,
     /// How many scenes to draw of each family
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub(super) count: u64,
@@ -252,7 +256,7 @@ pub(super) struct FamiliesArguments {
     #[command(flatten)]
     pub(super) pruning: Pruning,
     /// Print the scenarios instead of running them
-    #[arg(long, conflicts_with_all = ["json", "out", "policy"])]
+    #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
     pub(super) print: bool,
     /// Write all results, and a picture of every run that did not complete or had the body touch something, into this directory
     #[arg(short, long, value_name = "DIR")]

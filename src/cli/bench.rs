@@ -24,7 +24,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         return tiers::tiers(arguments);
     }
     let conditions = conditions(arguments);
-    let jobs = jobs(&policies(&arguments.policies)?, &conditions, arguments)?;
+    let jobs = jobs(&policies(arguments)?, &conditions, arguments)?;
     if let Some(repeats) = arguments.timing {
         return timing::timing(&jobs, repeats, arguments.json);
     }
@@ -53,8 +53,9 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     Ok(if rows.iter().all(|row| row.passed) { Exit::Done } else { Exit::Unexpected })
 }
 
-/// The policies to run: those that are given, or else those that are built in. Their warnings are told.
-pub(super) fn policies(files: &[PathBuf]) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
+/// The policies to run: those that are given, or else those that are built in, with their parameters set. Their warnings are told.
+pub(super) fn policies(arguments: &BenchArguments) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
+    let files = &arguments.policies;
     let policies = if files.is_empty() {
         let built_in = |file: &TextFile| Ok((file.path.into(), input::built_in_policy(file)?));
         POLICIES.iter().map(built_in).collect::<Result<Vec<_>, Failure>>()?
@@ -69,7 +70,11 @@ pub(super) fn policies(files: &[PathBuf]) -> Result<Vec<(PathBuf, Loaded<Policy>
             return Err(Failure::SameName { first: first.clone(), second: path.clone(), name: name(policy) });
         }
     }
-    Ok(policies)
+    let set = |(path, policy): (PathBuf, _)| match arguments.settings.of(policy) {
+        Ok(policy) => Ok((path, policy)),
+        Err(cause) => Err(Failure::SetOf { policy: path, cause }),
+    };
+    policies.into_iter().map(set).collect()
 }
 
 /// The conditions that are asked for, each once.

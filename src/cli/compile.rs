@@ -7,12 +7,9 @@ use super::{file, input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let (policy, out) = (&arguments.policy, &arguments.out);
-    let Policy { mut artifact, text } = input::policy(policy)?.value;
+    let Policy { artifact, text } = arguments.settings.of(input::policy(policy)?)?.value;
     if let Some(text) = &text {
         output::diagnostics(&text.source, &text.warnings);
-    }
-    for setting in &arguments.settings {
-        artifact.program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
     }
     let bytes = artifact.to_bytes().map_err(Failure::artifact(policy))?;
     if file::is_same(policy, out) {

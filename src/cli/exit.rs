@@ -99,12 +99,18 @@ pub(super) enum Failure {
     NoSuchFamily { name: String },
     #[error("scenes of families set the policy's parameters: {0}")]
     FamilySetting(SetError),
+    #[error(
+        "--set: families draw the speed of every scene; set other parameters, or print a scene with --print and run that"
+    )]
+    DrawnSpeed,
     #[error(transparent)]
     NoDraw(#[from] NoDraw),
     #[error("{}: there is hardly a start within the jitter at which the rig stands clear; make --jitter smaller", scenario.display())]
     NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
     Set(#[from] SetError),
+    #[error("--set: {}: {cause}", policy.display())]
+    SetOf { policy: PathBuf, cause: SetError },
     #[error("{}: {cause}", scenario.display())]
     Execute { scenario: PathBuf, cause: ExecuteError },
     #[error(transparent)]

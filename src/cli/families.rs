@@ -15,8 +15,9 @@ use super::arguments::FamiliesArguments;
 use super::batch::{Finished, run_all};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
-use super::job::{Job, with_settings};
+use super::job::Job;
 use super::run::make_directory;
+use super::settings::with_settings;
 use super::{file, output};
 
 /// One of the family's scenes.
@@ -39,6 +40,10 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
         None => input::built_in_policy(&DEFAULT_POLICY)?,
     };
     policy.value.tell_warnings();
+    if arguments.settings.has("speed") {
+        return Err(Failure::DrawnSpeed);
+    }
+    let policy = arguments.settings.of(policy)?;
     let jobs = trials.iter().map(|trial| job(trial, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();

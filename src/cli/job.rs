@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sha2::{Digest, Sha256};
+use sha2::Digest;
 
 use crate::diagnostic::Source;
 use crate::machine::Program;
@@ -80,22 +80,16 @@ impl Job {
             Err(Failure::Faults { source_text, .. }) => files.add(source_text),
             _ => {}
         }
-        let Loaded { value: Policy { artifact, text }, hash: policy_hash } = policy?;
+        let Loaded { value: Policy { artifact, text }, hash: policy_hash } = arguments.settings.of(policy?)?;
         if let Some(PolicyText { source, warnings, .. }) = &text
             && files.told.insert(source.name.clone())
         {
             output::diagnostics(source, warnings);
         }
-        let mut program = artifact.program;
-        for setting in &arguments.settings {
-            program.set(&setting.name, setting.value.value_si, setting.value.dimension)?;
-        }
-        let settings = arguments.settings.iter().map(|setting| (setting.name.as_str(), setting.value.value_si));
-        let policy_hash = with_settings(policy_hash, settings);
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
         let world = arguments.pruning.of(arguments.world, &scene);
-        let job = Self::with(path, scene, program, world, seed, hashes);
+        let job = Self::with(path, scene, artifact.program, world, seed, hashes);
         Ok(Self { preparation: before.elapsed(), ..job })
     }
 
@@ -178,11 +172,6 @@ impl Job {
         let json = serde_json::to_string_pretty(result)? + "\n";
         file::write(&json_path, json)
     }
-}
-
-/// The hash of a policy with parameters that are set, by name, to values (SI).
-pub(super) fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str, f64)>) -> Sha256 {
-    settings.fold(policy, |hash, (name, value)| hash.chain_update(format!("\0{name}={value}")))
 }
 
 /// A path with an extension behind whatever it ends in: names of scenarios may have points.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::arguments::EXIT_STATUS;
-use super::values::{Setting, World, parse_setting};
+use super::settings::Settings;
+use super::values::World;
 
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_STATUS)]
@@ -30,9 +31,8 @@ pub(super) struct CompileArguments {
     /// File to write, usually NAME.machine
     #[arg(short, long, value_name = "FILE")]
     pub(super) out: PathBuf,
-    /// Set a parameter of the policy for good, with its unit: --set "speed=80 mm/s"
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
-    pub(super) settings: Vec<Setting>,
+    #[command(flatten)]
+    pub(super) settings: Settings,
 }
 
 #[derive(Debug, Args)]

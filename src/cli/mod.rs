@@ -25,6 +25,7 @@ mod pareto;
 mod plan;
 mod progress;
 mod run;
+mod settings;
 mod stress;
 mod sweep;
 mod test;

@@ -15,8 +15,9 @@ use crate::units::Dimension;
 
 use super::exit::Failure;
 use super::input::{self, Loaded, at, named_in};
-use super::job::{Job, with_settings};
+use super::job::Job;
 use super::output;
+use super::settings::with_settings;
 
 /// A sweep that is ready to run.
 pub(super) struct Plan {

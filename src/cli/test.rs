@@ -15,8 +15,9 @@ use crate::study::violations;
 use super::arguments::World;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::job::{Job, with_settings};
+use super::job::Job;
 use super::language_arguments::TestArguments;
+use super::settings::with_settings;
 use super::{job, output, run};
 
 /// What came of one test.

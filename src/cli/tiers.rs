@@ -16,7 +16,7 @@ use super::{input, output};
 
 /// Compares worlds. However far apart they are, that is done.
 pub(super) fn tiers(arguments: &BenchArguments) -> Result<Exit, Failure> {
-    let programs = policies(&arguments.policies)?.into_iter();
+    let programs = policies(arguments)?.into_iter();
     let programs: Vec<_> = programs.map(|(_, policy)| Arc::new(policy.value.artifact.program)).collect();
     let pairs: Vec<_> = SCENARIOS.iter().flat_map(|file| programs.iter().map(move |program| (file, program))).collect();
     let mut progress = Progress::new(pairs.len());

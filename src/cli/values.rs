@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use crate::scene::{Scene, WorldKind};
 use crate::study::tiers::Tier;
-use crate::units::{Dimension, Quantity, parse_quantity};
+use crate::units::{Dimension, parse_quantity};
 
 /// The worlds, as the command line names them.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -45,20 +45,6 @@ impl TierName {
             Self::PeerCable => Tier::peer_cable(scene),
         }
     }
-}
-
-/// A parameter and the value to give it.
-#[derive(Debug, Clone)]
-pub(super) struct Setting {
-    pub(super) name: String,
-    pub(super) value: Quantity,
-}
-
-/// A parameter with its value, `NAME=VALUE`.
-pub(super) fn parse_setting(text: &str) -> Result<Setting, String> {
-    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
-    let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
-    Ok(Setting { name: name.trim().to_owned(), value })
 }
 
 /// A coefficient of friction from 0 to 1.

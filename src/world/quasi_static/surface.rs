@@ -269,10 +269,10 @@ impl Form {
 }
 
 impl Corner {
-    /// Whether it turns by more than 15°, as a polygon's corners do and not those of a curve drawn in pieces.
+    /// Whether it turns by more than 5°, as a polygon's corners do and hardly those of a curve that is drawn in pieces.
     pub(super) fn is_sharp(&self) -> bool {
-        const COS_15_DEG: f64 = 0.966;
-        self.into.dot(&self.out) < COS_15_DEG
+        const COS_5_DEG: f64 = 0.9962;
+        self.into.dot(&self.out) < COS_5_DEG
     }
 
     /// On which side of a line through the corner all is that is solid at it: +1 towards `left` of the line, −1 away from it; `None`

@@ -6,7 +6,7 @@ use crate::rig::Whisker;
 use super::balance::{Balance, Step};
 use super::lag::Lag;
 use super::surface::Surfaces;
-use super::touch::{Contact, Curving, Pair, contacts, survey};
+use super::touch::{Contact, Pair, contacts, survey};
 use super::wire::{Shape, Wire};
 
 /// One whisker, from equilibrium to equilibrium.
@@ -169,16 +169,12 @@ impl Follower {
         Ok(())
     }
 
-    /// How near (m) anything is that does not bear yet, or the place where what bears has turned away: behind a
-    /// sharp corner an end may come out of another side than it went in.
+    /// How near (m) anything is that does not bear yet, or a sharp corner, behind which an end may come out of another side than it
+    /// went in.
     fn nearest(&self, surfaces: &Surfaces) -> f64 {
-        let distance = |contact: &Contact| match contact.curving {
-            _ if contact.force == 0.0 => contact.gap,
-            Curving::Circling(curvature) => curvature.abs().recip(),
-            Curving::None | Curving::Rolling(_) => f64::INFINITY,
-        };
+        let idle = self.contacts.iter().filter(|contact| contact.force == 0.0).map(|contact| contact.gap);
         let corners = self.pairs.iter().filter_map(|pair| pair.sharp_corner(&self.shape, surfaces));
-        self.contacts.iter().map(distance).chain(corners).fold(self.clear, f64::min)
+        idle.chain(corners).fold(self.clear, f64::min)
     }
 
     /// Takes the equilibrium on a base, or goes towards it; whether it is there.

@@ -46,7 +46,12 @@ fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
     std::fs::write(&path, &printed).unwrap();
     assert_eq!(result(&["run", &path])[..2], ["vibrissa", "completed"]);
     let set = printed.lines().next().unwrap().split('"').nth(1).unwrap();
-    assert_eq!(result(&["run", &path, "--set", set]), result(&["families", "convex-corner", "--trial", "0"]));
+    let trial = ["families", "convex-corner", "--trial", "0"];
+    let as_drawn = result(&["run", &path, "--set", set]);
+    assert_eq!(as_drawn, result(&trial));
+    let trusting = result(&["run", &path, "--set", set, "--set", "trust=1"]);
+    assert_eq!(trusting, result(&[&trial[..], &["--set", "trust=1"]].concat()));
+    assert_ne!(trusting, as_drawn);
 }
 
 #[cfg(feature = "outlines")]
