@@ -1,16 +1,14 @@
 //! `vibrissa compile`
 
 use super::exit::{Exit, Failure};
-use super::input::Policy;
 use super::language_arguments::CompileArguments;
 use super::{file, input, output};
 
 pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let (policy, out) = (&arguments.policy, &arguments.out);
-    let Policy { artifact, text } = arguments.settings.of(input::policy(policy)?)?.value;
-    if let Some(text) = &text {
-        output::diagnostics(&text.source, &text.warnings);
-    }
+    let read = input::policy(policy)?;
+    read.value.tell_warnings();
+    let artifact = arguments.settings.of(read)?.value.artifact;
     let bytes = artifact.to_bytes().map_err(Failure::artifact(policy))?;
     if file::is_same(policy, out) {
         return Err(Failure::OntoItself { path: out.clone() });

@@ -100,7 +100,7 @@ pub(super) enum Failure {
     #[error("scenes of families set the policy's parameters: {0}")]
     FamilySetting(SetError),
     #[error(
-        "--set: families draw the speed of every scene; set other parameters, or print a scene with --print and run that"
+        "--set: families draw the speed of every scene; for another print a scene with --print, and run it: vibrissa run FILE --set \"speed=...\""
     )]
     DrawnSpeed,
     #[error(transparent)]
@@ -109,7 +109,7 @@ pub(super) enum Failure {
     NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
     Set(#[from] SetError),
-    #[error("--set: {}: {cause}", policy.display())]
+    #[error("--set: {}: {cause}; choose the policies that have it with --policy", policy.display())]
     SetOf { policy: PathBuf, cause: SetError },
     #[error("{}: {cause}", scenario.display())]
     Execute { scenario: PathBuf, cause: ExecuteError },

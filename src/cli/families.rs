@@ -28,6 +28,9 @@ struct Trial {
 }
 
 pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
+    if arguments.settings.has("speed") {
+        return Err(Failure::DrawnSpeed);
+    }
     let trials = trials(arguments)?;
     if arguments.print {
         for trial in &trials {
@@ -40,9 +43,6 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
         None => input::built_in_policy(&DEFAULT_POLICY)?,
     };
     policy.value.tell_warnings();
-    if arguments.settings.has("speed") {
-        return Err(Failure::DrawnSpeed);
-    }
     let policy = arguments.settings.of(policy)?;
     let jobs = trials.iter().map(|trial| job(trial, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;

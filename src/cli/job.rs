@@ -80,12 +80,13 @@ impl Job {
             Err(Failure::Faults { source_text, .. }) => files.add(source_text),
             _ => {}
         }
-        let Loaded { value: Policy { artifact, text }, hash: policy_hash } = arguments.settings.of(policy?)?;
-        if let Some(PolicyText { source, warnings, .. }) = &text
+        let policy = policy?;
+        if let Some(PolicyText { source, warnings, .. }) = &policy.value.text
             && files.told.insert(source.name.clone())
         {
             output::diagnostics(source, warnings);
         }
+        let Loaded { value: Policy { artifact, .. }, hash: policy_hash } = arguments.settings.of(policy)?;
         let hashes = (scenario.hash.finalize(), policy_hash.finalize());
         let seed = arguments.seed.unwrap_or(scene.seed);
         let world = arguments.pruning.of(arguments.world, &scene);

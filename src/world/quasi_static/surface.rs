@@ -276,7 +276,7 @@ impl Corner {
     }
 
     /// On which side of a line through the corner all is that is solid at it: +1 towards `left` of the line, −1 away from it; `None`
-    /// if the line goes through it.
+    /// if there is some on either side, or a side of the corner lies along the line.
     pub(super) fn side_of(&self, left: Vector2) -> Option<f64> {
         let (behind, before) = (-self.into.dot(&left), self.out.dot(&left));
         (behind * before > 0.0).then(|| before.signum())

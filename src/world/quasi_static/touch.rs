@@ -65,7 +65,8 @@ const LOOKED_FOR: f64 = 20e-3;
 /// Finds all pairs that are near each other, keeps what is known of those that were `pairs` already, and gives a distance (m) that
 /// all others are apart.
 pub(super) fn survey(wire: &Wire, shape: &Shape, surfaces: &Surfaces, pairs: &mut Vec<Pair>) -> f64 {
-    let known = std::mem::take(pairs);
+    let known = pairs.clone();
+    pairs.clear();
     let mut clear = LOOKED_FOR;
     let mut take = |link: usize, part: Part, distance: f64| {
         if distance < WATCHED {
@@ -229,7 +230,7 @@ pub(super) fn contacts(
 const HEIR: f64 = 1e-5;
 
 /// Of two facets that meet smoothly or in a corner that sticks out, an end inside of both is to leave by the one on which it bears, or
-/// by the nearer.
+/// by the nearer; and one that is inside of none is outside of the farther.
 fn drop_hidden(surfaces: &Surfaces, pairs: &[Pair], contacts: &mut Vec<Contact>) {
     let facet = |contact: &Contact| pairs[contact.pair].facet();
     let mut index = 0;

@@ -127,7 +127,7 @@ impl Follower {
         }
         self.before.copy_from_slice(&self.shape.angles);
         // How far anything of it goes before it is let go towards its equilibrium, at most.
-        let reach = way + self.pace.as_deref().map_or(0.0, |pace| self.swept(pace));
+        let reach = way + self.swept();
         let least = (0.5 * self.wire.end_radius(self.wire.links() - 1)).max(reach / MOST_PARTS);
         let (mut done, mut settled, force) = (0.0, true, self.force);
         while done < 1.0 {
@@ -251,16 +251,16 @@ impl Follower {
         let pace = self.pace.get_or_insert_with(Vec::new);
         pace.clear();
         pace.extend(self.shape.angles.iter().zip(&self.before).map(|(now, before)| now - before));
-        let is_straight = self.shape.is_straight();
-        self.went = self.pace.as_deref().map_or(0.0, |pace| self.swept(pace));
-        if !settled || self.went > EVEN * way || is_straight {
+        self.went = self.swept();
+        if !settled || self.went > EVEN * way || self.shape.is_straight() {
             self.pace = None;
         }
     }
 
-    /// How far (m) the tip goes at most while every link turns by so much (rad).
-    fn swept(&self, turns: &[f64]) -> f64 {
-        self.wire.length() * turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
+    /// How far (m) anything of it goes at most while its angles change by its pace.
+    fn swept(&self) -> f64 {
+        let turns = self.pace.iter().flatten().map(|turn| turn.abs());
+        self.wire.length() * turns.fold(0.0, f64::max)
     }
 }
 
