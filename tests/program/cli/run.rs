@@ -49,9 +49,9 @@ fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
     let trial = ["families", "convex-corner", "--trial", "0"];
     let as_drawn = result(&["run", &path, "--set", set]);
     assert_eq!(as_drawn, result(&trial));
-    let trusting = result(&["run", &path, "--set", set, "--set", "trust=1"]);
-    assert_eq!(trusting, result(&[&trial[..], &["--set", "trust=1"]].concat()));
-    assert_ne!(trusting, as_drawn);
+    let bent = result(&["run", &path, "--set", set, "--set", "target=200 urad"]);
+    assert_eq!(bent, result(&[&trial[..], &["--set", "target=200 urad"]].concat()));
+    assert_ne!(bent, as_drawn);
 }
 
 #[cfg(feature = "outlines")]
