@@ -8,6 +8,7 @@ pub mod cli;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]
 pub mod editor;
+pub mod file;
 pub mod geometry;
 pub mod machine;
 pub mod mechanics;

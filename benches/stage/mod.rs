@@ -1,6 +1,7 @@
 //! Scenes under policies, and runs in the middle of them, as the benches use them.
 
 #![allow(dead_code, reason = "each bench uses a part of it")]
+#![allow(clippy::disallowed_methods, reason = "a bench may open files")]
 
 use std::error::Error;
 use std::path::Path;

@@ -109,7 +109,7 @@ timeout 60 sbatch --quiet --wait --array=1-3 --output="$work/job-%a.out" --mem-p
     "$root/deploy/slurm/sweep.sbatch" "$work/sweep.yaml" "$work/sharded"
 "$vibrissa" merge "$work/sharded" >/dev/null
 "$vibrissa" sweep "$work/sweep.yaml" --out "$work/whole" >/dev/null 2>&1
-"$vibrissa" merge "$work/whole" >/dev/null
+"$vibrissa" merge "$work/whole" --out "$work/in-order.jsonl" >/dev/null
 
 # The times are those of the machine.
 results() { python3 -c '
@@ -120,7 +120,7 @@ for line in open(sys.argv[1]):
         result.pop(key, None)
     print(json.dumps(result, sort_keys=True))' "$1"; }
 results "$work/sharded/results.jsonl" >"$work/sharded.txt"
-results "$work/whole/results.jsonl" >"$work/whole.txt"
+results "$work/in-order.jsonl" >"$work/whole.txt"
 [ "$(wc -l <"$work/whole.txt")" = 7 ]
 diff "$work/sharded.txt" "$work/whole.txt"
 echo "the sweep as an array of 3 jobs gives what it gives without Slurm"

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::RunResult;
 use crate::scene::{Outcome, Violation};
 use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
@@ -14,7 +15,7 @@ use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
 use super::run::make_directory;
-use super::{estimators, file, output, tiers, timing};
+use super::{estimators, output, tiers, timing};
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.estimators {
@@ -24,12 +25,14 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         return tiers::tiers(arguments);
     }
     let conditions = conditions(arguments);
-    let jobs = jobs(&policies(arguments)?, &conditions, arguments)?;
+    let mut files = CommandFiles::new();
+    let jobs = jobs(&policies(arguments, &mut files)?, &conditions, arguments)?;
     if let Some(repeats) = arguments.timing {
         return timing::timing(&jobs, repeats, arguments.json);
     }
-    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs.into_iter().unzip();
     make_directory(arguments.out.as_deref())?;
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &jobs, &mut files)).transpose()?;
+    let (conditions, jobs): (Vec<_>, Vec<_>) = jobs.into_iter().unzip();
     let finished = run_all(&jobs, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
     for (Finished { result, violations, picture }, conditions) in finished.into_iter().zip(conditions) {
@@ -38,10 +41,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         rows.push(row);
         pictures.push(picture.unwrap_or_default());
     }
-    let page = match &arguments.out {
-        Some(directory) => Some(write_report(directory, &rows, &pictures)?),
-        None => None,
-    };
+    let page = report.map(|report| report.write(&rows, &pictures)).transpose()?;
     if arguments.json {
         output::json(&rows)?;
     } else {
@@ -54,13 +54,16 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
 }
 
 /// The policies to run: those that are given, or else those that are built in, with their parameters set. Their warnings are told.
-pub(super) fn policies(arguments: &BenchArguments) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
+pub(super) fn policies(
+    arguments: &BenchArguments,
+    read: &mut CommandFiles,
+) -> Result<Vec<(PathBuf, Loaded<Policy>)>, Failure> {
     let files = &arguments.policies;
     let policies = if files.is_empty() {
         let built_in = |file: &TextFile| Ok((file.path.into(), input::built_in_policy(file)?));
         POLICIES.iter().map(built_in).collect::<Result<Vec<_>, Failure>>()?
     } else {
-        files.iter().map(|path| Ok((path.clone(), input::policy(path)?))).collect::<Result<Vec<_>, Failure>>()?
+        files.iter().map(|path| Ok((path.clone(), input::policy(path, read)?))).collect::<Result<Vec<_>, Failure>>()?
     };
     let name = |policy: &Loaded<Policy>| policy.value.artifact.program.name.clone();
     for (index, (path, policy)) in policies.iter().enumerate() {
@@ -130,14 +133,32 @@ fn tell(row: &BenchRow, violations: &[Violation]) {
     }
 }
 
-/// Writes all results, a picture of every run and the page that shows them; where that is.
-fn write_report(directory: &Path, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
-    for (row, picture) in rows.iter().zip(pictures) {
-        let name = format!("{}-{}.svg", row.scene().replace(", ", "-").replace(' ', "-"), row.result.policy);
-        file::write(&directory.join(name), picture)?;
+/// The places for a picture of every run, all results, and the page that shows them.
+struct Report {
+    pictures: Vec<Output>,
+    results: Output,
+    page: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, jobs: &[(Conditions, Job)], files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name: &str| files.output("--out", &directory.join(name));
+        let picture = |(conditions, job): &(Conditions, Job)| {
+            let scene = conditions.named(&job.scene.name).replace(", ", "-").replace(' ', "-");
+            file(&format!("{scene}-{}.svg", job.program.name))
+        };
+        let pictures = jobs.iter().map(picture).collect::<Result<_, _>>()?;
+        Ok(Self { pictures, results: file("results.json")?, page: file("index.html")? })
     }
-    file::write(&directory.join("results.json"), serde_json::to_string_pretty(rows)? + "\n")?;
-    let page = directory.join("index.html");
-    file::write(&page, bench_page(rows, pictures))?;
-    Ok(page)
+
+    /// Writes it; where the page is.
+    fn write(self, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
+        for (file, picture) in self.pictures.into_iter().zip(pictures) {
+            file.write(picture)?;
+        }
+        self.results.write(serde_json::to_string_pretty(rows)? + "\n")?;
+        let page = self.page.path().to_owned();
+        self.page.write(bench_page(rows, pictures))?;
+        Ok(page)
+    }
 }

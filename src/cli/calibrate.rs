@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::calibration::ContactSet;
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::profile_picture;
 use crate::rig::{Rig, Whisker};
 use crate::study::calibrate::{Fitted, HeldOut, fit, held_out_table};
@@ -12,11 +13,11 @@ use crate::study::calibrate::{Fitted, HeldOut, fit, held_out_table};
 use super::arguments::CalibrateArguments;
 use super::exit::{Exit, Failure};
 use super::run::make_directory;
-use super::{file, input, output};
+use super::{input, output};
 
 /// What is printed as JSON.
 #[derive(Serialize)]
-struct Report<'f> {
+struct Printed<'f> {
     whisker: &'f str,
     sets: usize,
     tip_sets: usize,
@@ -24,8 +25,9 @@ struct Report<'f> {
 }
 
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
     let mut rig = match &arguments.rig {
-        Some(scenario) => input::scenario(scenario)?.value.rig,
+        Some(scenario) => input::scenario(scenario, &mut files)?.value.rig,
         None => Rig::default(),
     };
     if arguments.noise {
@@ -36,15 +38,14 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
         None => 0,
     };
     let whisker = &rig.whiskers[index];
+    let measured = match &arguments.sets {
+        Some(path) => Some((path, input::contact_sets(path, &mut files)?)),
+        None => None,
+    };
     make_directory(arguments.out.as_deref())?;
-    if let (Some(sets), Some(directory)) = (&arguments.sets, &arguments.out) {
-        let copy = directory.join(SETS);
-        if file::is_same(sets, &copy) {
-            return Err(Failure::OntoItself { path: copy });
-        }
-    }
-    let (sets, about) = match &arguments.sets {
-        Some(path) => (input::contact_sets(path)?, format!("{}, measured: {}", whisker.name, path.display())),
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &mut files)).transpose()?;
+    let (sets, about) = match measured {
+        Some((path, sets)) => (sets, format!("{}, measured: {}", whisker.name, path.display())),
         None => (simulated(&rig, index, arguments)?, format!("{}, simulated: a stage before a rod", whisker.name)),
     };
     let tip_sets = sets.iter().filter(|set| !set.on_shaft).count();
@@ -52,13 +53,13 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     if fitted.held_out.is_empty() {
         return Err(Failure::TooFewSets { count: tip_sets });
     }
-    if let Some(directory) = &arguments.out {
-        write(directory, whisker, &sets, &fitted)?;
+    if let Some(report) = report {
+        report.write(whisker, &sets, &fitted)?;
     }
     tell_missing(&fitted);
     if arguments.json {
         let held_out = &fitted.held_out;
-        output::json(&Report { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
+        output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
     } else {
         output::result(held_out_table(&fitted.held_out))?;
         output::result(format_args!("{} sets, {} of them by the tip", sets.len(), tip_sets))?;
@@ -85,18 +86,29 @@ fn tell_missing(Fitted { calibration, .. }: &Fitted) {
     }
 }
 
-/// The names of a calibration's file, and of that of the sets.
+/// The name of a calibration's file.
 const FILE: &str = "calibration.yaml";
-const SETS: &str = "sets.csv";
 
-/// Writes the calibration, the sets that it rests on, and a picture of both.
-fn write(directory: &Path, whisker: &Whisker, sets: &[ContactSet], fitted: &Fitted) -> Result<(), Failure> {
-    let calibration = &fitted.calibration;
-    file::write(&directory.join(FILE), calibration.to_yaml())?;
-    file::write(&directory.join(SETS), ContactSet::write_all(sets))?;
-    let title = format!("Deflection profile of {}", calibration.about);
-    let picture = profile_picture(&title, whisker.shaft.length, sets, calibration);
-    file::write(&directory.join("profile.svg"), picture)
+/// The places for the calibration, the sets that it rests on, and a picture of both.
+struct Report {
+    calibration: Output,
+    sets: Output,
+    profile: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name| files.output("--out", &directory.join(name));
+        Ok(Self { calibration: file(FILE)?, sets: file("sets.csv")?, profile: file("profile.svg")? })
+    }
+
+    fn write(self, whisker: &Whisker, sets: &[ContactSet], fitted: &Fitted) -> Result<(), OutputError> {
+        let calibration = &fitted.calibration;
+        self.calibration.write(calibration.to_yaml())?;
+        self.sets.write(ContactSet::write_all(sets))?;
+        let title = format!("Deflection profile of {}", calibration.about);
+        self.profile.write(profile_picture(&title, whisker.shaft.length, sets, calibration))
+    }
 }
 
 #[cfg(feature = "sim")]

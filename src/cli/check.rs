@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::diagnostic::{Position, Record, records};
+use crate::file::CommandFiles;
 use crate::machine::{Artifact, FORMAT, Program, State, Target};
 use crate::policy::{self, Checked as Found};
 use crate::units::format_si;
@@ -88,8 +89,9 @@ struct StateSummary {
 }
 
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
     let checked = arguments.policies.iter().map(|path| {
-        check_one(path, arguments.json).or_else(|failure| match failure {
+        check_one(path, &mut files, arguments.json).or_else(|failure| match failure {
             // What is wrong with one file is no reason not to look at the others.
             Failure::Read { .. } | Failure::Artifact { .. } => Ok(unreadable(path, &failure, arguments.json)),
             other => Err(other),
@@ -113,9 +115,9 @@ fn unreadable(path: &Path, failure: &Failure, json: bool) -> Checked {
     Checked { file, error, machine: None, library: None, compiled: None, diagnostics: Vec::new() }
 }
 
-fn check_one(path: &Path, json: bool) -> Result<Checked, Failure> {
-    let source = match input::policy_file(path)?.value {
-        PolicyFile::Text(source) => input::with_libraries(&source),
+fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checked, Failure> {
+    let source = match input::policy_file(path, files)?.value {
+        PolicyFile::Text(source) => input::with_libraries(&source, files),
         PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
     let (machine, library, diagnostics) = match policy::check(&source) {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use crate::file::CommandFiles;
 use crate::scene::{Jitter, Scene};
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_table};
@@ -28,10 +29,11 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     if policies.len() < 2 {
         return Err(Failure::TooFewPolicies { count: policies.len() });
     }
-    let settings = settings(&scenarios, arguments)?;
+    let mut read = CommandFiles::new();
+    let settings = settings(&scenarios, arguments, &mut read)?;
     let mut jobs = Vec::with_capacity(policies.len() * settings.len());
     for path in &policies {
-        let policy = input::policy(path)?;
+        let policy = input::policy(path, &mut read)?;
         policy.value.tell_warnings();
         for Setting { path, scene, hash } in &settings {
             let hashes = (hash.clone().finalize(), policy.hash.clone().finalize());
@@ -65,12 +67,16 @@ fn tell_incomplete(comparison: &Comparison) {
 }
 
 /// The runs that every policy does: each scenario as it is, and then with other seeds and starts.
-fn settings(files: &[&PathBuf], arguments: &CompareArguments) -> Result<Vec<Setting>, Failure> {
+fn settings(
+    files: &[&PathBuf],
+    arguments: &CompareArguments,
+    read: &mut CommandFiles,
+) -> Result<Vec<Setting>, Failure> {
     let scenarios: Vec<(PathBuf, Loaded<Scene>)> = if files.is_empty() {
         let built_in = |file: &TextFile| Ok((file.path.into(), input::built_in_scenario(file)?));
         SCENARIOS.iter().map(built_in).collect::<Result<_, Failure>>()?
     } else {
-        files.iter().map(|path| Ok(((*path).clone(), input::scenario(path)?))).collect::<Result<_, Failure>>()?
+        files.iter().map(|path| Ok(((*path).clone(), input::scenario(path, read)?))).collect::<Result<_, Failure>>()?
     };
     for (index, (second, scenario)) in scenarios.iter().enumerate() {
         let name = &scenario.value.name;

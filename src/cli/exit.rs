@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use crate::calibration::SetsError;
 use crate::diagnostic::{Diagnostic, Source};
+use crate::file::OutputError;
 use crate::machine::{ArtifactError, SetError};
 use crate::report::ChartTooLarge;
 use crate::rig::UnknownWhisker;
@@ -59,16 +60,16 @@ impl From<Exit> for ExitCode {
 pub(super) enum Failure {
     #[error("cannot read {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}; choose another place", path.display())]
-    Write { path: PathBuf, cause: std::io::Error },
+    #[error("cannot make the folder {}: {cause}; choose another place with --out", path.display())]
+    Folder { path: PathBuf, cause: std::io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputError),
     #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
     Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{}", faults.len())]
     Faults { source_text: Box<Source>, faults: Vec<Diagnostic> },
     #[error("{}: {cause}", path.display())]
     Artifact { path: PathBuf, cause: ArtifactError },
-    #[error("{} would overwrite what it is made from; choose another place with --out", path.display())]
-    OntoItself { path: PathBuf },
     #[error("{} is a compiled machine, which does not hold its text; give the policy that it was made from, {origin}", path.display())]
     Compiled { path: PathBuf, origin: String },
     #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]
@@ -143,9 +144,9 @@ impl Failure {
         |cause| Self::Read { path, cause }
     }
 
-    pub(super) fn write(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+    pub(super) fn folder(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
-        |cause| Self::Write { path, cause }
+        |cause| Self::Folder { path, cause }
     }
 
     pub(super) fn artifact(path: &Path) -> impl FnOnce(ArtifactError) -> Self {

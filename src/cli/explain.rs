@@ -1,5 +1,6 @@
 //! `vibrissa explain`
 
+use crate::file::CommandFiles;
 use crate::scene::Pruning;
 
 use super::arguments::{ExplainArguments, World};
@@ -7,10 +8,11 @@ use super::exit::{Exit, Failure};
 use super::{input, output};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
-    let source = input::read(&arguments.scenario)?;
-    let scene = input::scenario_in(&source, |_| ())?.value;
-    let (_, policy) = input::policy_for(arguments.policy.as_deref(), &scene, &source);
-    let program = policy?.value.artifact.program;
+    let mut files = CommandFiles::new();
+    let source = input::read(&arguments.scenario, &mut files)?;
+    let scene = input::scenario_in(&source, &mut files)?.value;
+    let policy = input::policy_for(arguments.policy.as_deref(), &scene, &source, &mut files)?;
+    let program = policy.value.artifact.program;
     // What the rig lacks would otherwise look as if it were read.
     let fitted = scene
         .rig

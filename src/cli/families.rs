@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::scene::Violation;
 use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 use crate::study::bench::DEFAULT_POLICY;
@@ -16,9 +17,9 @@ use super::batch::{Finished, run_all};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
+use super::output;
 use super::run::make_directory;
 use super::settings::with_settings;
-use super::{file, output};
 
 /// One of the family's scenes.
 struct Trial {
@@ -38,17 +39,22 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
         }
         return Ok(Exit::Done);
     }
+    let mut files = CommandFiles::new();
     let policy = match &arguments.policy {
-        Some(path) => input::policy(path)?,
+        Some(path) => input::policy(path, &mut files)?,
         None => input::built_in_policy(&DEFAULT_POLICY)?,
     };
     policy.value.tell_warnings();
     let policy = arguments.settings.of(policy)?;
     let jobs = trials.iter().map(|trial| job(trial, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &trials, &mut files)).transpose()?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&jobs, arguments.jobs, is_drawn)?;
-    let runs = report(trials, finished, arguments.out.as_deref())?;
+    let (runs, pictures) = judged(trials, finished);
+    if let Some(report) = report {
+        report.write(&runs, pictures)?;
+    }
     if arguments.json {
         output::json(&runs)?;
     } else {
@@ -96,29 +102,46 @@ fn print(Trial { family, number, draw }: &Trial, seed: u64) -> Result<(), Failur
     ))
 }
 
-/// Tells the runs that did not pass, and writes all results and the pictures of those.
-fn report(trials: Vec<Trial>, finished: Vec<Finished>, directory: Option<&Path>) -> Result<Vec<FamilyRun>, Failure> {
-    let mut runs = Vec::with_capacity(trials.len());
-    let mut lines = String::new();
-    for (Trial { family, number: trial, draw }, Finished { result, violations, picture }) in
-        trials.into_iter().zip(finished)
-    {
-        if let (Some(directory), Some(picture)) = (directory, picture) {
-            file::write(&directory.join(format!("{}.svg", result.scenario)), picture)?;
+/// The places for all results and for pictures.
+struct Report {
+    pictures: Vec<Output>,
+    results: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, trials: &[Trial], files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name: &str| files.output("--out", &directory.join(name));
+        let pictures = trials.iter().map(|trial| file(&format!("{}.svg", trial.draw.scene.name)));
+        Ok(Self { pictures: pictures.collect::<Result<_, _>>()?, results: file("results.jsonl")? })
+    }
+
+    /// Writes all results, and those pictures that there are.
+    fn write(self, runs: &[FamilyRun], pictures: Vec<Option<String>>) -> Result<(), Failure> {
+        for (file, picture) in self.pictures.into_iter().zip(pictures) {
+            picture.map(|picture| file.write(picture)).transpose()?;
         }
+        let mut lines = String::new();
+        for run in runs {
+            lines += &serde_json::to_string(run)?;
+            lines.push('\n');
+        }
+        Ok(self.results.write(lines)?)
+    }
+}
+
+/// The runs with whether they passed, and their pictures. Tells those that did not.
+fn judged(trials: Vec<Trial>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
+    let judged = trials.into_iter().zip(finished).map(|(trial, finished)| {
+        let Trial { family, number: trial, draw } = trial;
+        let Finished { result, violations, picture } = finished;
         let passed = violations.is_empty();
         let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             tell(&run, &violations);
         }
-        lines += &serde_json::to_string(&run)?;
-        lines.push('\n');
-        runs.push(run);
-    }
-    if let Some(directory) = directory {
-        file::write(&directory.join("results.jsonl"), lines)?;
-    }
-    Ok(runs)
+        (run, picture)
+    });
+    judged.unzip()
 }
 
 fn tell(run: &FamilyRun, violations: &[Violation]) {

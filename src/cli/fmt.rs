@@ -5,6 +5,7 @@ use std::path::Path;
 use similar::TextDiff;
 
 use crate::diagnostic::Source;
+use crate::file::{CommandFiles, replace};
 use crate::policy::format;
 
 use super::exit::{Exit, Failure};
@@ -12,9 +13,9 @@ use super::language_arguments::FmtArguments;
 use super::{input, output};
 
 pub(super) fn fmt(arguments: &FmtArguments) -> Result<Exit, Failure> {
-    let mut exit = Exit::Done;
+    let (mut exit, mut files) = (Exit::Done, CommandFiles::new());
     for path in &arguments.policies {
-        exit = match (fmt_one(path, arguments.check)?, exit) {
+        exit = match (fmt_one(path, arguments.check, &mut files)?, exit) {
             (Exit::Done, exit) | (_, exit @ Exit::Unusable) => exit,
             (worse, _) => worse,
         };
@@ -22,9 +23,9 @@ pub(super) fn fmt(arguments: &FmtArguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn fmt_one(path: &Path, check: bool) -> Result<Exit, Failure> {
+fn fmt_one(path: &Path, check: bool, files: &mut CommandFiles) -> Result<Exit, Failure> {
     let standard = path == Path::new("-");
-    let source = if standard { input::read_standard()? } else { input::policy_text(path)? };
+    let source = if standard { input::read_standard(files)? } else { input::policy_text(path, files)? };
     let formatted = match format(&source) {
         Ok(formatted) => formatted,
         Err(faults) => {
@@ -39,7 +40,8 @@ fn fmt_one(path: &Path, check: bool) -> Result<Exit, Failure> {
     if standard {
         output::text(formatted)?;
     } else if formatted != source.text {
-        std::fs::write(path, formatted).map_err(Failure::rewrite(path))?;
+        // No other command writes to what it reads.
+        replace(path, formatted.as_bytes()).map_err(Failure::rewrite(path))?;
         output::message(format_args!("formatted {}", source.name));
     }
     Ok(Exit::Done)

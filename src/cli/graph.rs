@@ -1,13 +1,16 @@
 //! `vibrissa graph`
 
+use crate::file::CommandFiles;
 use crate::report::{chart_dot, chart_mermaid, chart_svg};
 
 use super::exit::{Exit, Failure};
 use super::language_arguments::{ChartFormat, GraphArguments};
-use super::{file, input, output};
+use super::{input, output};
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
-    let chart = input::chart(&arguments.policy)?;
+    let mut files = CommandFiles::new();
+    let chart = input::chart(&arguments.policy, &mut files)?;
+    let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
     let text = match arguments.format {
         ChartFormat::Svg => {
             chart_svg(&chart).map_err(|cause| Failure::Chart { policy: arguments.policy.clone(), cause })?
@@ -16,8 +19,8 @@ pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
         ChartFormat::Dot => chart_dot(&chart),
     };
     let text = text.trim_end();
-    match &arguments.out {
-        Some(path) => file::write(path, format!("{text}\n"))?,
+    match file {
+        Some(file) => file.write(format!("{text}\n"))?,
         None => output::result(text)?,
     }
     Ok(Exit::Done)

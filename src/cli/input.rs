@@ -1,13 +1,13 @@
 //! Reading scenarios and policies.
 
-use std::fs::File;
-use std::io::{Error, ErrorKind, Read};
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use crate::calibration::ContactSet;
 use crate::diagnostic::{Diagnostic, Source, suggest};
+use crate::file::CommandFiles;
 use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
 use crate::policy::chart::Chart;
@@ -28,20 +28,9 @@ pub(super) struct Loaded<T> {
 }
 
 /// Reads a text.
-pub(super) fn read(path: &Path) -> Result<Source, Failure> {
-    let text = File::open(path).and_then(read_text).map_err(Failure::read(path))?;
+pub(super) fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, Failure> {
+    let text = files.read(path, SIZE_LIMIT).and_then(text).map_err(Failure::read(path))?;
     Ok(Source::new(path.display().to_string(), text))
-}
-
-/// Reads no more than tells that there are more than `limit` bytes: a device never ends.
-fn read_bytes(from: impl Read, limit: usize) -> Result<Vec<u8>, Error> {
-    let mut bytes = Vec::new();
-    from.take(limit as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
-fn read_text(from: impl Read) -> Result<String, Error> {
-    read_bytes(from, SIZE_LIMIT).and_then(text)
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
@@ -55,31 +44,25 @@ fn text(bytes: Vec<u8>) -> Result<String, Error> {
 }
 
 /// Reads standard input.
-pub(super) fn read_standard() -> Result<Source, Failure> {
+pub(super) fn read_standard(files: &mut CommandFiles) -> Result<Source, Failure> {
     let name = "standard input";
-    let text = read_text(std::io::stdin().lock()).map_err(Failure::read(Path::new(name)))?;
+    let text = files.read_standard(SIZE_LIMIT).and_then(text).map_err(Failure::read(Path::new(name)))?;
     Ok(Source::new(name, text))
 }
 
 /// Reads a scenario with the files that it refers to; the hash is that of all of them.
-pub(super) fn scenario(path: &Path) -> Result<Loaded<Scene>, Failure> {
-    scenario_in(&read(path)?, |_| ())
+pub(super) fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, Failure> {
+    scenario_in(&read(path, files)?, files)
 }
 
-/// The same of a text that has been read. `each_file` that it refers to is told, be it there or not.
-pub(super) fn scenario_in(source: &Source, mut each_file: impl FnMut(PathBuf)) -> Result<Loaded<Scene>, Failure> {
-    read_scenario(source, |name| {
-        let (path, bytes) = outline_file(Path::new(&source.name), name);
-        each_file(path);
-        bytes
-    })
+/// The same of a text that has been read.
+pub(super) fn scenario_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Scene>, Failure> {
+    read_scenario(source, |name| outline_file(&beside(Path::new(&source.name), name), files))
 }
 
-/// The bytes of the file that the scenario at `scenario` calls `name`, and where it is.
-pub(super) fn outline_file(scenario: &Path, name: &str) -> (PathBuf, Result<Vec<u8>, String>) {
-    let path = beside(scenario, name);
-    let bytes = regular(&path, |file| read_bytes(file, outline::SIZE_LIMIT));
-    (path, bytes)
+/// The bytes of a file that a scenario names.
+pub(super) fn outline_file(path: &Path, files: &mut CommandFiles) -> Result<Vec<u8>, String> {
+    files.read(path, outline::SIZE_LIMIT).map_err(|cause| reason(path, &cause))
 }
 
 /// The path of a file that the file at `path` names relative to itself.
@@ -110,8 +93,8 @@ fn read_scenario(
 }
 
 /// Reads touches that were measured.
-pub(super) fn contact_sets(path: &Path) -> Result<Vec<ContactSet>, Failure> {
-    let source = read(path)?;
+pub(super) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, Failure> {
+    let source = read(path, files)?;
     ContactSet::read_all(source.text.as_bytes()).map_err(|cause| Failure::Sets { path: path.to_owned(), cause })
 }
 
@@ -123,8 +106,8 @@ pub(super) enum PolicyFile {
 
 /// Reads a policy's text or a compiled machine, which is one by how it begins, or is meant to be by its name; the hash is that of the file
 /// alone.
-pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
-    let bytes = File::open(path).and_then(|file| read_bytes(file, ARTIFACT_LIMIT)).map_err(Failure::read(path))?;
+pub(super) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, Failure> {
+    let bytes = files.read(path, ARTIFACT_LIMIT).map_err(Failure::read(path))?;
     let hash = Sha256::new().chain_update(&bytes);
     let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
@@ -135,29 +118,20 @@ pub(super) fn policy_file(path: &Path) -> Result<Loaded<PolicyFile>, Failure> {
 }
 
 /// A policy's text with those of the files that it uses.
-pub(super) fn with_libraries(source: &Source) -> Source {
-    policy::gather(source, &mut library)
-}
-
-/// The files that a policy with its libraries was read from, but for the first.
-pub(super) fn library_files(source: &Source) -> impl Iterator<Item = PathBuf> {
-    let paths = (1..source.count()).map(|part| PathBuf::from(source.part_name(part)));
-    // What belongs to the standard library has the name of a module.
-    paths.filter(|path| path.extension().is_some_and(|ending| ending == "fsm"))
+pub(super) fn with_libraries(source: &Source, files: &mut CommandFiles) -> Source {
+    policy::gather(source, &mut |path| library(Path::new(path), files))
 }
 
 /// The text of a file that a policy uses.
-pub(super) fn library(path: &str) -> Result<String, String> {
-    regular(Path::new(path), read_text)
+fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
+    files.read(path, SIZE_LIMIT).and_then(text).map_err(|cause| reason(path, &cause))
 }
 
-/// What `read` gives of a file, or why it does not, with the name that was probably meant.
-fn regular<T>(path: &Path, read: impl FnOnce(File) -> Result<T, Error>) -> Result<T, String> {
-    // A pipe might never end, or never begin.
-    if path.metadata().is_ok_and(|about| !about.is_file()) {
-        return Err("it is no file".to_owned());
-    }
-    File::open(path).and_then(read).map_err(|cause| reason(path, &cause))
+/// The same for an editor, which writes to no file.
+#[cfg(feature = "lsp")]
+pub(super) fn library_for_editor(path: &str) -> Result<String, String> {
+    let path = Path::new(path);
+    crate::file::read(path, SIZE_LIMIT).and_then(text).map_err(|cause| reason(path, &cause))
 }
 
 /// Why a file cannot be read, with the name that was probably meant.
@@ -211,38 +185,38 @@ pub(super) struct PolicyText {
 }
 
 /// Reads a policy's text and compiles it, or a compiled machine.
-pub(super) fn policy(path: &Path) -> Result<Loaded<Policy>, Failure> {
-    let Loaded { value, hash } = policy_file(path)?;
+pub(super) fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, Failure> {
+    let Loaded { value, hash } = policy_file(path, files)?;
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
-        PolicyFile::Text(source) => compiled(&source, &mut library),
+        PolicyFile::Text(source) => compiled(&source, &mut |path| library(Path::new(path), files)),
     }
 }
 
 /// The policy for the scene that was read from `source`: the one that is asked for, or else the one that the scene names, or else the
-/// one that is built in. Where it is comes with it, unless it is built in.
+/// one that is built in.
 pub(super) fn policy_for(
     asked: Option<&Path>,
     scene: &Scene,
     source: &Source,
-) -> (Option<PathBuf>, Result<Loaded<Policy>, Failure>) {
+    files: &mut CommandFiles,
+) -> Result<Loaded<Policy>, Failure> {
     match (asked, &scene.policy) {
-        (Some(path), _) => (Some(path.to_owned()), policy(path)),
+        (Some(path), _) => policy(path, files),
         (None, Some(file)) => {
             let path = beside(Path::new(&source.name), &file.path);
-            let policy = policy(&path).map_err(named_in(source, file));
-            (Some(path), policy)
+            policy(&path, files).map_err(named_in(source, file))
         }
-        (None, None) => (None, built_in_policy(&DEFAULT_POLICY)),
+        (None, None) => built_in_policy(&DEFAULT_POLICY),
     }
 }
 
 /// Reads a policy's machine alone: what the compiler warns of takes most of its time.
-pub(super) fn program(path: &Path) -> Result<Loaded<Program>, Failure> {
-    let Loaded { value, hash } = policy_file(path)?;
+pub(super) fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>, Failure> {
+    let Loaded { value, hash } = policy_file(path, files)?;
     let source = match value {
         PolicyFile::Machine(artifact) => return Ok(Loaded { value: artifact.program, hash }),
-        PolicyFile::Text(source) => with_libraries(&source),
+        PolicyFile::Text(source) => with_libraries(&source, files),
     };
     let hash = Sha256::new().chain_update(&source.text);
     match policy::compile(&source) {
@@ -270,8 +244,8 @@ fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>
 }
 
 /// Reads a policy's text where a compiled machine will not do.
-pub(super) fn policy_text(path: &Path) -> Result<Source, Failure> {
-    match policy_file(path)?.value {
+pub(super) fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, Failure> {
+    match policy_file(path, files)?.value {
         PolicyFile::Text(source) => Ok(source),
         PolicyFile::Machine(artifact) => {
             Err(Failure::Compiled { path: path.to_owned(), origin: artifact.origin.file.clone() })
@@ -279,8 +253,8 @@ pub(super) fn policy_text(path: &Path) -> Result<Source, Failure> {
     }
 }
 
-pub(super) fn chart(path: &Path) -> Result<Chart, Failure> {
-    let source = with_libraries(&policy_text(path)?);
+pub(super) fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, Failure> {
+    let source = with_libraries(&policy_text(path, files)?, files);
     policy::chart(&source).map_err(|faults| Failure::Faults { source_text: Box::new(source), faults })
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
-use crate::diagnostic::Source;
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
@@ -20,7 +20,7 @@ use crate::study::{engine_hash, execute};
 use super::arguments::RunArguments;
 use super::exit::Failure;
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::{file, output};
+use super::output;
 
 /// A run that is ready to begin.
 pub(super) struct Job {
@@ -35,24 +35,32 @@ pub(super) struct Job {
     preparation: Duration,
 }
 
-/// The files that have been read, and the names of the policies whose warnings have been told.
-#[derive(Default)]
-pub(super) struct Files {
-    pub(super) read: BTreeSet<PathBuf>,
-    told: BTreeSet<String>,
+/// The names of the policies whose warnings have been told.
+pub(super) type Told = BTreeSet<String>;
+
+/// The places for the picture and the result of a run.
+pub(super) struct ReportFiles {
+    picture: Output,
+    result: Output,
 }
 
-impl Files {
-    fn add(&mut self, source: &Source) {
-        self.read.extend(input::library_files(source));
+impl ReportFiles {
+    /// `stem` with their extensions, in the directory that `--out` gives.
+    pub(super) fn new(stem: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let picture = files.output("--out", &extended(stem, "svg"))?;
+        Ok(Self { picture, result: files.output("--out", &extended(stem, "json"))? })
     }
 }
 
 impl Job {
     /// Prepares all runs that a command line asks for. Whatever is wrong with the last scenario shows before the first has
     /// run.
-    pub(super) fn all(arguments: &RunArguments, files: &mut Files) -> Result<Vec<Self>, Failure> {
-        let jobs = arguments.scenarios.iter().map(|path| Self::new(path, arguments, files));
+    pub(super) fn all(
+        arguments: &RunArguments,
+        files: &mut CommandFiles,
+        told: &mut Told,
+    ) -> Result<Vec<Self>, Failure> {
+        let jobs = arguments.scenarios.iter().map(|path| Self::new(path, arguments, files, told));
         let jobs = jobs.collect::<Result<Vec<_>, _>>()?;
         // Reports are named after scenarios, so that two of one name would overwrite each other.
         for (index, job) in jobs.iter().enumerate() {
@@ -65,24 +73,14 @@ impl Job {
     }
 
     /// Prepares one run. Tells the warnings of its policy, unless that has been done.
-    fn new(path: &Path, arguments: &RunArguments, files: &mut Files) -> Result<Self, Failure> {
+    fn new(path: &Path, arguments: &RunArguments, files: &mut CommandFiles, told: &mut Told) -> Result<Self, Failure> {
         let before = Instant::now();
-        files.read.insert(path.to_owned());
-        let source = input::read(path)?;
-        let scenario = input::scenario_in(&source, |file| {
-            files.read.insert(file);
-        })?;
+        let source = input::read(path, files)?;
+        let scenario = input::scenario_in(&source, files)?;
         let scene = scenario.value;
-        let (policy_path, policy) = input::policy_for(arguments.policy.as_deref(), &scene, &source);
-        files.read.extend(policy_path);
-        match &policy {
-            Ok(Loaded { value: Policy { text: Some(PolicyText { source, .. }), .. }, .. }) => files.add(source),
-            Err(Failure::Faults { source_text, .. }) => files.add(source_text),
-            _ => {}
-        }
-        let policy = policy?;
+        let policy = input::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
         if let Some(PolicyText { source, warnings, .. }) = &policy.value.text
-            && files.told.insert(source.name.clone())
+            && told.insert(source.name.clone())
         {
             output::diagnostics(source, warnings);
         }
@@ -158,20 +156,17 @@ impl Job {
         }
     }
 
-    /// Writes a picture and the result of its run to `stem` with their extensions.
+    /// Writes a picture and the result of its run.
     pub(super) fn write_report(
         &self,
-        stem: &Path,
+        to: ReportFiles,
         run: &Run,
         score: &Score,
         result: &RunResult,
     ) -> Result<(), Failure> {
-        let picture_path = extended(stem, "svg");
-        let drawn = picture(&self.scene, &result.policy, run, score);
-        file::write(&picture_path, drawn)?;
-        let json_path = extended(stem, "json");
-        let json = serde_json::to_string_pretty(result)? + "\n";
-        file::write(&json_path, json)
+        to.picture.write(picture(&self.scene, &result.policy, run, score))?;
+        to.result.write(serde_json::to_string_pretty(result)? + "\n")?;
+        Ok(())
     }
 }
 

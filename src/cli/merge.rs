@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::file::CommandFiles;
 use crate::study::sweep::{Missing, SweepSummary, merge as merge_files};
 
 use super::arguments::MergeArguments;
 use super::exit::{Exit, Failure};
+use super::output;
 use super::sweep::tell;
-use super::{file, output};
 
 /// How many missing runs are told by their keys.
 const TOLD: usize = 10;
@@ -21,7 +22,8 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
             files.push(path.clone());
         }
     }
-    let (Some(merged), Some(first)) = (merge_files(&files)?, files.first()) else {
+    let mut read = CommandFiles::new();
+    let (Some(merged), Some(first)) = (merge_files(&files, &mut read)?, files.first()) else {
         return Err(Failure::NoResults { directory: arguments.paths.first().cloned().unwrap_or_default() });
     };
     let missing: Vec<_> = merged.missing().collect();
@@ -30,8 +32,9 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
         return Ok(Exit::Unexpected);
     }
     let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
-    merged.check_place(&path)?;
-    file::write(&path, merged.text()?)?;
+    let file = read.output("--out", &path)?;
+    let _lock = merged.check_place(&path)?;
+    file.write(merged.text()?)?;
     tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.json)?;
     Ok(Exit::Done)
 }

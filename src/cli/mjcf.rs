@@ -1,11 +1,13 @@
 //! `vibrissa mjcf`
 
+use crate::file::CommandFiles;
+
 use super::arguments::MjcfArguments;
 use super::exit::{Exit, Failure};
 use super::{input, output};
 
 pub(super) fn mjcf(arguments: &MjcfArguments) -> Result<Exit, Failure> {
-    let scene = input::scenario(&arguments.scenario)?.value;
+    let scene = input::scenario(&arguments.scenario, &mut CommandFiles::new())?.value;
     let model = crate::scene::mjcf(&scene.rig, &scene.solids, scene.start);
     output::result(model.trim_end())?;
     Ok(Exit::Done)

@@ -11,7 +11,6 @@ mod estimators;
 mod exit;
 mod explain;
 mod families;
-mod file;
 mod fmt;
 mod graph;
 mod input;

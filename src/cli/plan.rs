@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::Source;
+use crate::file::CommandFiles;
 use crate::machine::Program;
 use crate::run::Control;
 use crate::scene::{ScenesOf, Sweep, SweepRun, WorldSetup};
@@ -35,8 +36,8 @@ pub(super) struct Plan {
 
 impl Plan {
     /// Reads a sweep and what it names; in its runs what cannot matter is left out, or not.
-    pub(super) fn read(path: &Path, prune: bool) -> Result<Self, Failure> {
-        let source = input::read(path)?;
+    pub(super) fn read(path: &Path, prune: bool, files: &mut CommandFiles) -> Result<Self, Failure> {
+        let source = input::read(path, files)?;
         let sweep = match Sweep::from_yaml(&source) {
             Ok(sweep) => sweep,
             Err(faults) => return Err(Failure::Faults { source_text: Box::new(source), faults }),
@@ -50,7 +51,7 @@ impl Plan {
         };
         let mut policies = Vec::new();
         for file in sweep.policies() {
-            let policy = input::program(&input::beside(path, &file.path)).map_err(named_in(&source, file))?;
+            let policy = input::program(&input::beside(path, &file.path), files).map_err(named_in(&source, file))?;
             hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
@@ -60,24 +61,25 @@ impl Plan {
                 scenarios.push(None);
                 continue;
             };
-            let text = input::read(&input::beside(path, &file.path)).map_err(named_in(&source, file))?;
+            let text = input::read(&input::beside(path, &file.path), files).map_err(named_in(&source, file))?;
             hashed("scenario", &file.path, Sha256::new_with_prefix(&text.text));
             scenarios.push(Some(text));
         }
-        let files = BTreeMap::new();
-        let mut plan = Self { path: path.to_owned(), source, sweep, policies, scenarios, files, inputs, prune };
-        plan.read_files();
+        let path = path.to_owned();
+        let mut plan = Self { path, source, sweep, policies, scenarios, files: BTreeMap::new(), inputs, prune };
+        plan.read_files(files);
         Ok(plan)
     }
 
     /// Reads the files that scenes and values name. They are kept, so that all runs have the same.
-    fn read_files(&mut self) {
+    fn read_files(&mut self, read: &mut CommandFiles) {
         let mut files = BTreeMap::new();
         for run in self.sweep.samples().filter(|run| run.policy == 0) {
             let Ok((path, text, _)) = self.scenario(&run) else { continue };
             // What is wrong with it is told when its run is prepared.
             let _ = run.scene(&text, &self.source, &mut |name| {
-                let (path, bytes) = input::outline_file(&path, name);
+                let path = input::beside(&path, name);
+                let bytes = input::outline_file(&path, read);
                 files.insert(path, bytes.clone());
                 bytes
             });
@@ -99,9 +101,9 @@ impl Plan {
     }
 
     /// Tells what the compiler warns of.
-    pub(super) fn tell_warnings(&self) -> Result<(), Failure> {
+    pub(super) fn tell_warnings(&self, files: &mut CommandFiles) -> Result<(), Failure> {
         for file in self.sweep.policies() {
-            input::policy(&input::beside(&self.path, &file.path))?.value.tell_warnings();
+            input::policy(&input::beside(&self.path, &file.path), files)?.value.tell_warnings();
         }
         Ok(())
     }
@@ -184,7 +186,8 @@ impl Plan {
 
     /// The bytes of the file that a scenario at `scenario` calls `name`, as it was when the sweep was read.
     fn file(&self, scenario: &Path, name: &str) -> Result<Vec<u8>, String> {
-        let kept = self.files.get(&input::beside(scenario, name));
-        kept.cloned().unwrap_or_else(|| input::outline_file(scenario, name).1)
+        let path = input::beside(scenario, name);
+        // Where several values change one part of a scenario, a run may name what no sample does.
+        self.files.get(&path).cloned().unwrap_or_else(|| input::outline_file(&path, &mut CommandFiles::new()))
     }
 }

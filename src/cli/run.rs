@@ -2,25 +2,28 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::file::CommandFiles;
 use crate::report::{RunResult, table, tick_lines};
 use crate::score::Score;
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
-use super::job::{Files, Job, extended, tell};
-use super::{file, output};
+use super::job::{Job, ReportFiles, Told, extended, tell};
+use super::output;
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
-    let jobs = Job::all(arguments, &mut Files::default())?;
-    make_directory(arguments.out.as_deref())?;
+    let mut files = CommandFiles::new();
+    let jobs = Job::all(arguments, &mut files, &mut Told::default())?;
+    let reports = reports(&jobs, arguments.out.as_deref(), &mut files)?;
+    let tick_file = arguments.ticks.as_ref().map(|path| files.output("--ticks", path)).transpose()?;
     let (mut results, mut exit, mut ticks) = (Vec::with_capacity(jobs.len()), Exit::Done, String::new());
-    for job in &jobs {
+    for (job, report) in jobs.iter().zip(reports) {
         let run = job.execute_with_bar()?;
-        let (result, held) = finish(job, &run, arguments.out.as_deref())?;
+        let (result, held) = finish(job, &run, report)?;
         if !held {
             exit = Exit::Unexpected;
         }
-        if arguments.ticks.is_some() {
+        if tick_file.is_some() {
             for line in tick_lines(&result.scenario, &run.trace) {
                 ticks.push_str(&serde_json::to_string(&line)?);
                 ticks.push('\n');
@@ -28,8 +31,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         results.push(result);
     }
-    if let Some(path) = &arguments.ticks {
-        file::write(path, ticks)?;
+    if let Some(file) = tick_file {
+        file.write(ticks)?;
     }
     if arguments.json {
         output::json(&results)?;
@@ -41,11 +44,29 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
 
 /// Makes the directory that reports go to.
 pub(super) fn make_directory(directory: Option<&Path>) -> Result<(), Failure> {
-    directory.map_or(Ok(()), |directory| std::fs::create_dir_all(directory).map_err(Failure::write(directory)))
+    directory.map_or(Ok(()), |directory| std::fs::create_dir_all(directory).map_err(Failure::folder(directory)))
+}
+
+/// Makes the directory, and gives the places in it for the reports of jobs, if there is to be one.
+pub(super) fn reports(
+    jobs: &[Job],
+    directory: Option<&Path>,
+    files: &mut CommandFiles,
+) -> Result<Vec<Option<ReportFiles>>, Failure> {
+    make_directory(directory)?;
+    let report = |job: &Job| {
+        let report = directory.map(|directory| ReportFiles::new(&stem(directory, &job.scene.name), files));
+        Ok(report.transpose()?)
+    };
+    jobs.iter().map(report).collect()
 }
 
 /// Scores a run, says which of the scenario's expectations do not hold, and writes the report; whether all held.
-pub(super) fn finish(job: &Job, run: &crate::run::Run, directory: Option<&Path>) -> Result<(RunResult, bool), Failure> {
+pub(super) fn finish(
+    job: &Job,
+    run: &crate::run::Run,
+    report: Option<ReportFiles>,
+) -> Result<(RunResult, bool), Failure> {
     let score = Score::new(run, &job.scene.truth);
     let result = job.result(run, &score);
     tell(&result);
@@ -56,8 +77,8 @@ pub(super) fn finish(job: &Job, run: &crate::run::Run, directory: Option<&Path>)
             held = false;
         }
     }
-    if let Some(directory) = directory {
-        job.write_report(&stem(directory, &result), run, &score, &result)?;
+    if let Some(report) = report {
+        job.write_report(report, run, &score, &result)?;
     }
     Ok((result, held))
 }
@@ -67,12 +88,12 @@ pub(super) fn show(results: &[RunResult], directory: Option<&Path>) -> Result<()
     output::result(table(results))?;
     for result in results {
         if let Some(directory) = directory {
-            output::result(format_args!("report: {}", extended(&stem(directory, result), "svg").display()))?;
+            output::result(format_args!("report: {}", extended(&stem(directory, &result.scenario), "svg").display()))?;
         }
     }
     Ok(())
 }
 
-fn stem(directory: &Path, result: &RunResult) -> PathBuf {
-    directory.join(&result.scenario)
+fn stem(directory: &Path, scenario: &str) -> PathBuf {
+    directory.join(scenario)
 }

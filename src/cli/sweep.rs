@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::file::CommandFiles;
 use crate::scene::Sweep;
 use crate::study::sweep::{
     Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
@@ -18,13 +19,15 @@ use super::progress::{Kept, Progress};
 use super::run::make_directory;
 
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
-    let plan = Plan::read(&arguments.file, !arguments.pruning.no_prune)?;
-    plan.tell_warnings()?;
+    let mut files = CommandFiles::new();
+    let plan = Plan::read(&arguments.file, !arguments.pruning.no_prune, &mut files)?;
+    plan.tell_warnings(&mut files)?;
     plan.check()?;
     let sweep = &plan.sweep;
     let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
     make_directory(Some(&directory))?;
     let path = directory.join(arguments.shard.file_name());
+    files.output("--out", &path)?.grows()?;
     let header = plan.header(arguments.shard);
     let (mut results, mut done) = Results::open(&path, &header, sweep)?;
     let resumed = done.len();

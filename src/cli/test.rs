@@ -6,6 +6,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Record, Source, records};
+use crate::file::CommandFiles;
 use crate::machine::Program;
 use crate::policy::PolicyTest;
 use crate::report::RunResult;
@@ -15,7 +16,7 @@ use crate::study::violations;
 use super::arguments::World;
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy, PolicyText};
-use super::job::Job;
+use super::job::{Job, ReportFiles};
 use super::language_arguments::TestArguments;
 use super::settings::with_settings;
 use super::{job, output, run};
@@ -33,15 +34,15 @@ struct Tested {
 
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     // Whatever is wrong with the last policy or scenario should show before the first has run.
-    let mut prepared = Vec::new();
+    let (mut prepared, mut files) = (Vec::new(), CommandFiles::new());
     for path in &arguments.policies {
-        let Loaded { value: Policy { artifact, text }, hash } = input::policy(path)?;
+        let Loaded { value: Policy { artifact, text }, hash } = input::policy(path, &mut files)?;
         let text = text.ok_or_else(|| Failure::NoText { policy: path.clone() })?;
         output::diagnostics(&text.source, &text.warnings);
         let wanted =
             |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
         let jobs = text.tests.iter().filter(wanted).map(|test| {
-            let job = job_of(path, &text, test, artifact.program.clone(), hash.clone(), arguments)?;
+            let job = job_of(path, &text, test, artifact.program.clone(), hash.clone(), arguments, &mut files)?;
             Ok((test.clone(), job))
         });
         let jobs = jobs.collect::<Result<Vec<_>, Failure>>()?;
@@ -52,6 +53,12 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
         return Err(Failure::NoSuchTest { filter: filter.clone() });
     }
     run::make_directory(arguments.out.as_deref())?;
+    let tests = prepared.iter().flat_map(|(_, jobs)| jobs);
+    let reports = (1..).zip(tests).map(|(number, (test, _))| {
+        let stem = arguments.out.as_ref().map(|directory| directory.join(file_name(number, &test.title)));
+        stem.map(|stem| ReportFiles::new(&stem, &mut files)).transpose()
+    });
+    let mut reports = reports.collect::<Result<Vec<_>, _>>()?.into_iter();
 
     let mut tested = Vec::with_capacity(count);
     for (source, jobs) in &prepared {
@@ -60,8 +67,8 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
             let score = Score::new(&run, &job.scene.truth);
             let result = job.result(&run, &score);
             let faults = violations(test, &job.program, &run, &score);
-            if let Some(directory) = &arguments.out {
-                job.write_report(&directory.join(file_name(tested.len() + 1, &test.title)), &run, &score, &result)?;
+            if let Some(report) = reports.next().flatten() {
+                job.write_report(report, &run, &score, &result)?;
             }
             if !arguments.json {
                 tell(source, test, &result, &faults)?;
@@ -92,9 +99,10 @@ fn job_of(
     mut program: Program,
     policy_hash: Sha256,
     arguments: &TestArguments,
+    files: &mut CommandFiles,
 ) -> Result<Job, Failure> {
     let path = policy.parent().unwrap_or(Path::new("")).join(&test.scenario);
-    let Loaded { value: scene, hash } = input::scenario(&path).map_err(|failure| match failure {
+    let Loaded { value: scene, hash } = input::scenario(&path, files).map_err(|failure| match failure {
         Failure::Read { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
             let fault = Diagnostic::error("P0702", message, test.scenario_span, "this scenario")

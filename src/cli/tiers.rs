@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::file::CommandFiles;
 use crate::machine::Program;
 use crate::scene::WorldKind;
 use crate::study::bench::{SCENARIOS, TextFile};
@@ -16,7 +17,7 @@ use super::{input, output};
 
 /// Compares worlds. However far apart they are, that is done.
 pub(super) fn tiers(arguments: &BenchArguments) -> Result<Exit, Failure> {
-    let programs = policies(arguments)?.into_iter();
+    let programs = policies(arguments, &mut CommandFiles::new())?.into_iter();
     let programs: Vec<_> = programs.map(|(_, policy)| Arc::new(policy.value.artifact.program)).collect();
     let pairs: Vec<_> = SCENARIOS.iter().flat_map(|file| programs.iter().map(move |program| (file, program))).collect();
     let mut progress = Progress::new(pairs.len());

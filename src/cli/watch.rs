@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 
+use crate::file::CommandFiles;
 use crate::report::RunResult;
 use crate::run::Trace;
 use crate::score::Statistics;
@@ -15,7 +16,7 @@ use crate::study::ExecuteError;
 
 use super::arguments::RunArguments;
 use super::exit::{Exit, Failure};
-use super::job::{Files, Job, seconds};
+use super::job::{Job, Told, seconds};
 use super::{output, run};
 
 /// Editors write a file in several steps; when nothing has happened for this long, they are done.
@@ -29,13 +30,13 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
     watch.add(first.cloned().collect())?;
     run::make_directory(arguments.out.as_deref())?;
     loop {
-        let mut files = Files::default();
-        let jobs = Job::all(arguments, &mut files);
-        if watch.add(files.read)? {
+        let mut files = CommandFiles::new();
+        let jobs = Job::all(arguments, &mut files, &mut Told::default());
+        if watch.add(files.inputs().map(Path::to_owned).collect())? {
             // What was written to a new folder before it was watched has been missed.
             continue;
         }
-        match jobs.and_then(|jobs| run_all(&jobs, arguments, &watch)) {
+        match jobs.and_then(|jobs| run_all(&jobs, arguments, &mut files, &watch)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
             Err(failure) => failure.report(),
             Ok(results) => run::show(&results, arguments.out.as_deref())?,
@@ -45,17 +46,23 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
 }
 
-fn run_all(jobs: &[Job], arguments: &RunArguments, watch: &Watch) -> Result<Vec<RunResult>, Failure> {
-    let run = |job: &Job| {
+fn run_all(
+    jobs: &[Job],
+    arguments: &RunArguments,
+    files: &mut CommandFiles,
+    watch: &Watch,
+) -> Result<Vec<RunResult>, Failure> {
+    let reports = run::reports(jobs, arguments.out.as_deref(), files)?;
+    let run = |(job, report): (&Job, _)| {
         let mut told = Ok(());
         let run = job.execute(|trace| {
             told = tell(job, trace);
             if told.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         told?;
-        Ok(run::finish(job, &run?, arguments.out.as_deref())?.0)
+        Ok(run::finish(job, &run?, report)?.0)
     };
-    jobs.iter().map(run).collect()
+    jobs.iter().zip(reports).map(run).collect()
 }
 
 /// One line of how a run goes: the state at this second, and how far the tips were from the object since the last line.

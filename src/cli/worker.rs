@@ -4,6 +4,7 @@ use std::io::stdin;
 use std::sync::mpsc::channel;
 
 use crate::diagnostic::{Colour, terminal};
+use crate::file::CommandFiles;
 use crate::scene::SweepRun;
 use crate::study::engine_version;
 use crate::study::stress::StressTask;
@@ -25,7 +26,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
             task.map(|task| serde_json::to_string(&task.run()))
         });
     };
-    let plan = Plan::read(file, !arguments.pruning.no_prune)?;
+    let plan = Plan::read(file, !arguments.pruning.no_prune, &mut CommandFiles::new())?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
         plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run)))
     })

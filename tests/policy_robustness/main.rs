@@ -1,5 +1,6 @@
 //! No text makes the compiler panic, exhaust a small stack, or go on for ever; each either compiles or is answered.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 #[path = "../common/allocator.rs"]
 mod allocator;

@@ -1,5 +1,6 @@
 //! What there is to be touched: geometry, outlines from files, scenarios, families, solids.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 mod errors;
 mod explain;

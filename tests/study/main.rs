@@ -1,5 +1,6 @@
 //! What is made of runs: scores, reports, benches, comparisons.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 mod bench;
 #[path = "../common/mod.rs"]

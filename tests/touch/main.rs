@@ -1,5 +1,6 @@
 //! From contact to command: mechanics, readings, perception, steering, worlds.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 #[cfg(feature = "sim")]
 mod cable;

@@ -16,6 +16,7 @@ use super::{At, FUNCTIONS, MemberSource, members};
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
 
 #[test]
+#[expect(clippy::disallowed_methods, reason = "a test may open files")]
 fn the_reference_page_is_up_to_date() {
     let page = page();
     if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {

@@ -1,14 +1,16 @@
 //! The results of a sweep's shards as one.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::header::Header;
 use super::line::read_line;
-use super::results::{ResultsError, check_place, indices, read};
+use super::lines::Lines;
+use super::results::{self, ResultsError, check_place};
 use super::shard::Shard;
 use crate::diagnostic::Source;
+use crate::file::CommandFiles;
 use crate::scene::Sweep;
 use crate::study::Figures;
 
@@ -38,43 +40,36 @@ pub struct Missing {
 ///
 /// # Errors
 /// [`ResultsError`] when they are not results of one and the same sweep, or a run has two.
-pub fn merge(paths: &[PathBuf]) -> Result<Option<Merged>, ResultsError> {
-    let mut merged: Option<Merged> = None;
+pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merged>, ResultsError> {
+    let (mut merged, mut indices): (Option<Merged>, _) = (None, HashMap::new());
     let mut owners = BTreeMap::new();
     for path in paths {
-        let mut file = File::open(path).map_err(ResultsError::file(path))?;
-        let mut found = Vec::new();
-        let is_same = |header: &Header| {
-            let difference = merged.as_ref().and_then(|merged| header.difference(&merged.header));
-            difference.map_or(Ok(()), |difference| Err(ResultsError::Other { path: path.clone(), difference }))
-        };
-        let (header, _) = read(path, &mut file, is_same, |number, line| {
-            let wrong = |cause: serde_json::Error| ResultsError::Line {
-                path: path.clone(),
-                line: number,
-                cause: cause.to_string(),
-            };
-            let (key, figures) = read_line(line).map_err(wrong)?;
-            found.push((number, key, figures, line.trim_end().to_owned()));
-            Ok(())
-        })?;
+        let file = files.open(path).map_err(ResultsError::file(path))?;
+        let mut lines = Lines::new(path, &file);
         let no_header = || ResultsError::NoResults { path: path.clone(), cause: "it is empty".to_owned() };
-        let header = header.ok_or_else(no_header)?;
+        let header = lines.header()?.ok_or_else(no_header)?;
         let merged = match &mut merged {
-            Some(merged) => merged,
-            none => none.insert(Merged::new(path, header)?),
+            Some(merged) => {
+                if let Some(difference) = header.difference(&merged.header) {
+                    return Err(ResultsError::Other { path: path.clone(), difference });
+                }
+                merged
+            }
+            none => {
+                let merged = none.insert(Merged::new(path, header)?);
+                indices = results::indices(&merged.sweep);
+                merged
+            }
         };
-        let indices = indices(&merged.sweep);
-        for (line, key, figures, text) in found {
-            let Some(&index) = indices.get(&key) else {
-                let cause = format!("there is no run `{key}` in the sweep");
-                return Err(ResultsError::Line { path: path.clone(), line, cause });
-            };
-            if let Some(first) = owners.insert(index, path) {
+        while let Some((number, line)) = lines.next()? {
+            let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
+            let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
+            let index = indices.get(&key).ok_or_else(|| wrong(format!("there is no run `{key}` in the sweep")))?;
+            if let Some(first) = owners.insert(*index, path) {
                 return Err(ResultsError::Twice { first: first.clone(), second: path.clone(), key });
             }
-            merged.lines.insert(index, text);
-            merged.figures.insert(index, figures);
+            merged.lines.insert(*index, line.trim_end().to_owned());
+            merged.figures.insert(*index, figures);
         }
     }
     Ok(merged)
@@ -90,11 +85,11 @@ impl Merged {
         Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
     }
 
-    /// Checks that the results may be written to `path`.
+    /// Checks that the results may be written to `path`. As long as what it gives is kept, no sweep writes there.
     ///
     /// # Errors
     /// [`ResultsError`] when something else is there: a part of the sweep, or what another run of it is still writing.
-    pub fn check_place(&self, path: &Path) -> Result<(), ResultsError> {
+    pub fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
         check_place(path, &self.header.of_shard(Shard::WHOLE))
     }
 

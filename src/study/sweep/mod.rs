@@ -2,6 +2,7 @@
 
 mod header;
 mod line;
+mod lines;
 mod merge;
 mod results;
 mod shard;

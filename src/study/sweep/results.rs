@@ -1,13 +1,15 @@
 //! A file of results that grows line by line, and that is gone on with after a kill.
 
 use std::collections::{BTreeMap, HashMap};
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, BufRead, BufReader, Seek, Write};
+use std::fs::{File, TryLockError};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::header::Header;
 use super::line::read_line;
+use super::lines::{LINE_LIMIT, Lines};
 use super::shard::Shard;
+use crate::file;
 use crate::scene::Sweep;
 use crate::study::Figures;
 
@@ -54,6 +56,14 @@ pub enum ResultsError {
         /// What is wrong with it.
         cause: String,
     },
+    /// A line is too long to be a result.
+    #[error("{}, line {line}: it has more than {} MiB, and no line of results has; is this the right file?", path.display(), LINE_LIMIT >> 20)]
+    LongLine {
+        /// The file.
+        path: PathBuf,
+        /// The number of the line, from 1.
+        line: usize,
+    },
     /// A run has two results.
     #[error("{} and {} both have the run `{key}`; merge results of shards of the same number, each once", first.display(), second.display())]
     Twice {
@@ -94,51 +104,75 @@ impl Results {
     /// tells.
     pub fn open(path: &Path, header: &Header, sweep: &Sweep) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let failed = ResultsError::file(path);
-        let file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(&failed)?;
-        lock(path, &file)?;
-        let mut results = Self { path: path.to_owned(), file };
+        let file = locked(path)?;
         let indices = indices(sweep);
         let mut there = BTreeMap::new();
-        let is_same = |found: &Header| check(path, found, header);
-        let (found, whole) = read(path, &mut results.file, is_same, |number, line| {
+        let mut lines = Lines::new(path, &file);
+        let found = lines.header()?;
+        if let Some(found) = &found {
+            check(path, found, header)?;
+        }
+        while let Some((number, line)) = lines.next()? {
             let wrong = |cause: String| ResultsError::Line { path: path.to_owned(), line: number, cause };
-            let (key, figures) = read_line(line).map_err(|cause| wrong(cause.to_string()))?;
+            let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
             let index = indices.get(&key).filter(|_| header.shard.has(&key));
             let index = *index.ok_or_else(|| wrong(format!("there is no run `{key}` here")))?;
-            match there.insert(index, figures) {
-                None => Ok(()),
-                Some(_) => Err(wrong(format!("the run `{key}` is there a second time"))),
+            if there.insert(index, figures).is_some() {
+                return Err(wrong(format!("the run `{key}` is there a second time")));
             }
-        })?;
-        results.file.set_len(whole).map_err(&failed)?;
+        }
+        let whole = lines.whole();
+        file.set_len(whole).map_err(&failed)?;
+        let mut results = Self { path: path.to_owned(), file };
         if found.is_none() {
             let header = serde_json::to_string(header).map_err(io::Error::from).map_err(&failed)?;
             results.add(&header)?;
+            file::sync_name(path).map_err(&failed)?;
         }
         Ok((results, there))
     }
 
-    /// Adds the line of a run. It is in the file when this returns.
+    /// Adds the line of a run. It is on the disk when this returns.
     ///
     /// # Errors
     /// [`ResultsError::File`] when it cannot be written.
     pub fn add(&mut self, line: &str) -> Result<(), ResultsError> {
         // In one go, so that a line is there as a whole or as the torn end of the file.
         let line = format!("{}\n", line.trim_end());
-        self.file.write_all(line.as_bytes()).map_err(ResultsError::file(&self.path))
+        let written = if line.len() > LINE_LIMIT {
+            // It could not be read again.
+            Err(io::Error::new(io::ErrorKind::InvalidData, "a line of results would be too long"))
+        } else {
+            self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data())
+        };
+        written.map_err(ResultsError::file(&self.path))
     }
 }
 
-/// Checks that results of what `header` tells may stand at `path`: that there is nothing, or what are results of the same, to which
-/// nobody writes.
-pub(super) fn check_place(path: &Path, header: &Header) -> Result<(), ResultsError> {
-    match File::open(path) {
-        Ok(mut file) => {
-            lock(path, &file)?;
-            read(path, &mut file, |found| check(path, found, header), |_, _| Ok(())).map(|_| ())
+/// Checks that results of what `header` tells may take the place of what is at `path`: that there is nothing, or what are results of the same.
+/// As long as what it gives is kept, no sweep writes to them.
+pub(super) fn check_place(path: &Path, header: &Header) -> Result<Option<File>, ResultsError> {
+    // What is no regular file holds nothing that could be lost.
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let file = file::open(path).map_err(ResultsError::file(path))?;
+    lock(path, &file)?;
+    if let Some(found) = Lines::new(path, &file).header()? {
+        check(path, &found, header)?;
+    }
+    Ok(Some(file))
+}
+
+/// Opens a file of results, which nobody else writes to as long as it is open.
+fn locked(path: &Path) -> Result<File, ResultsError> {
+    loop {
+        let file = file::append(path).map_err(ResultsError::file(path))?;
+        lock(path, &file)?;
+        // Before it was locked, merged results may have taken its place; what is added to it would be lost.
+        if file::is_at(&file, path) {
+            return Ok(file);
         }
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(cause) => Err(ResultsError::file(path)(cause)),
     }
 }
 
@@ -155,41 +189,4 @@ fn check(path: &Path, found: &Header, header: &Header) -> Result<(), ResultsErro
     let difference = found.difference(header);
     let difference = difference.or_else(|| (found.shard != header.shard).then(|| other_shard(found.shard)));
     difference.map_or(Ok(()), |difference| Err(ResultsError::Other { path: path.to_owned(), difference }))
-}
-
-/// Reads a file of results: has what the first line says checked, and gives every other line with its number. Returns what the first
-/// says, `None` if it is not there as a whole, and how many bytes there are without a torn end.
-pub(super) fn read(
-    path: &Path,
-    file: &mut File,
-    check: impl Fn(&Header) -> Result<(), ResultsError>,
-    mut each: impl FnMut(usize, &str) -> Result<(), ResultsError>,
-) -> Result<(Option<Header>, u64), ResultsError> {
-    let failed = ResultsError::file(path);
-    file.rewind().map_err(&failed)?;
-    let mut reader = BufReader::new(file);
-    let (mut header, mut whole, mut text) = (None, 0, Vec::new());
-    for number in 1.. {
-        text.clear();
-        reader.read_until(b'\n', &mut text).map_err(&failed)?;
-        if text.last() != Some(&b'\n') {
-            break;
-        }
-        whole += text.len() as u64;
-        let line = String::from_utf8_lossy(&text);
-        if header.is_none() {
-            let no_results =
-                |cause: serde_json::Error| ResultsError::NoResults { path: path.to_owned(), cause: cause.to_string() };
-            let found = serde_json::from_str(&line).map_err(no_results)?;
-            check(&found)?;
-            header = Some(found);
-        } else {
-            each(number, &line)?;
-        }
-    }
-    // Something else that just has no end of line is not to be taken for a torn header.
-    if header.is_none() && !text.is_empty() && !text.starts_with(br#"{"sweep":""#) {
-        return Err(ResultsError::NoResults { path: path.to_owned(), cause: "it has no first line".to_owned() });
-    }
-    Ok((header, whole))
 }

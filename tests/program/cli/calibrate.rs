@@ -3,7 +3,7 @@
 use super::program::{directory, stderr, stdout, vibrissa};
 
 /// Touches on a line of places that a whisker might have, as a text.
-fn sets() -> String {
+pub(crate) fn sets() -> String {
     use std::fmt::Write;
     let mut text = "x_mm,y_mm,base_angle_urad\n".to_owned();
     for index in 0..120 {
@@ -55,7 +55,7 @@ fn what_was_measured_is_not_written_over() {
     std::fs::write(&file, sets()).unwrap();
     let output = vibrissa(&["calibrate", &file.display().to_string(), "--out", &folder.display().to_string()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("would overwrite what it is made from"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("this command reads it as"), "{}", stderr(&output));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), sets());
     assert!(!folder.join("calibration.yaml").exists());
 }

@@ -78,7 +78,10 @@ fn what_cannot_be_compiled_or_is_no_sound_machine_is_refused() {
         (vec!["compile", bad, "-o", &cut], "P0201"),
         (vec!["compile", "policies/thesis.fsm", "-o", &cut, "--set", "speed=2 m/s"], "must lie between"),
         (vec!["compile", "policies/thesis.fsm"], "--out"),
-        (vec!["compile", "policies/thesis.fsm", "-o", "policies/thesis.fsm"], "would overwrite what it is made from"),
+        (
+            vec!["compile", "policies/thesis.fsm", "-o", "policies/thesis.fsm"],
+            "this command reads it as policies/thesis.fsm",
+        ),
         (vec!["compile", "policies/thesis.fsm", "-o", "nowhere/thesis.machine"], "cannot write nowhere/thesis.machine"),
     ] {
         let output = vibrissa(&arguments);

@@ -1,14 +1,16 @@
 //! The command line as its users meet it: what goes where, and with which exit status.
 
 mod argument;
-mod calibrate;
+pub(crate) mod calibrate;
 mod check;
 mod compile;
+#[cfg(unix)]
+mod files;
 mod fmt;
 mod graph;
 #[cfg(target_os = "linux")]
 mod interrupt;
-mod program;
+pub(crate) mod program;
 mod run;
 mod stress;
 #[cfg(feature = "sim")]

@@ -284,7 +284,8 @@ fn merged_results_take_the_place_of_nothing_else() {
         let output = vibrissa(&["sweep", &file.display().to_string(), "--out", &out, "--shard", shard]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     }
-    let shard = directory.join("shard-1-of-2.jsonl").display().to_string();
+    let shard = directory.join("kept").display().to_string();
+    fs::copy(directory.join("shard-1-of-2.jsonl"), &shard).unwrap();
     let others = directory.join("results.jsonl");
     fs::write(&others, "letters to a friend\n").unwrap();
     for (arguments, reason) in [

@@ -1,0 +1,15 @@
+//! Files: regular ones are read within a bound, told apart by what they are, and written as a whole or not at all. No other code opens
+//! a file; `clippy.toml` forbids it.
+#![expect(clippy::disallowed_methods, reason = "this is the place where files are opened")]
+
+mod command_files;
+mod identity;
+mod output;
+mod regular;
+mod replace;
+
+pub use command_files::CommandFiles;
+pub use identity::is_at;
+pub use output::{Output, OutputError};
+pub use regular::{append, open, read, read_at_most};
+pub use replace::{replace, sync_name};

@@ -1,0 +1,122 @@
+//! A place that a command writes to.
+
+use std::fmt;
+use std::fs::OpenOptions;
+use std::io::{Error, ErrorKind, Write, stderr, stdout};
+use std::path::{Path, PathBuf};
+
+use super::replace::replace;
+
+/// A place that a command may write to: nothing that it reads, and nothing that it writes elsewhere. [`CommandFiles`](super::CommandFiles) gives it.
+#[derive(Debug)]
+pub struct Output {
+    argument: &'static str,
+    path: PathBuf,
+    way: Way,
+}
+
+/// How to write.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Way {
+    /// By a new file in the place of the old one.
+    Replace,
+    /// What is no regular file, such as a pipe, is opened and written to.
+    Open,
+    /// What is one of the program's own streams, under whatever name, goes there with the rest.
+    Stream(Stream),
+}
+
+/// A stream of the program that is a regular file.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Stream {
+    Output,
+    Error,
+}
+
+impl fmt::Display for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Output => "standard output",
+            Self::Error => "standard error",
+        })
+    }
+}
+
+/// Why nothing is written to a place.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// It cannot be written.
+    #[error("cannot write {}: {cause}; give another place with {argument}", path.display())]
+    Unwritable {
+        /// The argument that names the place, or its folder.
+        argument: &'static str,
+        /// The place.
+        path: PathBuf,
+        /// Why.
+        cause: Error,
+    },
+    /// The command reads it.
+    #[error("cannot write {}: this command reads it as {}; give another place with {argument}", path.display(), input.display())]
+    Input {
+        /// The argument that names the place, or its folder.
+        argument: &'static str,
+        /// The place.
+        path: PathBuf,
+        /// The same file, as it was read.
+        input: PathBuf,
+    },
+    /// The command writes something else to it.
+    #[error("cannot write {}: {other_argument} writes it as {}; give another place with {argument}", path.display(), other.display())]
+    Twice {
+        /// The argument that names the place, or its folder.
+        argument: &'static str,
+        /// The place.
+        path: PathBuf,
+        /// The argument that names it first.
+        other_argument: &'static str,
+        /// The same place, as that names it.
+        other: PathBuf,
+    },
+}
+
+impl Output {
+    pub(super) fn new(argument: &'static str, path: &Path, way: Way) -> Self {
+        Self { argument, path: path.to_owned(), way }
+    }
+
+    /// The place, as the command line names it.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Checks that lines can be added to it: that it is a regular file, or none, and no stream of the program goes there.
+    ///
+    /// # Errors
+    /// [`OutputError::Unwritable`].
+    pub fn grows(self) -> Result<(), OutputError> {
+        let Self { argument, path, way } = self;
+        let cause = || Error::new(ErrorKind::InvalidInput, "lines are added only to a regular file of their own");
+        if matches!(way, Way::Replace) {
+            Ok(())
+        } else {
+            Err(OutputError::Unwritable { argument, path, cause: cause() })
+        }
+    }
+
+    /// Writes it, as a whole or not at all if it is a regular file.
+    ///
+    /// # Errors
+    /// [`OutputError::Unwritable`].
+    pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
+        let content = content.as_ref();
+        let written = match self.way {
+            Way::Replace => replace(&self.path, content),
+            Way::Open => OpenOptions::new().write(true).open(&self.path).and_then(|mut file| file.write_all(content)),
+            Way::Stream(Stream::Output) => stdout().write_all(content).and_then(|()| stdout().flush()),
+            Way::Stream(Stream::Error) => stderr().write_all(content),
+        };
+        let Self { argument, path, .. } = self;
+        written.map_err(|cause| OutputError::Unwritable { argument, path, cause })
+    }
+}

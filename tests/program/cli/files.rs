@@ -1,0 +1,388 @@
+//! Inputs and outputs: what a command reads it does not write, under no name; what it writes is there as a whole; what would block is refused.
+
+use std::fs::{self, Permissions};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::calibrate::sets;
+use super::program::{directory, stderr, stdout, vibrissa};
+
+const LIBRARY: &str = "library laws\nlet still(w: whisker) = not w.touching\n";
+const POLICY: &str = "machine quick\nuse \"laws.fsm\" (still)\n\
+    whisker r0  param speed = 5 cm/s in 1 cm/s .. 10 cm/s\ninitial Going\n\
+    state Going {\n  steer r0 along vector(1, 0) at speed turning 0 deg/s\n  after 0.1 s -> Failure(\"over\")\n\
+    when not still(r0) -> Failure(\"touched\")\n}\n\
+    test \"it fails\" in \"scene.yaml\" { expect run.failed }\n";
+
+/// A folder with files of every kind that commands read.
+fn folder(name: &str) -> PathBuf {
+    let folder = directory(name);
+    let scene = "name: scene\nworld: quasistatic\npolicy: quick.fsm\n\
+        rig: {whiskers: {r0: {calibration: r0.yaml}, l0: {}}}\n\
+        objects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]\n\
+        start: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 1 s}\nexpect: {outcome: failed}\n";
+    let sweep = "name: small\npolicies: [quick.fsm]\nscenes: [{scenario: scene.yaml}]\n\
+        vary: {policy: {speed: [4 cm/s, 5 cm/s]}}\n";
+    let calibration = "vibrissa_calibration: 2\nabout: a test\nhinge_stiffness: 1.1\n";
+    for (name, text) in [
+        ("quick.fsm", POLICY),
+        ("laws.fsm", LIBRARY),
+        ("scene.yaml", scene),
+        ("r0.yaml", calibration),
+        ("small.yaml", sweep),
+        ("measured.csv", &sets()),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    folder
+}
+
+/// A command line in which `@` stands for a folder.
+fn in_folder(folder: &Path, line: &str) -> std::process::Output {
+    let words: Vec<_> = line.split(' ').map(|word| word.replace('@', folder.to_str().unwrap())).collect();
+    vibrissa(&words.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn text(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+/// Commands with an input that the place of an output is made to be.
+const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
+    // command, input, output, argument
+    ("run @/scene.yaml --ticks @/OUT", "scene.yaml", "OUT", "--ticks"),
+    ("run @/scene.yaml --ticks @/OUT", "r0.yaml", "OUT", "--ticks"),
+    ("run @/scene.yaml --ticks @/OUT", "quick.fsm", "OUT", "--ticks"),
+    ("run @/scene.yaml --ticks @/OUT", "laws.fsm", "OUT", "--ticks"),
+    ("run @/scene.yaml --policy @/quick.fsm --ticks @/OUT", "quick.fsm", "OUT", "--ticks"),
+    ("run @/scene.yaml --out @", "laws.fsm", "scene.svg", "--out"),
+    ("run @/scene.yaml --out @", "scene.yaml", "scene.json", "--out"),
+    ("test @/quick.fsm --out @", "quick.fsm", "01-it-fails.json", "--out"),
+    ("test @/quick.fsm --out @", "scene.yaml", "01-it-fails.svg", "--out"),
+    ("graph @/quick.fsm -o @/OUT", "quick.fsm", "OUT", "--out"),
+    ("graph @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
+    ("compile @/quick.fsm -o @/OUT", "quick.fsm", "OUT", "--out"),
+    ("compile @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
+    ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
+    ("calibrate @/measured.csv --rig @/scene.yaml --out @", "scene.yaml", "calibration.yaml", "--out"),
+    ("calibrate @/measured.csv --rig @/scene.yaml --out @", "r0.yaml", "profile.svg", "--out"),
+    ("bench --policy @/quick.fsm --world quasistatic --out @", "laws.fsm", "results.json", "--out"),
+    ("bench --policy @/quick.fsm --world quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
+    (
+        "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
+        "laws.fsm",
+        "polygon-0.svg",
+        "--out",
+    ),
+    (
+        "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
+        "quick.fsm",
+        "results.jsonl",
+        "--out",
+    ),
+    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "scene.yaml", "scene-pareto.json", "--out"),
+    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-pareto.svg", "--out"),
+    ("sweep @/small.yaml --out @", "small.yaml", "results.jsonl", "--out"),
+    ("sweep @/small.yaml --out @", "quick.fsm", "results.jsonl", "--out"),
+    ("sweep @/small.yaml --out @", "laws.fsm", "results.jsonl", "--out"),
+    ("sweep @/small.yaml --out @", "scene.yaml", "results.jsonl", "--out"),
+    ("sweep @/small.yaml --out @", "r0.yaml", "results.jsonl", "--out"),
+];
+
+#[test]
+fn no_command_writes_to_what_it_reads_under_any_name_or_link() {
+    let folder = folder("onto-input");
+    let inputs = ["quick.fsm", "laws.fsm", "scene.yaml", "r0.yaml", "small.yaml", "measured.csv"];
+    let texts = inputs.map(|name| text(&folder, name));
+    for &(line, input, output, argument) in ONTO_INPUTS {
+        let place = folder.join(output);
+        let by_name = |name: &str| in_folder(&folder, &line.replace("OUT", name));
+        let mut refused = vec![];
+        if output == "OUT" {
+            refused.push(("its name", by_name(input)));
+            refused.push(("another path", by_name(&format!("../onto-input/./{input}"))));
+        }
+        for way in ["a symbolic link", "a hard link"] {
+            match way {
+                "a symbolic link" => symlink(folder.join(input), &place).unwrap(),
+                _ => fs::hard_link(folder.join(input), &place).unwrap(),
+            }
+            refused.push((way, by_name("OUT")));
+            fs::remove_file(&place).unwrap();
+        }
+        for (way, refused) in refused {
+            let told = stderr(&refused);
+            assert_eq!(refused.status.code(), Some(2), "{line}, {input} by {way}: {told}");
+            for wanted in ["this command reads it as", input, &format!("another place with {argument}")] {
+                assert!(told.contains(wanted), "{line}, {input} by {way}: {wanted}: {told}");
+            }
+        }
+        for (name, before) in inputs.iter().zip(&texts) {
+            assert_eq!(&text(&folder, name), before, "{line} has changed {name}");
+        }
+    }
+}
+
+#[test]
+fn merge_writes_to_none_of_its_inputs() {
+    let folder = folder("onto-merged");
+    assert_eq!(in_folder(&folder, "sweep @/small.yaml --out @").status.code(), Some(0));
+    let before = text(&folder, "results.jsonl");
+    symlink(folder.join("results.jsonl"), folder.join("link.jsonl")).unwrap();
+    fs::hard_link(folder.join("results.jsonl"), folder.join("hard.jsonl")).unwrap();
+    for line in [
+        "merge @/results.jsonl",
+        "merge @",
+        "merge @/results.jsonl --out @/link.jsonl",
+        "merge @/link.jsonl --out @/hard.jsonl",
+    ] {
+        let refused = in_folder(&folder, line);
+        assert_eq!(refused.status.code(), Some(2), "{line}: {}", stderr(&refused));
+        assert!(stderr(&refused).contains("this command reads it as"), "{line}: {}", stderr(&refused));
+    }
+    assert_eq!(text(&folder, "results.jsonl"), before);
+    assert_eq!(in_folder(&folder, "merge @ --out @/merged.jsonl").status.code(), Some(0));
+    assert_eq!(text(&folder, "merged.jsonl").lines().count(), before.lines().count());
+}
+
+#[test]
+fn two_outputs_are_two_files_also_where_there_is_none_yet() {
+    let folder = folder("two-outputs");
+    symlink("new.json", folder.join("later.json")).unwrap();
+    symlink("later.json", folder.join("scene.svg")).unwrap();
+    for line in [
+        "run @/scene.yaml --out @/new --ticks @/new/../new/scene.json",
+        // Links to what is not there.
+        "run @/scene.yaml --out @ --ticks @/new.json",
+    ] {
+        let refused = in_folder(&folder, line);
+        let told = stderr(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{line}: {told}");
+        assert!(told.contains("--out writes it as") && told.contains("another place with --ticks"), "{line}: {told}");
+        assert!(!folder.join("new/scene.json").exists() && !folder.join("new.json").exists());
+    }
+}
+
+#[test]
+fn what_standard_output_goes_to_is_not_read() {
+    let folder = folder("onto-stdout");
+    for name in ["quick.fsm", "laws.fsm"] {
+        let file = fs::OpenOptions::new().append(true).open(folder.join(name)).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+        let output = command.arg("graph").arg(folder.join("quick.fsm")).stdout(file).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("standard output"), "{}", stderr(&output));
+    }
+    assert_eq!((text(&folder, "quick.fsm"), text(&folder, "laws.fsm")), (POLICY.to_owned(), LIBRARY.to_owned()));
+}
+
+#[test]
+fn a_file_that_is_written_keeps_its_mode_its_links_and_its_protection() {
+    let folder = folder("modes");
+    let chart = folder.join("chart.svg");
+    let mode = |path: &Path| path.metadata().unwrap().mode() & 0o7777;
+    let graph = |to: &str| in_folder(&folder, &format!("graph @/quick.fsm -o @/{to}"));
+    assert_eq!(graph("chart.svg").status.code(), Some(0));
+    // A new file is like any that others make.
+    fs::write(folder.join("usual"), "").unwrap();
+    assert_eq!(mode(&chart), mode(&folder.join("usual")));
+    for wanted in [0o600, 0o640, 0o755] {
+        fs::set_permissions(&chart, Permissions::from_mode(wanted)).unwrap();
+        assert_eq!(graph("chart.svg").status.code(), Some(0));
+        assert_eq!(mode(&chart), wanted);
+    }
+    let whole = text(&folder, "chart.svg");
+
+    // A link stays, and the file that it leads to is written, be it there or not.
+    fs::create_dir(folder.join("other")).unwrap();
+    for (link, target) in [("first", "other/there"), ("second", "other/new")] {
+        symlink(target, folder.join(link)).unwrap();
+    }
+    fs::write(folder.join("other/there"), "old").unwrap();
+    for (link, target) in [("first", "other/there"), ("second", "other/new")] {
+        assert_eq!(graph(link).status.code(), Some(0));
+        assert_eq!(fs::read_link(folder.join(link)).unwrap(), Path::new(target));
+        assert_eq!(text(&folder, target), whole);
+    }
+
+    // What is called as temporary files once were is nobody's business.
+    fs::write(folder.join("mine"), "mine").unwrap();
+    symlink(folder.join("mine"), folder.join("chart.svg.unfinished")).unwrap();
+    assert_eq!(graph("chart.svg").status.code(), Some(0));
+    assert_eq!((text(&folder, "mine"), text(&folder, "chart.svg.unfinished")), ("mine".to_owned(), "mine".to_owned()));
+
+    // `fmt`, too: mode and link stay.
+    symlink("quick.fsm", folder.join("link.fsm")).unwrap();
+    fs::set_permissions(folder.join("quick.fsm"), Permissions::from_mode(0o604)).unwrap();
+    assert_eq!(in_folder(&folder, "fmt @/link.fsm").status.code(), Some(0));
+    assert!(folder.join("link.fsm").is_symlink() && text(&folder, "quick.fsm") != POLICY);
+    assert_eq!(mode(&folder.join("quick.fsm")), 0o604);
+    let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert!(names.iter().all(|name| !name.to_string_lossy().starts_with(".vibrissa-")), "{names:?}");
+}
+
+#[test]
+fn what_is_no_file_is_written_to_directly() {
+    let folder = folder("special-outputs");
+    let wanted = stdout(&in_folder(&folder, "graph @/quick.fsm"));
+    assert_eq!(stdout(&in_folder(&folder, "graph @/quick.fsm -o /dev/stdout")), wanted);
+    assert_eq!(in_folder(&folder, "graph @/quick.fsm -o /dev/null").status.code(), Some(0));
+    assert!(!Path::new("/dev/null").metadata().unwrap().is_file());
+    // Standard output that is a file gets all that the command prints, in order.
+    let printed = folder.join("printed");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.arg("run").arg(folder.join("scene.yaml")).args(["--ticks", "/dev/stdout"]);
+    assert!(command.stdout(fs::File::create(&printed).unwrap()).status().unwrap().success());
+    let printed = fs::read_to_string(printed).unwrap();
+    assert!(printed.starts_with('{') && !printed.lines().last().unwrap().starts_with('{'), "{printed}");
+
+    let pipe = folder.join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let reader = Command::new("cat").arg(&pipe).stdout(Stdio::piped()).spawn().unwrap();
+    assert_eq!(in_folder(&folder, "graph @/quick.fsm -o @/pipe").status.code(), Some(0));
+    assert_eq!(stdout(&reader.wait_with_output().unwrap()), wanted);
+    let refused = in_folder(&folder, "graph @/quick.fsm -o @");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("another place with --out"), "{}", stderr(&refused));
+}
+
+/// Every kind of file that a command may be given or may find named in another, by what names it.
+const READ: &[(&str, &str)] = &[
+    ("run @/scene.yaml", "scene.yaml"),
+    ("run @/scene.yaml", "quick.fsm"),
+    ("run @/scene.yaml", "laws.fsm"),
+    ("run @/scene.yaml", "r0.yaml"),
+    ("run @/scene.yaml --policy @/quick.fsm", "quick.fsm"),
+    ("explain @/scene.yaml", "scene.yaml"),
+    ("mjcf @/scene.yaml", "scene.yaml"),
+    ("mjcf @/scene.yaml", "r0.yaml"),
+    ("bench --policy @/quick.fsm", "quick.fsm"),
+    ("calibrate @/measured.csv", "measured.csv"),
+    ("calibrate @/measured.csv --rig @/scene.yaml", "scene.yaml"),
+    ("compare @/quick.fsm @/quick.fsm", "quick.fsm"),
+    ("compare @/quick.fsm @/quick.fsm @/scene.yaml", "scene.yaml"),
+    ("pareto @/scene.yaml", "scene.yaml"),
+    ("families --policy @/quick.fsm", "quick.fsm"),
+    ("sweep @/small.yaml --out @/out", "small.yaml"),
+    ("sweep @/small.yaml --out @/out", "quick.fsm"),
+    ("sweep @/small.yaml --out @/out", "laws.fsm"),
+    ("sweep @/small.yaml --out @/out", "scene.yaml"),
+    ("sweep @/small.yaml --out @/out", "r0.yaml"),
+    ("sweep @/small.yaml --out @", "results.jsonl"),
+    ("merge @/results.jsonl", "results.jsonl"),
+    ("check @/quick.fsm", "quick.fsm"),
+    ("check @/quick.fsm", "laws.fsm"),
+    ("compile @/quick.fsm -o @/quick.machine", "quick.fsm"),
+    ("compile @/quick.machine -o @/other.machine", "quick.machine"),
+    ("graph @/quick.fsm", "laws.fsm"),
+    ("test @/quick.fsm", "scene.yaml"),
+    ("fmt @/quick.fsm", "quick.fsm"),
+];
+
+/// Nothing waits: a pipe that nobody writes to would never begin.
+#[test]
+fn what_is_no_regular_file_is_refused_wherever_a_file_is_read() {
+    let folder = folder("pipes");
+    for &(line, name) in READ {
+        let path = folder.join(name);
+        let kept = fs::read(&path).ok();
+        for (kind, make) in [("a pipe", "mkfifo"), ("a directory", "mkdir"), ("a device", "ln -s /dev/zero")] {
+            let _ = fs::remove_file(&path);
+            let mut words = make.split(' ');
+            assert!(Command::new(words.next().unwrap()).args(words).arg(&path).status().unwrap().success());
+            // A directory of results is one that is looked into.
+            if (line, kind) != ("merge @/results.jsonl", "a directory") {
+                let refused = in_folder(&folder, line);
+                let told = stderr(&refused) + &stdout(&refused);
+                assert_eq!(refused.status.code(), Some(2), "{line}, {name} is {kind}: {told}");
+                let refusals =
+                    [&format!("it is {kind}, not a regular file"), "is a directory", "to a regular file of their own"];
+                let said = refusals.iter().any(|refusal| told.contains(refusal));
+                assert!(said && told.contains(name), "{line}, {name} is {kind}: {told}");
+            }
+            if kind == "a directory" { fs::remove_dir(&path).unwrap() } else { fs::remove_file(&path).unwrap() }
+        }
+        if let Some(kept) = kept {
+            fs::write(&path, kept).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_file_larger_than_any_of_its_kind_is_not_read_to_its_end() {
+    let folder = folder("large");
+    // A hole of a terabyte takes no room on the disk, and all memory of whoever reads it.
+    let large = |name: &str| {
+        let file = fs::File::create(folder.join(name)).unwrap();
+        file.set_len(1 << 40).unwrap();
+    };
+    for (line, name, reason) in [
+        ("check @/large.fsm", "large.fsm", "it is larger than 1 MiB"),
+        ("check @/large.machine", "large.machine", "does not begin as compiled machines do"),
+        ("run @/large.yaml", "large.yaml", "it is larger than 1 MiB"),
+        ("sweep @/large.yaml --out @/out", "large.yaml", "it is larger than 1 MiB"),
+        ("calibrate @/large.csv", "large.csv", "it is larger than 1 MiB"),
+        ("merge @/large.jsonl", "large.jsonl", "line 1: it has more than 16 MiB"),
+        ("run @/scene.yaml", "r0.yaml", "it is no calibration"),
+        ("check @/quick.fsm", "laws.fsm", "it is larger than 1 MiB"),
+    ] {
+        large(name);
+        let refused = in_folder(&folder, line);
+        let told = stderr(&refused);
+        let said = told.contains(name) && told.contains(reason);
+        assert!(refused.status.code() == Some(2) && said, "{line}: {told}");
+        fs::remove_file(folder.join(name)).unwrap();
+        if name == "r0.yaml" {
+            fs::write(folder.join(name), "vibrissa_calibration: 2\nabout: a test\n").unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_line_of_results_that_is_too_long_is_told_with_its_place() {
+    let folder = folder("long-line");
+    assert_eq!(in_folder(&folder, "sweep @/small.yaml --out @").status.code(), Some(0));
+    let results = folder.join("results.jsonl");
+    let length = fs::metadata(&results).unwrap().len();
+    let file = fs::OpenOptions::new().write(true).open(&results).unwrap();
+    file.set_len(length + (1 << 40)).unwrap();
+    for line in ["sweep @/small.yaml --out @", "merge @/results.jsonl --out @/merged.jsonl"] {
+        let refused = in_folder(&folder, line);
+        let told = stderr(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{line}: {told}");
+        assert!(told.contains("results.jsonl, line 4: it has more than 16 MiB"), "{line}: {told}");
+    }
+    assert_eq!(fs::metadata(&results).unwrap().len(), length + (1 << 40), "nothing is cut off that is not a torn line");
+}
+
+/// Whoever reads meanwhile finds one of them whole, and so it is in the end.
+#[test]
+fn of_two_that_write_one_file_at_once_one_is_there() {
+    let folder = folder("at-once");
+    let formats = ["svg", "mermaid", "dot"];
+    let chart = folder.join("chart");
+    let graph = |format: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+        command.arg("graph").arg(folder.join("quick.fsm")).args(["--format", format, "-o"]).arg(&chart);
+        command
+    };
+    let wanted: Vec<_> = formats
+        .iter()
+        .map(|format| {
+            assert!(graph(format).status().unwrap().success());
+            fs::read(&chart).unwrap()
+        })
+        .collect();
+    for _ in 0..20 {
+        let mut writers: Vec<_> = formats.iter().map(|format| graph(format).spawn().unwrap()).collect();
+        while writers.iter_mut().any(|writer| writer.try_wait().unwrap().is_none()) {
+            let found = fs::read(&chart).unwrap();
+            assert!(wanted.contains(&found), "{} bytes", found.len());
+        }
+        assert!(writers.iter_mut().all(|writer| writer.wait().unwrap().success()));
+        assert!(wanted.contains(&fs::read(&chart).unwrap()));
+    }
+    let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert!(names.iter().all(|name| !name.to_string_lossy().starts_with('.')), "{names:?}");
+}

@@ -1,0 +1,225 @@
+//! Every command that writes, killed or refused at every system call by which it does: what it replaces is then as it was, or as it is to be.
+//! The real program runs with `shim.c` between it and the C library.
+
+mod case;
+mod shim;
+
+use case::{CALIBRATE, COMPILE, Case, FAMILIES, FMT, GRAPH, MERGE, RUN, TEST};
+use shim::{Kind, Shim};
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use crate::cli::program::directory;
+
+/// The files in a folder by their names.
+type Content = BTreeMap<String, Vec<u8>>;
+
+fn content(folder: &Path) -> Content {
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    files.map(|file| (file.file_name().into_string().unwrap(), fs::read(file.path()).unwrap())).collect()
+}
+
+fn restore(folder: &Path, old: &Content) {
+    let _ = fs::remove_dir_all(folder);
+    fs::create_dir_all(folder).unwrap();
+    for (name, bytes) in old {
+        fs::write(folder.join(name), bytes).unwrap();
+    }
+}
+
+/// Whether a file's name is one that the documentation gives to temporary files.
+fn is_temporary(name: &str) -> bool {
+    let drawn = name.strip_prefix(".vibrissa-").and_then(|rest| rest.strip_suffix(".tmp"));
+    drawn.is_some_and(|drawn| drawn.len() == 12 && drawn.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+}
+
+/// Whether a file is as a run of its command leaves it. The times that runs take are written in some: those need only be whole.
+fn is_new(name: &str, bytes: &[u8], new: &Content) -> bool {
+    let text = String::from_utf8_lossy(bytes);
+    let is_json = |text: &str| serde_json::from_str::<serde_json::Value>(text).is_ok();
+    new.get(name).is_some_and(|new| new == bytes)
+        || match name.rsplit_once('.') {
+            Some((_, "json")) => text.ends_with('\n') && is_json(&text),
+            Some((_, "jsonl")) => {
+                let lines = String::from_utf8_lossy(&new[name]).lines().count();
+                text.ends_with('\n') && text.lines().count() == lines && text.lines().all(is_json)
+            }
+            Some((_, "svg")) => text.trim_end().ends_with("</svg>"),
+            Some((_, "html")) => text.trim_end().ends_with("</html>"),
+            _ => false,
+        }
+}
+
+/// Checks what a fault has left.
+fn check(found: &Content, old: &Content, new: &Content, kind: Kind) -> Result<(), String> {
+    let (temporary, named): (Vec<_>, Vec<_>) = found.iter().partition(|(name, _)| is_temporary(name));
+    if temporary.len() > usize::from(kind == Kind::Kill) {
+        return Err(format!("{} temporary files are left", temporary.len()));
+    }
+    if let Some(gone) = old.keys().find(|name| !found.contains_key(*name)) {
+        return Err(format!("{gone} is gone"));
+    }
+    let torn = named.into_iter().find(|(name, bytes)| old.get(*name) != Some(*bytes) && !is_new(name, bytes, new));
+    torn.map_or(Ok(()), |(name, bytes)| Err(format!("{name} is torn: {} bytes", bytes.len())))
+}
+
+/// Checks, by the calls of a run without a fault, that every file is on the disk before it gets its name, and its name before the end.
+fn check_order(calls: &[(String, String)], out: &Path) {
+    let folder = out.display().to_string();
+    let mut renames = 0;
+    for (index, (call, path)) in calls.iter().enumerate() {
+        assert!(call != "create" || is_temporary(Path::new(path).file_name().unwrap().to_str().unwrap()), "{path}");
+        if call == "rename" {
+            renames += 1;
+            let before = calls[..index].iter().rev().find(|(call, of)| of == path && call != "rename").unwrap();
+            assert_eq!(before.0, "fsync", "{path} is synced last before it is renamed");
+            let (synced, later) = (("fsync".to_owned(), folder.clone()), &calls[index + 1..]);
+            assert_eq!(later.iter().find(|(call, _)| call != "open"), Some(&synced), "the folder is synced next");
+        }
+    }
+    assert!(renames > 0, "{calls:?}");
+}
+
+/// Runs a command with every fault at every call, once with files to replace and once without. One that takes long is killed at every call when
+/// there are files to replace, and other calls fail at every fifth.
+fn survives(case: &Case) {
+    let Some(shim) = Shim::built() else { return };
+    let folder = directory(&format!("fault-{}", case.name));
+    // The shim compares what the kernel says, which is without links.
+    let folder = folder.canonicalize().unwrap();
+    let out = folder.join("out");
+    let start = (case.prepare)(&folder);
+    restore(&out, &start);
+    let arguments = (case.arguments)(&folder);
+    let unharmed = shim.run(&arguments, &out, Kind::None, 0);
+    assert!(matches!(unharmed.status, Some(0 | 1)), "{}: {}", case.name, unharmed.told);
+    check_order(&unharmed.calls, &out);
+    let new = content(&out);
+    assert!(new.keys().all(|name| !is_temporary(name)), "{:?}", new.keys());
+    let replaced = || new.iter().map(|(name, new)| (name.clone(), (case.old)(new))).collect();
+    let olds = match (start.is_empty(), case.is_long) {
+        (false, _) => vec![start],
+        (true, false) => vec![start, replaced()],
+        (true, true) => vec![replaced()],
+    };
+    for old in olds {
+        for kind in [Kind::Kill, Kind::Full, Kind::Broken] {
+            let stride = if case.is_long && kind != Kind::Kill { 5 } else { 1 };
+            for at in (1..).step_by(stride) {
+                restore(&out, &old);
+                let ran = shim.run(&arguments, &out, kind, at);
+                let found = content(&out);
+                if ran.calls.len() < at {
+                    assert_eq!(ran.status, unharmed.status, "{}: {}", case.name, ran.told);
+                    break;
+                }
+                let place = format!("{}, {kind:?} at {at}, {:?}", case.name, ran.calls[at - 1]);
+                if let Err(wrong) = check(&found, &old, &new, kind) {
+                    panic!("{place}: {wrong}\n{}", ran.told);
+                }
+                match kind {
+                    Kind::Kill => assert_eq!(ran.status, None, "{place}"),
+                    // Where the disk is full, what needs no room goes on; a folder that is there is not made.
+                    _ if ran.status == unharmed.status => {
+                        assert!(kind == Kind::Full || ran.calls[at - 1].0 == "mkdir", "{place}: nothing was told");
+                    }
+                    _ => assert!(ran.status == Some(2) && ran.told.contains("error"), "{place}: {}", ran.told),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn fmt_leaves_a_policy_as_it_was_or_laid_out() {
+    survives(&FMT);
+}
+
+#[test]
+fn graph_leaves_the_old_chart_or_the_new_one() {
+    survives(&GRAPH);
+}
+
+#[test]
+fn compile_leaves_the_old_machine_or_the_new_one() {
+    survives(&COMPILE);
+}
+
+#[test]
+fn run_leaves_old_reports_or_new_ones() {
+    survives(&RUN);
+}
+
+#[test]
+fn test_leaves_old_reports_or_new_ones() {
+    survives(&TEST);
+}
+
+#[test]
+fn families_leaves_old_results_or_new_ones() {
+    survives(&FAMILIES);
+}
+
+#[test]
+fn calibrate_leaves_the_old_calibration_or_the_new_one() {
+    survives(&CALIBRATE);
+}
+
+#[test]
+fn bench_leaves_old_results_or_new_ones() {
+    survives(&case::BENCH);
+}
+
+#[cfg(feature = "sim")]
+#[test]
+fn pareto_leaves_old_results_or_new_ones() {
+    survives(&case::PARETO);
+}
+
+#[test]
+fn merge_leaves_old_results_or_new_ones() {
+    survives(&MERGE);
+}
+
+/// A sweep adds to its results: whole lines stay, and the same command goes on with them.
+#[test]
+fn a_sweep_keeps_every_line_that_it_has_written_and_goes_on() {
+    let Some(shim) = Shim::built() else { return };
+    let folder = directory("fault-sweep").canonicalize().unwrap();
+    let out = folder.join("out");
+    let sweep = case::sweep_in(&folder);
+    let arguments = ["sweep", &sweep, "--jobs", "1", "--out", out.to_str().unwrap()].map(str::to_owned);
+    restore(&out, &Content::new());
+    let unharmed = shim.run(&arguments, &out, Kind::None, 0);
+    assert_eq!(unharmed.status, Some(0), "{}", unharmed.told);
+    let lines = |content: &Content| {
+        let text = content.get("results.jsonl").map(|bytes| String::from_utf8(bytes.clone()).unwrap());
+        let text = text.unwrap_or_default();
+        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+        whole.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let all = lines(&content(&out)).len();
+    assert_eq!(all, case::SWEEP_RUNS + 1);
+    // Behind every line that was written it is synced.
+    let is_write = |call: &(String, String)| call.0 == "write";
+    let synced = unharmed.calls.windows(2).filter(|pair| is_write(&pair[0]) && pair[1].0 == "fdatasync").count();
+    assert_eq!((synced, unharmed.calls.iter().filter(|call| is_write(call)).count()), (all, all));
+    for kind in [Kind::Kill, Kind::Full, Kind::Broken] {
+        for at in 1.. {
+            restore(&out, &Content::new());
+            let ran = shim.run(&arguments, &out, kind, at);
+            if ran.calls.len() < at {
+                break;
+            }
+            let kept = lines(&content(&out));
+            let written = ran.calls[..at - 1].iter().filter(|call| is_write(call)).count();
+            assert!(kept.len() >= written, "{kind:?} at {at}: {} lines of {written}", kept.len());
+            let again = shim.run(&arguments, &out, Kind::None, 0);
+            assert_eq!(again.status, Some(0), "{kind:?} at {at}: {}", again.told);
+            let now = lines(&content(&out));
+            assert!(now.len() == all && now.starts_with(&kept), "{kind:?} at {at}: {} lines", now.len());
+        }
+    }
+}
