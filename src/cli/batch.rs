@@ -24,7 +24,7 @@ pub(super) struct Finished {
 /// Runs one job. It is drawn if `is_drawn` says so of what is not as expected.
 pub(super) fn finished(job: &Job, is_drawn: impl Fn(&[Violation]) -> bool) -> Result<Finished, Failure> {
     let run = job.execute(|_| ControlFlow::Continue(()))?;
-    let score = Score::new(&run, &job.scene.truth);
+    let score = Score::new(&run, &job.scene.truth, &job.scene.rig);
     let result = job.result(&run, &score);
     let violation = |expectation: &Expectation| expectation.violation(run.outcome, |metric| score.figure(metric));
     let violations: Vec<_> = job.scene.expect.iter().filter_map(violation).collect();

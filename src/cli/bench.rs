@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::RunResult;
 use crate::scene::{Outcome, Violation};
-use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table};
+use crate::study::bench::{BenchRow, Conditions, POLICIES, SCENARIOS, TextFile, bench_page, bench_table, pooled_tips};
 
 use super::arguments::BenchArguments;
 use super::batch::{Finished, run_all};
@@ -46,6 +46,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         output::json(&rows)?;
     } else {
         output::result(bench_table(&rows))?;
+        output::result(pooled_tips(&rows))?;
         if let Some(page) = page {
             output::result(format_args!("report: {}", page.display()))?;
         }

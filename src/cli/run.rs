@@ -67,7 +67,7 @@ pub(super) fn finish(
     run: &crate::run::Run,
     report: Option<ReportFiles>,
 ) -> Result<(RunResult, bool), Failure> {
-    let score = Score::new(run, &job.scene.truth);
+    let score = Score::new(run, &job.scene.truth, &job.scene.rig);
     let result = job.result(run, &score);
     tell(&result);
     let mut held = true;

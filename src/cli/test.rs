@@ -64,7 +64,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     for (source, jobs) in &prepared {
         for (test, job) in jobs {
             let run = job.execute_with_bar()?;
-            let score = Score::new(&run, &job.scene.truth);
+            let score = Score::new(&run, &job.scene.truth, &job.scene.rig);
             let result = job.result(&run, &score);
             let faults = violations(test, &job.program, &run, &score);
             if let Some(report) = reports.next().flatten() {

@@ -68,6 +68,8 @@ pub enum RunFigure {
     ErrorP95,
     /// Its maximum (m).
     ErrorMax,
+    /// Share of the tip estimates whose error is more than their own standard deviation explains (0 to 1).
+    Outliers,
     /// Hausdorff distance between the object and the estimated contour (m).
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
@@ -98,7 +100,7 @@ impl RunFigure {
             | Self::Hausdorff
             | Self::CornerPlaceMax
             | Self::CornerPathMax => format_si(value, Dimension::LENGTH),
-            Self::Coverage | Self::Collisions | Self::Visits(_) => format_si(value, Dimension::NUMBER),
+            Self::Outliers | Self::Coverage | Self::Collisions | Self::Visits(_) => format_si(value, Dimension::NUMBER),
         }
     }
 }

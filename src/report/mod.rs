@@ -12,11 +12,12 @@ mod tick_line;
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub use picture::{picture, profile_picture};
 pub use result::{
-    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanStd, MeanStdMax, Retrieval, RunResult, TickUs,
+    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,
+    RunResult, TickUs, TipErrorMm,
 };
 pub use table::table;
 pub use tick_line::{TickLine, tick_lines};
 
 pub(crate) use number::{mean_std, millimetres};
 pub(crate) use picture::{FrontPoint, front_picture};
-pub(crate) use table::{NONE, ruled};
+pub(crate) use table::{NONE, percent, ruled};

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::{CornerFigures, CornerSpread, RetrievalFigures, Score, Spread, StateShare};
+use crate::score::{CornerFigures, CornerSpread, RetrievalFigures, Score, Spread, StateShare, TipDistance};
 
 /// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
 ///
@@ -36,8 +36,14 @@ pub struct RunResult {
     pub realtime: Option<f64>,
     /// Distance of the tip estimates from the nearest surface.
     pub error_mm: ErrorMm,
+    /// Distance of the tip estimates from the true tips; `None` if the run recorded no tip.
+    pub tip_error_mm: Option<TipErrorMm>,
     /// Share of the reference that was traced, 0 to 1.
     pub coverage: f64,
+    /// Share of the outline of the object whose loop closed that was traced, 0 to 1.
+    pub object_coverage: f64,
+    /// How the platform went through a tunnel; `None` outside of one.
+    pub passage: Option<Passage>,
     /// Symmetric Hausdorff distance between the estimated contour and the reference.
     pub hausdorff_mm: Option<f64>,
     /// The states that were left by their failsafe.
@@ -102,8 +108,45 @@ pub struct ErrorMm {
     pub max: Option<f64>,
     /// Share of the estimates that lie within the band of 95 % that they tell themselves, 0 to 1.
     pub within_band: Option<f64>,
+    /// Share of the estimates whose error exceeds 0.1 mm plus four of their own standard deviations, 0 to 1.
+    pub outliers: Option<f64>,
     /// Number of estimates.
     pub n: usize,
+}
+
+/// Distance of the tip estimates from the true tips (mm).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TipErrorMm {
+    /// Along the outline.
+    pub along: MeanP95Max,
+    /// Across the outline.
+    pub across: MeanP95Max,
+}
+
+/// How the platform went through a tunnel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Passage {
+    /// Share of the tunnel's length that the platform's centre of mass went through between the walls, 0 to 1.
+    pub share: f64,
+    /// Share of the left inner side that was traced between the first and the last contact, 0 to 1.
+    pub left_coverage: f64,
+    /// Share of the right inner side.
+    pub right_coverage: f64,
+    /// Whether the whiskers of the rig reach both walls at once.
+    pub reaches_both: bool,
+    /// The share of the two that counts: the lesser if the whiskers reach both walls at once, else the greater.
+    pub wall_coverage: f64,
+}
+
+/// Mean, 95th percentile and maximum, in the unit of the key that holds them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeanP95Max {
+    /// Mean.
+    pub mean: f64,
+    /// 95th percentile.
+    pub p95: f64,
+    /// Maximum.
+    pub max: f64,
 }
 
 /// States that were left by their failsafe.
@@ -219,9 +262,26 @@ impl RunResult {
                 p95: error.map(|error| millimetres(error.p95)),
                 max: error.map(|error| millimetres(error.max)),
                 within_band: error.map(|error| error.within_band),
+                outliers: error.map(|error| error.outliers),
                 n: error.map_or(0, |error| error.count),
             },
+            tip_error_mm: error.and_then(|error| {
+                let figures = |distance: TipDistance| MeanP95Max {
+                    mean: millimetres(distance.mean),
+                    p95: millimetres(distance.p95),
+                    max: millimetres(distance.max),
+                };
+                Some(TipErrorMm { along: figures(error.along?), across: figures(error.across?) })
+            }),
             coverage: score.coverage,
+            object_coverage: score.object_coverage,
+            passage: score.passage.map(|passage| Passage {
+                share: passage.share,
+                left_coverage: passage.left_coverage,
+                right_coverage: passage.right_coverage,
+                reaches_both: passage.reaches_both,
+                wall_coverage: passage.wall_coverage(),
+            }),
             hausdorff_mm: score.hausdorff.map(millimetres),
             failsafes: failsafes(&run.trace),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),

@@ -12,14 +12,18 @@ pub(crate) const NONE: &str = "–";
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 18] = [
+const COLUMNS: [Column; 22] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy.clone()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
     ("error mm", |result| Some(mean_std(result.error_mm.mean?, result.error_mm.std)), true),
     ("p95", |result| result.error_mm.p95.map(millimetres), true),
     ("max", |result| result.error_mm.max.map(millimetres), true),
-    ("coverage", |result| Some(format!("{:.1} %", 100.0 * result.coverage)), true),
+    ("outliers", |result| result.error_mm.outliers.map(|share| percent(share, 2)), true),
+    ("in 95 %", |result| result.error_mm.within_band.map(|share| percent(share, 1)), true),
+    ("coverage", |result| Some(percent(result.coverage, 1)), true),
+    ("passage", |result| Some(percent(result.passage?.share, 1)), false),
+    ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
     ("Hausdorff mm", |result| result.hausdorff_mm.map(millimetres), true),
     ("retrieval mm", |result| spread(result.retrieval?.radius_mm), false),
     ("axis mm", |result| spread(result.axis_mm?), false),
@@ -63,6 +67,11 @@ pub(crate) fn ruled<'h>(
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.trim_fmt()
+}
+
+/// A share (0 to 1) in percent.
+pub(crate) fn percent(share: f64, digits: usize) -> String {
+    format!("{:.digits$} %", 100.0 * share)
 }
 
 fn spread(figure: MeanStd) -> Option<String> {

@@ -59,7 +59,7 @@ pub fn drive(
         crashed: false,
     };
     let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
-    let mut watches = [LoopWatch::default(); MAX_WHISKERS];
+    let mut watches: [LoopWatch; MAX_WHISKERS] = Default::default();
     let mut stall_watch = stop.stalled.map(StallWatch::new);
     let mut command = Command::STOP;
     let (start, mut first_tick) = (Instant::now(), Duration::ZERO);
@@ -142,11 +142,13 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world
         tip_spreads: [0.0; MAX_WHISKERS],
         command,
         failsafe,
+        tip_ends: [None; MAX_WHISKERS],
         body_touches: world.body_touches(),
         springs: [false; MAX_WHISKERS],
     };
     for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
         tick.springs[whisker] = world.springs(in_rig);
+        tick.tip_ends[whisker] = Some(world.tip(in_rig));
         tick.deflections[whisker] = perception.deflection(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);
         tick.touches[whisker] = touch(perception, bound);

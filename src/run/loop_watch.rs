@@ -1,46 +1,115 @@
 //! When a whisker has gone all the way round.
 
+use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-use crate::geometry::{Point2, turn_between};
+use crate::geometry::{Point2, Vector2, perpendicular, turn_between};
 use crate::scene::LoopClosed;
 
-/// How far the platform has gone round the first tip (rad) when it has gone all the way round. Behind a wall, however thin, it has
-/// gone half round at most; where a tip comes back to a sharp corner right behind which the first one was, what the corner turns is
-/// still missing.
-const ROUND: f64 = 1.25 * PI;
+/// How far the platform has gone round since the first time at a place (rad) when it has gone all the way round: a full turn, less by
+/// how much it leans to the surface more than at first. A tip that slid back has gone round by nothing, give or take the same.
+const ROUND: f64 = PI;
 
-/// Watches one whisker's tips for their coming round to where the first one was.
-#[derive(Debug, Clone, Copy, Default)]
+/// A tip closes the loop where it comes back to one of those that were recorded along this much of the outline (m) from the first one
+/// on. The first one itself may be where no tip comes back to: next to a corner, or off the outline while the contact was fresh.
+const FIRST_STRETCH: f64 = 0.02;
+
+/// Distance (m) between the two tips that tell the direction of the outline.
+const CHORD: f64 = 0.002;
+
+/// Cosine of the greatest angle between two normals of the same side of an object.
+const SAME_SIDE: f64 = 0.5;
+
+/// How many ticks (1) and how far (m) apart tips are at most that follow each other along the outline. The score joins tips by the same
+/// measures.
+const LONGEST_BREAK: usize = 3;
+const LONGEST_STEP: f64 = 0.01;
+
+/// Watches one whisker's tips for their coming round to where the first ones were.
+#[derive(Debug, Clone, Default)]
 pub(super) struct LoopWatch {
     start: Option<Start>,
     /// The platform's bearing from the first tip (rad).
     bearing: f64,
     /// How far that has turned since (rad), counter-clockwise.
     turned: f64,
+    /// The newest tips that follow each other, back to one [`CHORD`] behind.
+    newest: VecDeque<Point2>,
+    /// Ticks since the newest tip.
+    missed: usize,
 }
 
-/// Time (s) and place of the first tip.
-#[derive(Debug, Clone, Copy)]
+/// Where a loop began.
+#[derive(Debug, Clone)]
 struct Start {
+    /// Time of the first tip (s).
     time: f64,
+    /// The first tip (m, world frame).
     place: Point2,
+    /// The first tips.
+    tips: Vec<FirstTip>,
+    /// How much of the outline they are along (m).
+    length: f64,
+}
+
+/// One of the first tips.
+#[derive(Debug, Clone, Copy)]
+struct FirstTip {
+    /// Where it is (m, world frame).
+    place: Point2,
+    /// The outline's normal there, which points to the platform's side.
+    normal: Vector2,
+    /// How far the platform had gone round the very first tip by then (rad).
+    turned: f64,
 }
 
 impl LoopWatch {
-    /// Takes the tip of one tick, if there is one, and where the platform is. Says whether the tip closes the loop: it is near the
-    /// first one, late enough, and the platform has gone round that. A tip that slid back is near the first one too, and so is one
-    /// on the other side of a thin wall.
+    /// Takes the tip of one tick, if there is one, and where the platform is. Says whether the tip closes the loop: it is near one of
+    /// the first ones, on the same side of the object, late enough, and the platform has gone round since. A tip that slid back is near
+    /// the first ones too, and so is one on the other side of a thin wall.
     pub(super) fn closes(&mut self, time: f64, tip: Option<Point2>, platform: Point2, aim: &LoopClosed) -> bool {
-        let Some(start) = self.start.or_else(|| tip.map(|place| Start { time, place })) else { return false };
+        let begun = tip.map(|place| Start { time, place, tips: Vec::new(), length: 0.0 });
+        let Some(start) = self.start.take().or(begun) else { return false };
         let from_start = platform - start.place;
         let bearing = from_start.y.atan2(from_start.x);
-        if self.start.replace(start).is_some() {
+        if time > start.time {
             self.turned += turn_between(self.bearing, bearing);
         }
         self.bearing = bearing;
-        let is_near = tip.is_some_and(|tip| (tip - start.place).norm() <= aim.within);
-        is_near && self.turned.abs() >= ROUND && time - start.time >= aim.after
+        let start = self.start.insert(start);
+        let Some(tip) = tip else {
+            self.missed += 1;
+            return false;
+        };
+
+        let step = self.newest.back().map(|last| (tip - last).norm());
+        let step = step.filter(|step| self.missed < LONGEST_BREAK && *step <= LONGEST_STEP);
+        self.missed = 0;
+        if step.is_none() {
+            self.newest.clear();
+        }
+        self.newest.push_back(tip);
+        while self.newest.get(1).is_some_and(|next| (tip - next).norm() >= CHORD) {
+            self.newest.pop_front();
+        }
+        let behind = self.newest.front().copied().unwrap_or(tip);
+        let chord = tip - behind;
+        if chord.norm() < CHORD {
+            return false;
+        }
+        let left = perpendicular(chord.normalize());
+        let normal = if left.dot(&(platform - tip)) < 0.0 { -left } else { left };
+        if start.length <= FIRST_STRETCH {
+            let places = if start.tips.is_empty() { vec![behind, tip] } else { vec![tip] };
+            start.tips.extend(places.into_iter().map(|place| FirstTip { place, normal, turned: self.turned }));
+            start.length += step.unwrap_or(0.0);
+        }
+        let is_back = |first: &FirstTip| {
+            (tip - first.place).norm() <= aim.within
+                && first.normal.dot(&normal) >= SAME_SIDE
+                && (self.turned - first.turned).abs() >= ROUND
+        };
+        time - start.time >= aim.after && start.tips.iter().any(is_back)
     }
 }
 
@@ -48,17 +117,21 @@ impl LoopWatch {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::LoopWatch;
-    use crate::geometry::{Point2, Vector2, perpendicular, polygon, unit};
+    use crate::geometry::{Point2, Vector2, perpendicular, polygon, rotate, unit};
     use crate::scene::LoopClosed;
 
     const AIM: LoopClosed = LoopClosed { within: 0.005, after: 2.0 };
 
     /// The time at which tips along a circle of 0.1 m, at the angles given tick by tick, close the loop; the platform is outside.
     fn closing_time(angles: impl Iterator<Item = f64>) -> Option<f64> {
+        closing_time_with(&AIM, angles)
+    }
+
+    fn closing_time_with(aim: &LoopClosed, angles: impl Iterator<Item = f64>) -> Option<f64> {
         let mut watch = LoopWatch::default();
         let mut timed = angles.enumerate().map(|(tick, angle)| (tick as f64 * 0.1, unit(angle)));
         let closes = |&(time, outwards): &(f64, Vector2)| {
-            watch.closes(time, Some(Point2::from(0.1 * outwards)), Point2::from(0.2 * outwards), &AIM)
+            watch.closes(time, Some(Point2::from(0.1 * outwards)), Point2::from(0.2 * outwards), aim)
         };
         timed.find(closes).map(|(time, _)| time)
     }
@@ -71,23 +144,30 @@ mod tests {
         }
     }
 
-    /// Tips all round a polygon, again and again, from 2 mm behind its first corner on, with the platform 0.1 m away from them.
-    fn round(corners: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
+    /// Tips all round a polygon, again and again, from 2 mm behind its first corner on, with the platform 0.1 m away from them: straight
+    /// off the outline, but for a lean (rad) that depends on the way so far (m).
+    fn round(corners: &[Point2], lean: impl Fn(f64) -> f64) -> impl Iterator<Item = (Point2, Point2)> {
         let contour = polygon(corners).unwrap();
         (0..1200).map(move |tick| {
-            let way = (0.002 + 0.0015 * f64::from(tick)) % contour.length();
-            let (tip, along) = (contour.point_at(way), contour.tangent_at(way));
-            (tip, tip - 0.1 * perpendicular(along))
+            let way = 0.0015 * f64::from(tick);
+            let along = (0.002 + way) % contour.length();
+            let (tip, tangent) = (contour.point_at(along), contour.tangent_at(along));
+            (tip, tip - 0.1 * rotate(perpendicular(tangent), lean(way)))
         })
     }
 
     /// The way (m) after which those close the loop.
-    fn closing_way(corners: &[Point2]) -> Option<f64> {
+    fn closing_way(corners: &[Point2], lean: impl Fn(f64) -> f64) -> Option<f64> {
         let mut watch = LoopWatch::default();
-        let mut ticks = round(corners).zip(0_u32..);
+        let mut ticks = round(corners, lean).zip(0_u32..);
         let closing =
             ticks.find(|&((tip, platform), tick)| watch.closes(0.1 * f64::from(tick), Some(tip), platform, &AIM));
         closing.map(|(_, tick)| 0.0015 * f64::from(tick))
+    }
+
+    /// A wall 0.4 m long, its outline from the middle of one side on.
+    fn wall(thickness: f64) -> [Point2; 5] {
+        [(0.2, 0.0), (0.4, 0.0), (0.4, thickness), (0.0, thickness), (0.0, 0.0)].map(|(x, y)| Point2::new(x, y))
     }
 
     #[test]
@@ -95,7 +175,8 @@ mod tests {
         for degrees in [20.0_f64, 50.0, 70.0, 90.0, 120.0, 170.0] {
             // A rhombus with sides of 0.1 m and a corner of this angle.
             let (a, b) = (0.1 * unit(0.0), 0.1 * unit(degrees.to_radians()));
-            let way = closing_way(&[Point2::origin(), Point2::from(a), Point2::from(a + b), Point2::from(b)]);
+            let corners = [Point2::origin(), Point2::from(a), Point2::from(a + b), Point2::from(b)];
+            let way = closing_way(&corners, |_| 0.0);
             assert!(way.is_some_and(|way| (way - 0.4).abs() < 2.0 * AIM.within), "{degrees} deg: {way:?}");
         }
     }
@@ -103,11 +184,32 @@ mod tests {
     #[test]
     fn a_tip_behind_a_thin_wall_does_not_close_the_loop_and_one_that_comes_round_it_does() {
         for thickness in [0.0005, 0.002, 0.0045] {
-            let end = [Point2::new(0.4, 0.0), Point2::new(0.4, thickness)];
-            let way =
-                closing_way(&[Point2::new(0.2, 0.0), end[0], end[1], Point2::new(0.0, thickness), Point2::origin()]);
+            let way = closing_way(&wall(thickness), |_| 0.0);
             assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{thickness} m: {way:?}");
         }
+    }
+
+    #[test]
+    fn behind_a_thin_wall_no_lean_of_the_platform_closes_the_loop() {
+        for lean in [0.4, 0.6, -0.6] {
+            // Leaning one way at first and the other way from then on, the platform goes round by up to 250 deg to the other side.
+            let way = closing_way(&wall(0.002), |way| if way < 0.01 { -lean } else { lean });
+            assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{lean} rad: {way:?}");
+        }
+    }
+
+    #[test]
+    fn a_start_at_the_end_of_a_thin_wall_has_first_tips_on_both_sides() {
+        // From 12 mm before the end on, so that the first 20 mm of the outline go round it.
+        let [_, near, far, back, front] = wall(0.003);
+        let way = closing_way(&[Point2::new(0.388, 0.0), near, far, back, front], |_| 0.0);
+        assert!(way.is_some_and(|way| (way - 0.806).abs() < 3.0 * AIM.within), "{way:?}");
+    }
+
+    #[test]
+    fn a_loop_closes_though_the_first_tip_was_wrong_by_centimetres() {
+        let wrong = std::iter::once(-0.3);
+        assert!(closing_time(wrong.chain((0..100).map(|tick| 0.1 * f64::from(tick)))).is_some());
     }
 
     #[test]
@@ -129,7 +231,8 @@ mod tests {
 
     #[test]
     fn a_loop_that_closes_too_early_goes_on_to_the_next_time_round() {
-        let closing = closing_time((0..200).map(|tick| 0.4 * f64::from(tick)));
-        assert!(closing.is_some_and(|time| time >= AIM.after));
+        let aim = LoopClosed { after: 10.0, ..AIM };
+        let closing = closing_time_with(&aim, (0..300).map(|tick| 0.09 * f64::from(tick)));
+        assert!(closing.is_some_and(|time| time >= aim.after), "{closing:?}");
     }
 }

@@ -89,6 +89,7 @@ mod tests {
                 tip_spreads: [0.0; MAX_WHISKERS],
                 command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
                 failsafe: None,
+                tip_ends: [None; MAX_WHISKERS],
                 body_touches: false,
                 springs: [false; MAX_WHISKERS],
             }

@@ -55,6 +55,9 @@ pub struct TickRecord {
     pub command: Command,
     /// The state that the machine left by its failsafe, if it left one.
     pub failsafe: Option<Failsafe>,
+    /// Where the axis of each whisker ends (m, world frame), as the world knows it; no policy sees this. `None` of a whisker that the
+    /// trace does not have.
+    pub tip_ends: [Option<Point2>; MAX_WHISKERS],
     /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
     pub body_touches: bool,
     /// Whether each whisker sprang since the last tick, as one does that slips off a corner; no policy sees this either.

@@ -25,10 +25,20 @@ pub enum Metric {
     ErrorP95,
     /// Its maximum (m).
     ErrorMax,
+    /// Share of the tip estimates that lie within the 95 % interval that they report (0 to 1).
+    IntervalCoverage,
+    /// Share of the tip estimates whose error is more than their own standard deviation explains (0 to 1).
+    Outliers,
     /// Hausdorff distance between the object and the estimated contour (m).
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
     Coverage,
+    /// Share of the outline of the object whose loop closed that was traced (0 to 1).
+    ObjectCoverage,
+    /// Share of a tunnel's length that the platform went through between its walls (0 to 1).
+    Passage,
+    /// Share of a tunnel's inner sides that was traced between the first and the last contact (0 to 1).
+    WallCoverage,
     /// Mean distance between where whiskers lost the object and where they found it again (m).
     RetrievalRadius,
     /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
@@ -102,12 +112,17 @@ impl fmt::Display for Outcome {
 
 impl Metric {
     /// Every metric.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 16] = [
         Self::ErrorMean,
         Self::ErrorP95,
         Self::ErrorMax,
+        Self::IntervalCoverage,
+        Self::Outliers,
         Self::Hausdorff,
         Self::Coverage,
+        Self::ObjectCoverage,
+        Self::Passage,
+        Self::WallCoverage,
         Self::RetrievalRadius,
         Self::AxisMean,
         Self::CornerPlaceMax,
@@ -123,8 +138,13 @@ impl Metric {
             Self::ErrorMean => "error_mean",
             Self::ErrorP95 => "error_p95",
             Self::ErrorMax => "error_max",
+            Self::IntervalCoverage => "interval_coverage",
+            Self::Outliers => "outliers",
             Self::Hausdorff => "hausdorff",
             Self::Coverage => "coverage",
+            Self::ObjectCoverage => "object_coverage",
+            Self::Passage => "passage",
+            Self::WallCoverage => "wall_coverage",
             Self::RetrievalRadius => "retrieval_radius",
             Self::AxisMean => "axis_mean",
             Self::CornerPlaceMax => "corner_place_max",
@@ -138,7 +158,8 @@ impl Metric {
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::Coverage | Self::Collisions => Dimension::NUMBER,
+            Self::Collisions => Dimension::NUMBER,
+            _ if self.is_share() => Dimension::NUMBER,
             Self::CornerTimeMax => Dimension::TIME,
             _ => Dimension::LENGTH,
         }
@@ -147,11 +168,25 @@ impl Metric {
     /// Whether it is better the larger it is, so that its bound is one from below.
     #[must_use]
     pub fn is_lower_bounded(self) -> bool {
-        self == Self::Coverage
+        self.is_share() && self != Self::Outliers
+    }
+
+    /// Whether it is a share, from 0 to 1.
+    #[must_use]
+    pub fn is_share(self) -> bool {
+        matches!(
+            self,
+            Self::IntervalCoverage
+                | Self::Outliers
+                | Self::Coverage
+                | Self::ObjectCoverage
+                | Self::Passage
+                | Self::WallCoverage
+        )
     }
 
     fn format(self, value: f64) -> String {
-        if self == Self::Coverage {
+        if self.is_share() {
             format!("{} %", format_si(value * 100.0, Dimension::NUMBER))
         } else {
             format_si(value, self.dimension())

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Statistics, Tip};
+use super::{Statistics, Tip, TipOffset};
 
 /// How far a run's tip estimates are from the nearest surface, whiskers pooled; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,8 +17,25 @@ pub struct ErrorFigures {
     pub max: f64,
     /// Share of the estimates, 0 to 1, that lie within the band of 95 % that they tell themselves: 1.96 standard deviations.
     pub within_band: f64,
+    /// Share of the estimates, 0 to 1, that are [outliers](Tip::is_outlier).
+    pub outliers: f64,
+    /// Their distance from the true tips along the outline; `None` if these are not known.
+    pub along: Option<TipDistance>,
+    /// The same across the outline.
+    pub across: Option<TipDistance>,
     /// Number of estimates.
     pub count: usize,
+}
+
+/// Distances of tip estimates from the true tips in one direction (m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipDistance {
+    /// Mean.
+    pub mean: f64,
+    /// 95th percentile.
+    pub p95: f64,
+    /// Maximum.
+    pub max: f64,
 }
 
 /// Half of the breadth of the band that holds 95 % of a normal distribution, in standard deviations.
@@ -29,12 +46,21 @@ impl ErrorFigures {
     #[must_use]
     pub fn of(tips: &[Tip]) -> Option<Self> {
         let statistics = Statistics::of(tips.iter().map(|tip| tip.error).collect())?;
+        let share =
+            |counts: &dyn Fn(&Tip) -> bool| tips.iter().filter(|tip| counts(tip)).count() as f64 / tips.len() as f64;
+        let distance = |part: fn(&TipOffset) -> f64| {
+            let statistics = Statistics::of(tips.iter().filter_map(|tip| tip.offset.as_ref()).map(part).collect())?;
+            Some(TipDistance { mean: statistics.mean(), p95: statistics.percentile(95.0), max: statistics.max() })
+        };
         Some(Self {
             mean: statistics.mean(),
             std: statistics.std(),
             p95: statistics.percentile(95.0),
             max: statistics.max(),
-            within_band: tips.iter().filter(|tip| tip.error <= BAND * tip.spread).count() as f64 / tips.len() as f64,
+            within_band: share(&|tip| tip.error <= BAND * tip.spread),
+            outliers: share(&Tip::is_outlier),
+            along: distance(|offset| offset.along),
+            across: distance(|offset| offset.across),
             count: statistics.count(),
         })
     }

@@ -1,9 +1,10 @@
 //! All figures of a run.
 
 use super::{
-    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, RetrievalFigures, Spread, StateShare, axis_error,
-    body_path, coverage, hausdorff, state_shares, tips,
+    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Passage, RetrievalFigures, Spread, StateShare,
+    axis_error, body_path, coverage, hausdorff, object_coverage, state_shares, tips,
 };
+use crate::rig::Rig;
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
 
@@ -14,6 +15,10 @@ pub struct Score {
     pub error: Option<ErrorFigures>,
     /// The [share of the reference](coverage) that was traced, 0 to 1.
     pub coverage: f64,
+    /// The share of the [object whose loop closed](object_coverage) that was traced, 0 to 1.
+    pub object_coverage: f64,
+    /// How the platform went through a tunnel; `None` without one.
+    pub passage: Option<Passage>,
     /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference; `None` if no tip
     /// was recorded.
     pub hausdorff: Option<f64>,
@@ -36,14 +41,18 @@ pub struct Score {
 }
 
 impl Score {
-    /// The figures of `run` against what is true of its scene.
+    /// The figures of a `run` of `rig` against what is true of its scene.
     #[must_use]
-    pub fn new(run: &Run, truth: &Truth) -> Self {
+    pub fn new(run: &Run, truth: &Truth, rig: &Rig) -> Self {
         let estimate = Estimate::new(&run.trace);
+        let tips = tips(&run.trace, &truth.surfaces, rig);
+        let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
         Self {
-            error: ErrorFigures::of(&tips(&run.trace, &truth.surfaces)),
+            error: ErrorFigures::of(&tips),
             coverage: coverage(&estimate, &truth.reference),
+            object_coverage: object_coverage(&estimate, last_tip, &truth.reference),
+            passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
             axis: axis_error(&run.trace, &truth.axes),
@@ -69,7 +78,12 @@ impl Score {
             Metric::ErrorP95 => self.error.map(|error| error.p95),
             Metric::ErrorMax => self.error.map(|error| error.max),
             Metric::Hausdorff => self.hausdorff,
+            Metric::IntervalCoverage => self.error.map(|error| error.within_band),
+            Metric::Outliers => self.error.map(|error| error.outliers),
             Metric::Coverage => Some(self.coverage),
+            Metric::ObjectCoverage => Some(self.object_coverage),
+            Metric::Passage => self.passage.map(|passage| passage.share),
+            Metric::WallCoverage => self.passage.map(|passage| passage.wall_coverage()),
             Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
             Metric::AxisMean => self.axis.map(|axis| axis.mean),
             Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),

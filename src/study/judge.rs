@@ -27,6 +27,7 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
         RunFigure::ErrorMean => measured(Metric::ErrorMean),
         RunFigure::ErrorP95 => measured(Metric::ErrorP95),
         RunFigure::ErrorMax => measured(Metric::ErrorMax),
+        RunFigure::Outliers => measured(Metric::Outliers),
         RunFigure::Hausdorff => measured(Metric::Hausdorff),
         RunFigure::Coverage => measured(Metric::Coverage),
         RunFigure::CornerPlaceMax => measured(Metric::CornerPlaceMax),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::report::{NONE, RunResult, millimetres};
+use crate::report::{NONE, RunResult, millimetres, percent};
 use crate::scene::Outcome;
 
 /// How a run of many ended.
@@ -62,6 +62,50 @@ pub struct Figures {
     pub error_mean_mm: Option<f64>,
     /// Their 95th percentile (mm).
     pub error_p95_mm: Option<f64>,
+    /// The shares of its tips that are counted.
+    pub tips: TipShares,
+}
+
+/// How many tips some runs recorded, and how many of them lie where they should not or should.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TipShares {
+    /// How many tips there are.
+    pub count: f64,
+    /// How many of them are outliers.
+    pub outliers: f64,
+    /// How many lie within the 95 % interval that they report.
+    pub within_band: f64,
+}
+
+impl TipShares {
+    /// Those of one run, by its shares (0 to 1) of `count` tips.
+    #[must_use]
+    pub fn of_run(count: usize, outliers: Option<f64>, within_band: Option<f64>) -> Self {
+        let count = count as f64;
+        Self { count, outliers: count * outliers.unwrap_or(0.0), within_band: count * within_band.unwrap_or(0.0) }
+    }
+
+    /// Share of all tips that are outliers, 0 to 1; `None` without a tip.
+    #[must_use]
+    pub fn outlier_share(&self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.outliers / self.count)
+    }
+
+    /// Share of all tips that lie within the 95 % interval that they report, 0 to 1; `None` without a tip.
+    #[must_use]
+    pub fn within_band_share(&self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.within_band / self.count)
+    }
+}
+
+impl std::iter::Sum for TipShares {
+    fn sum<I: Iterator<Item = Self>>(runs: I) -> Self {
+        runs.fold(Self::default(), |sum, run| Self {
+            count: sum.count + run.count,
+            outliers: sum.outliers + run.outliers,
+            within_band: sum.within_band + run.within_band,
+        })
+    }
 }
 
 impl Figures {
@@ -74,6 +118,7 @@ impl Figures {
             collided: result.collisions.count > 0,
             error_mean_mm: result.error_mm.mean,
             error_p95_mm: result.error_mm.p95,
+            tips: TipShares::of_run(result.error_mm.n, result.error_mm.outliers, result.error_mm.within_band),
         }
     }
 }
@@ -85,8 +130,8 @@ pub struct Tally {
     pub runs: usize,
     /// How many completed.
     pub completed: usize,
-    /// How many completed as their scenarios expect; those of families without a contact of the body.
-    pub clean: usize,
+    /// How many completed as their scenarios expect. Families expect that the object is traced and that the body touches nothing.
+    pub passed: usize,
     /// How many were not there in time.
     pub timeout: usize,
     /// How many failed.
@@ -103,11 +148,26 @@ pub struct Tally {
     pub error_mean_mm: Option<f64>,
     /// Mean of their 95th percentiles (mm).
     pub error_p95_mm: Option<f64>,
+    /// Share of the tips of all runs that are outliers, 0 to 1.
+    pub outliers: Option<f64>,
+    /// Share of the tips of all runs that lie within the 95 % interval that they report, 0 to 1.
+    pub within_band: Option<f64>,
 }
 
 impl Tally {
-    pub(super) const HEADINGS: [&str; 9] =
-        ["runs", "completed", "and clean", "timeout", "failed", "diverged", "collided", "error mm", "p95"];
+    pub(super) const HEADINGS: [&str; 11] = [
+        "runs",
+        "completed",
+        "passed",
+        "timeout",
+        "failed",
+        "diverged",
+        "collided",
+        "error mm",
+        "p95",
+        "outliers",
+        "in 95 %",
+    ];
 
     /// Counts some runs.
     #[must_use]
@@ -115,11 +175,12 @@ impl Tally {
         let runs: Vec<_> = runs.into_iter().collect();
         let count = |counts: &dyn Fn(&Figures) -> bool| runs.iter().filter(|run| counts(run)).count();
         let ended = |ending| count(&|run| run.ending == ending);
+        let tips: TipShares = runs.iter().map(|run| run.tips).sum();
         let completed = || runs.iter().filter(|run| run.ending == Ending::Completed);
         Self {
             runs: runs.len(),
             completed: ended(Ending::Completed),
-            clean: count(&|run| run.passed),
+            passed: count(&|run| run.passed),
             timeout: ended(Ending::Timeout),
             failed: ended(Ending::Failed),
             diverged: ended(Ending::Diverged),
@@ -128,23 +189,29 @@ impl Tally {
             collided: count(&|run| run.collided),
             error_mean_mm: mean(completed().filter_map(|run| run.error_mean_mm)),
             error_p95_mm: mean(completed().filter_map(|run| run.error_p95_mm)),
+            outliers: tips.outlier_share(),
+            within_band: tips.within_band_share(),
         }
     }
 
     /// What stands under the headings.
-    pub(super) fn cells(&self) -> [String; 9] {
-        let share = |count: usize| format!("{:.1} %", 100.0 * count as f64 / self.runs as f64);
+    pub(super) fn cells(&self) -> [String; 11] {
+        let share = |count: usize| percent(count as f64 / self.runs as f64, 1);
+        let share_of =
+            |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
         let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
         [
             self.runs.to_string(),
             share(self.completed),
-            share(self.clean),
+            share(self.passed),
             self.timeout.to_string(),
             self.failed.to_string(),
             self.diverged.to_string(),
             self.collided.to_string(),
             figure(self.error_mean_mm),
             figure(self.error_p95_mm),
+            share_of(self.outliers, 2),
+            share_of(self.within_band, 1),
         ]
     }
 }

@@ -26,6 +26,7 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
         RunFigure::ErrorMean
         | RunFigure::ErrorP95
         | RunFigure::ErrorMax
+        | RunFigure::Outliers
         | RunFigure::Hausdorff
         | RunFigure::CornerPlaceMax
         | RunFigure::CornerTimeMax

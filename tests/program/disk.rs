@@ -27,7 +27,7 @@ fn thesis() -> Program {
 
 fn run(scene: &Scene, program: Program, seed: u64) -> (Run, Score) {
     let run = execute(scene, Arc::new(program), WorldKind::Mujoco, seed, |_| ControlFlow::Continue(())).unwrap();
-    let score = Score::new(&run, &scene.truth);
+    let score = Score::new(&run, &scene.truth, &scene.rig);
     (run, score)
 }
 

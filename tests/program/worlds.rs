@@ -22,7 +22,7 @@ fn thesis() -> Arc<Program> {
 /// Outcome and mean error (m) of a run.
 fn run(scene: &Scene, program: &Arc<Program>, world: WorldKind) -> (Outcome, f64) {
     let run = execute(scene, Arc::clone(program), world, scene.seed, |_| ControlFlow::Continue(())).unwrap();
-    let error = Score::new(&run, &scene.truth).figure(Metric::ErrorMean).unwrap();
+    let error = Score::new(&run, &scene.truth, &scene.rig).figure(Metric::ErrorMean).unwrap();
     (run.outcome, error)
 }
 

@@ -6,6 +6,7 @@ use crate::runs::{arc_of_tips, run_with};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
+use vibrissa::rig::Rig;
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
 use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table};
@@ -16,7 +17,7 @@ fn result(scenario: &str, off: f64) -> RunResult {
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
     let identity = Identity { scenario, policy, world, seed: 0, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into()))
+    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default()))
 }
 
 fn spread(mean: f64) -> MeanStd {

@@ -9,6 +9,7 @@ use rand_distr::{Distribution, Normal};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, RunResult};
+use vibrissa::rig::Rig;
 use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
 use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_table};
@@ -92,7 +93,7 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let [scenario, policy, world] = ["disk", "m", "mujoco"].map(str::to_owned);
     let identity = Identity { scenario, policy, world, seed, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into()))
+    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default()))
 }
 
 #[test]

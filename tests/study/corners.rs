@@ -6,6 +6,7 @@ use crate::runs::run_with;
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, perpendicular, polygon, regular_polygon, rotate};
 use vibrissa::machine::Mark;
+use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Trace};
 use vibrissa::score::{CornerFigures, Score, excursions, traced_corners};
 
@@ -109,7 +110,7 @@ fn smooth_outlines_and_slight_corners_have_no_figures() {
     let many = regular_polygon(Point2::origin(), 0.2, 19, 0.0).unwrap();
     assert_eq!(CornerFigures::new(&trace(tips_along(&many, |_, _| 0.0)), &many.clone().into()), None);
     let run = run_with(&[]);
-    let figures = Score::new(&run, &square().into()).corners.unwrap();
+    let figures = Score::new(&run, &square().into(), &Rig::default()).corners.unwrap();
     assert_eq!((figures.count, figures.traced, figures.place, figures.time), (4, 0, None, None));
 }
 

@@ -21,6 +21,8 @@ fn row(scenario: &str, noise: f64, model: &'static str, mean_mm: Option<f64>) ->
         mean_mm,
         p95_mm: mean_mm.map(|mean| 2.0 * mean),
         within_band: mean_mm.map(|_| 0.5),
+        outliers: mean_mm.map(|_| 0.01),
+        tips: if mean_mm.is_some() { 100 } else { 0 },
         on_shaft: 0.1,
         tick_us: 4.0,
     }

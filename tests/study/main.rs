@@ -9,6 +9,7 @@ mod compare;
 mod corners;
 mod estimators;
 mod pareto;
+mod passage;
 #[cfg(feature = "sim")]
 mod pruning;
 mod report;

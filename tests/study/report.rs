@@ -10,6 +10,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::machine::{Cause, Failsafe, Mark};
 use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
+use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
@@ -24,7 +25,7 @@ fn half_round() -> Run {
 }
 
 fn result(run: &Run) -> RunResult {
-    RunResult::new(identity(), run, &Score::new(run, &disk().into()))
+    RunResult::new(identity(), run, &Score::new(run, &disk().into(), &Rig::default()))
 }
 
 fn identity() -> Identity {
@@ -110,7 +111,7 @@ fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
     run.trace.ticks[9].body_touches = true;
     let mut square = result(&run);
     let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
-    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into())).corners;
+    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into(), &Rig::default())).corners;
     let full = table(&[result(&half_round()), square]);
     assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval mm"), "{full}");
 }
@@ -144,7 +145,7 @@ stop: {time: 120 s}
 }
 
 fn draw(scene: &Scene, policy: &str, run: &Run) -> String {
-    picture(scene, policy, run, &Score::new(run, &scene.truth))
+    picture(scene, policy, run, &Score::new(run, &scene.truth, &scene.rig))
 }
 
 fn texts_stand_clear(picture: &str) {

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
+use vibrissa::rig::Rig;
 use vibrissa::scene::{Metric, Truth};
 use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, LONGEST_STEP, Score};
 
@@ -17,7 +18,7 @@ fn disk(radius: f64) -> Contour {
 }
 
 fn score(tips: &[Vec<Option<Point2>>], reference: &Contour) -> Score {
-    Score::new(&run_with(tips), &Truth::from(reference.clone()))
+    Score::new(&run_with(tips), &Truth::from(reference.clone()), &Rig::default())
 }
 
 fn moved(tips: &[Option<Point2>], pose: &Pose) -> Vec<Option<Point2>> {
@@ -186,13 +187,53 @@ fn whiskers_are_not_joined_but_pooled() {
     let (left, right) = (Some(Point2::new(0.0, 0.051)), Some(Point2::new(0.0, -0.053)));
     let run = run_with(&[vec![left, left], vec![right, right]]);
     assert_eq!(Estimate::new(&run.trace).strokes().len(), 2);
-    let error = Score::new(&run, &disk(0.05).into()).error.unwrap();
+    let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();
     assert_eq!(error.count, 4);
     assert!((error.mean - 2e-3).abs() < 1e-12);
     assert_eq!(
         [0.5e-3, 1e-3, 5e-3].map(|d| error.against_mean(d)),
         [Ordering::Less, Ordering::Equal, Ordering::Greater]
     );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Of tips off a circle by known errors with known standard deviations.
+    #[test]
+    fn an_outlier_is_what_its_own_deviation_does_not_explain(
+        tips in prop::collection::vec((0.0..1e-3_f64, 0.0..2e-4_f64), 1..60)
+    ) {
+        let place = |index: usize, error: f64| Some(Point2::from((0.05 + error) * unit(0.1 * index as f64)));
+        let mut run = run_with(&[tips.iter().enumerate().map(|(index, &(error, _))| place(index, error)).collect()]);
+        for (tick, (_, deviation)) in run.trace.ticks.iter_mut().zip(&tips) {
+            tick.tip_spreads[0] = *deviation;
+        }
+        let outliers = tips.iter().filter(|(error, deviation)| *error > 1e-4 + 4.0 * deviation).count();
+        let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();
+        prop_assert!((error.outliers - outliers as f64 / tips.len() as f64).abs() < 1e-12);
+    }
+
+    /// The estimates are on the circle, and late: no distance from the outline sees that.
+    #[test]
+    fn a_late_estimate_is_off_along_the_outline(late in 1e-4..3e-3_f64, sunk in 0.0..5e-5_f64) {
+        let tips = arc_of_tips(0.05, 0.3, 5.0, STEP);
+        let mut run = run_with(&[tips]);
+        run.trace.whiskers = vec!["r0".to_owned()];
+        let radius = Rig::default().whiskers[0].shaft.radius_at(1.0);
+        for tick in &mut run.trace.ticks {
+            let tip = tick.tips[0].unwrap();
+            let ahead = tip.y.atan2(tip.x) + late / 0.05;
+            tick.tip_ends[0] = Some(Point2::from((0.05 + radius - sunk) * unit(ahead)));
+        }
+        let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();
+        prop_assert!(error.max < 1e-12);
+        let (along, across) = (error.along.unwrap(), error.across.unwrap());
+        // Along the tangent at the true tip; across it the circle bends away.
+        let angle = late / 0.05;
+        prop_assert!((along.mean - 0.05 * angle.sin()).abs() < 1e-12);
+        prop_assert!((across.max - (0.05 * (1.0 - angle.cos()) - sunk).abs()).abs() < 1e-12);
+    }
 }
 
 #[test]
@@ -202,9 +243,13 @@ fn the_axis_error_is_that_of_the_midpoints_between_two_tips() {
     let truth = Truth { axes: vec![TunnelAxis::new(up(0.0), up(-0.11), up(0.11))], ..disk(0.05).into() };
     let left = [Some(Point2::new(-0.104, 0.1)), None, Some(Point2::new(-0.1, 0.3)), Some(Point2::new(f64::NAN, 0.4))];
     let right = [0.1, 0.1, 0.102, 0.1].map(|x| Some(Point2::new(x, 0.2)));
-    let axis = Score::new(&run_with(&[left.to_vec(), right.to_vec()]), &truth).axis.unwrap();
+    let axis = Score::new(&run_with(&[left.to_vec(), right.to_vec()]), &truth, &Rig::default()).axis.unwrap();
     assert!((axis.mean - 1.5e-3).abs() < 1e-15 && (axis.std.unwrap() - 0.5e-3 * 2_f64.sqrt()).abs() < 1e-15);
-    assert_eq!(Score::new(&run_with(&[left.to_vec()]), &truth).axis, None, "one whisker has no midpoint");
+    assert_eq!(
+        Score::new(&run_with(&[left.to_vec()]), &truth, &Rig::default()).axis,
+        None,
+        "one whisker has no midpoint"
+    );
     assert_eq!(score(&[left.to_vec(), right.to_vec()], &disk(0.05)).axis, None, "no tunnel");
 }
 

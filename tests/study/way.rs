@@ -3,6 +3,7 @@
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle};
+use vibrissa::rig::Rig;
 use vibrissa::run::Trace;
 use vibrissa::score::{Collisions, Score, axis_error, body_path, state_shares};
 
@@ -69,7 +70,7 @@ fn the_way_is_that_of_the_centre_of_mass_and_leaves_out_what_is_no_pose() {
     let due = 0.05 * (run.trace.ticks.len() - 1) as f64 / 30.0;
     assert!((body_path(&run.trace.ticks) - due).abs() < 1e-12);
     run.trace.ticks[7].body = Pose::UNKNOWN;
-    let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into());
+    let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default());
     assert!((score.path - due).abs() < 1e-12);
     assert!((score.path_ratio - due / (0.6 * std::f64::consts::PI)).abs() < 1e-12);
     assert!(body_path(&[]).is_sign_positive());

@@ -1,6 +1,6 @@
 //! The line in the middle of a tunnel.
 
-use crate::geometry::{Contour, Point2, Vector2};
+use crate::geometry::{Contour, Point2, Vector2, perpendicular};
 
 /// Newton's steps towards the axis. Each squares what is left of the way, of millimetres at a decimetre from either wall.
 const STEPS: usize = 6;
@@ -30,6 +30,40 @@ impl TunnelAxis {
         &self.line
     }
 
+    /// The parallel of the line along which the left wall faces the tunnel, without openings.
+    #[must_use]
+    pub fn left(&self) -> &Contour {
+        &self.left
+    }
+
+    /// The same of the right wall.
+    #[must_use]
+    pub fn right(&self) -> &Contour {
+        &self.right
+    }
+
+    /// The arc length (m) of the [line](Self::line) beside a point between the walls; `None` for a point beyond a wall, before the
+    /// beginning of the tunnel or beyond its end.
+    ///
+    /// ```
+    /// use vibrissa::geometry::{Contour, Piece, Point2, TunnelAxis};
+    /// let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]);
+    /// let axis = TunnelAxis::new(up(0.0)?, up(-0.12)?, up(0.1)?);
+    /// assert_eq!(axis.arc_length_between(Point2::new(0.09, 0.5)), Some(0.5));
+    /// assert_eq!(axis.arc_length_between(Point2::new(0.11, 0.5)), None);
+    /// assert_eq!(axis.arc_length_between(Point2::new(0.0, 1.5)), None);
+    /// # Ok::<(), vibrissa::geometry::ContourError>(())
+    /// ```
+    #[must_use]
+    pub fn arc_length_between(&self, point: Point2) -> Option<f64> {
+        let left_of = |wall: &Contour| {
+            let nearest = wall.nearest(point);
+            perpendicular(wall.tangent_at(nearest.arc_length)).dot(&(point - nearest.point))
+        };
+        let is_between = left_of(&self.left) < 0.0 && left_of(&self.right) > 0.0;
+        self.arc_length_beside(point).filter(|_| is_between)
+    }
+
     /// How far (m) a point is from the axis, never negative; `None` before the beginning of the tunnel and beyond its end.
     ///
     /// ```
@@ -42,9 +76,14 @@ impl TunnelAxis {
     /// ```
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
+        self.arc_length_beside(point).map(|_| (self.foot(point) - point).norm())
+    }
+
+    /// The arc length (m) of the line beside a point; `None` before the beginning of the tunnel and beyond its end.
+    fn arc_length_beside(&self, point: Point2) -> Option<f64> {
         let along = self.line.nearest(point).arc_length;
         let is_inside = self.line.is_closed() || (along > 0.0 && along < self.line.length());
-        is_inside.then(|| (self.foot(point) - point).norm())
+        is_inside.then_some(along)
     }
 
     /// The point of the axis that the difference of the distances from both walls leads to: the nearest one, but for the bend

@@ -163,7 +163,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 16] = [
+const RUN: [Member; 17] = [
     figure(
         "completed",
         Type::Truth,
@@ -182,6 +182,12 @@ const RUN: [Member; 16] = [
     ),
     figure("error_p95", Type::LENGTH, RunFigure::ErrorP95, "the 95th percentile of that"),
     figure("error_max", Type::LENGTH, RunFigure::ErrorMax, "the maximum of that"),
+    figure(
+        "outliers",
+        Type::NUMBER,
+        RunFigure::Outliers,
+        "the share of the recorded tips whose error exceeds 0.1 mm and four of their own standard deviations, 0 to 1",
+    ),
     figure(
         "hausdorff",
         Type::LENGTH,

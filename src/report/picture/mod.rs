@@ -51,7 +51,7 @@ const LINE: usize = 130;
 #[must_use]
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
     let trace = &run.trace;
-    let tips = tips(trace, &scene.truth.surfaces);
+    let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
     let untraced = untraced(scene, trace);
     let (head, map_top) = heading(scene, policy, run);
     let least = MAP_HEIGHT.0 + if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };

@@ -35,10 +35,14 @@ pub(super) struct Rig {
 pub(super) enum Aim {
     /// When an object has been traced all the way round.
     Loop,
-    /// When the platform is at a place.
-    Place(Point2),
+    /// When the platform has gone through a tunnel to its end, which is at this place.
+    Through(Point2),
 }
 
+/// How near the end of a tunnel (m) the platform's centre of mass is when it has gone through.
+const AT_END: f64 = 0.05;
+/// How far behind the mouth of a tunnel (m) the first tick is at most: at the greatest speed it goes 3.3 mm a tick.
+const AT_MOUTH: f64 = 0.01;
 /// How far the platform may go until it has found the object (m).
 const APPROACH: f64 = 1.0;
 /// How often it may go all that, at its speed.
@@ -68,7 +72,17 @@ impl Layout {
         let time = (REST + WAYS * (APPROACH + self.way) / speed).ceil();
         let aim = match self.aim {
             Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
-            Aim::Place(place) => format!("reached: {{place: {}, within: 50 mm, after: 5 s}}", point(place)),
+            Aim::Through(end) => {
+                format!("reached: {{place: {}, within: {}, after: 5 s}}", point(end), metres(AT_END))
+            }
+        };
+        let expect = match self.aim {
+            Aim::Loop => "object_coverage: 95 %".to_owned(),
+            Aim::Through(_) => {
+                // From the first tick behind the mouth to the place where the run ends.
+                let passage = 1.0 - (AT_MOUTH + AT_END) / self.way;
+                format!("passage: {:.2} %, wall_coverage: 85 %", 100.0 * passage)
+            }
         };
         let mut text = format!(
             "name: {name}\ndescription: {}\nseed: {seed}\nrig: {{{}{}}}\nobjects:\n",
@@ -78,7 +92,10 @@ impl Layout {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  - {object}");
         }
-        text + &format!("start: {}\nstop: {{time: {time} s, {aim}}}\nexpect: {{collisions: 0}}\n", pose(&self.start))
+        text + &format!(
+            "start: {}\nstop: {{time: {time} s, {aim}}}\nexpect: {{collisions: 0, {expect}}}\n",
+            pose(&self.start)
+        )
     }
 }
 

@@ -16,7 +16,7 @@ fn lay(dice: &mut Dice) -> Layout {
         about: format!("{:.0} mm clear, walls of {:.0} mm", 1e3 * clear, 1e3 * thickness),
         objects: vec![tunnel(&from, &[(length, 0.0)], clear, thickness)],
         start: before(),
-        aim: Aim::Place(from.position + length * unit(from.heading)),
+        aim: Aim::Through(from.position + length * unit(from.heading)),
         way: length,
         rig: REFERENCE,
     }

@@ -29,7 +29,7 @@ fn lay(dice: &mut Dice) -> Layout {
         about: format!("turns of {:.1}°, {:.0} mm clear", turn.to_degrees(), 1e3 * clear),
         objects: vec![tunnel(&from, &runs, clear, THICKNESS)],
         start: before(),
-        aim: Aim::Place(from.position + along),
+        aim: Aim::Through(from.position + along),
         way: runs.iter().map(|run| run.0).sum(),
         rig: REFERENCE,
     }

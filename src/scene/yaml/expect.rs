@@ -21,7 +21,8 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
     }
     for metric in Metric::ALL {
         let (range, example) = match metric {
-            Metric::Coverage => ((0.0, 1.0), "95 %"),
+            Metric::Outliers => ((0.0, 1.0), "0.2 %"),
+            _ if metric.is_share() => ((0.0, 1.0), "95 %"),
             Metric::Collisions => ((0.0, 1e6), "0"),
             Metric::CornerTimeMax => ((1e-3, 86_400.0), "3 s"),
             Metric::CornerPathMax => ((1e-9, 1e3), "15 cm"),

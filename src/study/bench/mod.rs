@@ -12,6 +12,6 @@ pub use built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
 pub use conditions::Conditions;
 pub use page::bench_page;
 pub use row::{BenchRow, Verdict, Verdicts};
-pub use table::bench_table;
+pub use table::{bench_table, pooled_tips};
 pub use thesis::{Reported, THESIS, ThesisFigures, thesis_figures};
 pub use timing::{TickTimes, Timing, TimingRow, timing_table};

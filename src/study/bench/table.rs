@@ -1,14 +1,15 @@
 //! The bench as a table.
 
-use crate::report::{NONE, mean_std, millimetres, ruled};
+use crate::report::{NONE, mean_std, millimetres, percent, ruled};
 
 use super::row::{BenchRow, Verdict};
+use crate::study::TipShares;
 
 /// The columns of names, which stand to the left.
 const NAMES: usize = 3;
 
 /// The headings of the table's columns.
-pub(super) const HEADINGS: [&str; 17] = [
+pub(super) const HEADINGS: [&str; 20] = [
     "scene",
     "policy",
     "outcome",
@@ -18,7 +19,10 @@ pub(super) const HEADINGS: [&str; 17] = [
     "thesis",
     "axis mm",
     "thesis",
+    "outliers",
+    "in 95 %",
     "coverage",
+    "wall coverage",
     "corners",
     "corner mm",
     "corner s",
@@ -35,8 +39,32 @@ pub fn bench_table(rows: &[BenchRow]) -> String {
     ruled(HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()), NAMES)
 }
 
+/// A line for every policy: how many tips it recorded in all scenes together, which share of them are outliers, and which lies within
+/// the 95 % interval that the tips report.
+#[must_use]
+pub fn pooled_tips(rows: &[BenchRow]) -> String {
+    let mut policies: Vec<&str> = Vec::new();
+    for row in rows {
+        if !policies.contains(&row.result.policy.as_str()) {
+            policies.push(&row.result.policy);
+        }
+    }
+    let line = |policy: &str| {
+        let mine = rows.iter().filter(|row| row.result.policy == policy).map(|row| &row.result.error_mm);
+        let tips: TipShares = mine.map(|error| TipShares::of_run(error.n, error.outliers, error.within_band)).sum();
+        let share = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
+        format!(
+            "{policy}: {} tips, {} outliers, {} within their 95 % interval",
+            tips.count,
+            share(tips.outlier_share(), 3),
+            share(tips.within_band_share(), 1)
+        )
+    };
+    policies.into_iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
 /// The cells of a line, with the verdict that a cell bears.
-pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 17] {
+pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 20] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
@@ -66,7 +94,10 @@ pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 17] {
         thesis_radius,
         axis,
         thesis_axis,
-        plain(Some(format!("{:.1} %", 100.0 * result.coverage))),
+        plain(result.error_mm.outliers.map(|share| percent(share, 2))),
+        plain(result.error_mm.within_band.map(|share| percent(share, 1))),
+        plain(Some(percent(result.coverage, 1))),
+        plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
         plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),
         plain(corners.and_then(|corners| corners.place_mm.mean).map(millimetres)),
         plain(corners.and_then(|corners| corners.time_s.mean).map(|time| format!("{time:.1}"))),

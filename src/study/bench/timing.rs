@@ -37,7 +37,7 @@ impl Timing {
     pub fn take(scene: &Scene, program: &Arc<Program>, world: WorldSetup, seed: u64) -> Result<Self, ExecuteError> {
         let start = processor_time();
         let run = execute(scene, Arc::clone(program), world, seed, |_| ControlFlow::Continue(()))?;
-        let score = Score::new(&run, &scene.truth);
+        let score = Score::new(&run, &scene.truth, &scene.rig);
         let processor = processor_time() - start;
         Ok(Self {
             outcome: run.outcome,

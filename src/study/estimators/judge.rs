@@ -97,7 +97,7 @@ pub(in crate::study) fn judge(
             on_shaft += usize::from(perception.touch(bound).is_some_and(|touch| touch.contact_length < length));
             let error = scene.truth.surfaces.nearest(tip_world).distance;
             let spread = perception.whisker(bound, WhiskerScalar::TipSpread);
-            tips.push(Tip { tick: index, whisker, tip_world, error, spread });
+            tips.push(Tip { tick: index, whisker, tip_world, error, spread, offset: None });
         }
     }
     let figures = ErrorFigures::of(&tips);
@@ -110,6 +110,8 @@ pub(in crate::study) fn judge(
         mean_mm: figures.map(|figures| 1e3 * figures.mean),
         p95_mm: figures.map(|figures| 1e3 * figures.p95),
         within_band: figures.map(|figures| figures.within_band),
+        outliers: figures.map(|figures| figures.outliers),
+        tips: tips.len(),
         on_shaft: share(on_shaft, tips.len()),
         tick_us: 1e6 * seconds / trace.ticks.len().max(1) as f64,
     })

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::machine::TipModelKind;
 use crate::report::{NONE, millimetres, ruled};
+use crate::study::TipShares;
 
 /// How one tip model did on the samples of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -22,13 +23,17 @@ pub struct EstimatorRow {
     pub p95_mm: Option<f64>,
     /// See `mean_mm`.
     pub within_band: Option<f64>,
+    /// The share of it that are outliers.
+    pub outliers: Option<f64>,
+    /// Number of points that it tells.
+    pub tips: usize,
     /// The share of the points that it tells to be touches of the shaft.
     pub on_shaft: f64,
     /// Mean time that perception takes a tick (µs), all whiskers together.
     pub tick_us: f64,
 }
 
-/// A table with a line for every scene and noise, and means over the scenes below: of every tip model the mean and the 95th percentile
+/// A table with a line for every scene and noise, and figures of all scenes below: of every tip model the mean and the 95th percentile
 /// of the error (mm), and behind a stroke the share that it tells, if that is less than 99 %.
 #[must_use]
 pub fn estimators_table(rows: &[EstimatorRow]) -> String {
@@ -64,6 +69,8 @@ pub fn estimators_table(rows: &[EstimatorRow]) -> String {
                 let found: Vec<f64> = mine.iter().filter_map(|row| figure(row)).collect();
                 (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
             };
+            let tips: TipShares =
+                mine.iter().map(|row| TipShares::of_run(row.tips, row.outliers, row.within_band)).sum();
             let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
             let percent = |share: f64| format!("{:.1} %", 100.0 * share);
             vec![
@@ -71,14 +78,19 @@ pub fn estimators_table(rows: &[EstimatorRow]) -> String {
                 noise(bits),
                 shown(mean(&|row| row.mean_mm), &millimetres),
                 shown(mean(&|row| row.p95_mm), &millimetres),
-                shown(mean(&|row| row.within_band), &percent),
+                shown(tips.within_band_share(), &percent),
+                shown(tips.outlier_share(), &|share| format!("{:.2} %", 100.0 * share)),
                 shown(mean(&|row| Some(row.told)), &percent),
                 shown(mean(&|row| Some(row.on_shaft)), &percent),
                 shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
             ]
         });
-    let headings = ["tip model", "noise", "mean mm", "p95 mm", "within band", "told", "on the shaft", "tick µs"];
-    format!("{scenes}\n\nMeans over the scenes:\n{}", ruled(headings, lines, 2))
+    let headings =
+        ["tip model", "noise", "mean mm", "p95 mm", "in 95 %", "outliers", "told", "on the shaft", "tick µs"];
+    format!(
+        "{scenes}\n\nMeans over the scenes; shares within the 95 % interval and of outliers are of all tips together:\n{}",
+        ruled(headings, lines, 2)
+    )
 }
 
 fn cell(row: &EstimatorRow) -> String {

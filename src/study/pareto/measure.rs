@@ -93,7 +93,7 @@ pub(super) struct Measured {
 
 impl Measured {
     fn new(run: &Run, scene: &Scene, seconds: f64) -> Self {
-        let score = Score::new(run, &scene.truth);
+        let score = Score::new(run, &scene.truth, &scene.rig);
         Self {
             ending: run.outcome.into(),
             reason: run.reason.clone(),

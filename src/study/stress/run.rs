@@ -76,7 +76,7 @@ impl StressCase {
             Ok(run) => run,
             Err(cause) => return self.row(Ending::Refused, Some(cause.to_string()), 0.0, true),
         };
-        let score = Score::new(&run, &self.scene.truth);
+        let score = Score::new(&run, &self.scene.truth, &self.scene.rig);
         let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
         let (scenario, world) = (String::new(), self.world.to_string());
         let result = RunResult::new(Identity { scenario, policy, world, seed: 0, hash }, &run, &score);

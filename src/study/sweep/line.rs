@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::shard::run_hash;
 use crate::report::RunResult;
 use crate::scene::SweepRun;
-use crate::study::{Ending, Figures};
+use crate::study::{Ending, Figures, TipShares};
 
 /// The result of a run of a sweep; serialised, a line of its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -95,6 +95,9 @@ struct Counted {
 struct Errors {
     mean: Option<f64>,
     p95: Option<f64>,
+    within_band: Option<f64>,
+    outliers: Option<f64>,
+    n: usize,
 }
 
 #[derive(Debug, Deserialize)]
@@ -109,6 +112,9 @@ struct Collisions {
 pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
     let Counted { key, passed, outcome: ending, error_mm, collisions } = serde_json::from_str(line)?;
     let collided = collisions.is_some_and(|collisions| collisions.count > 0);
+    let tips = error_mm
+        .as_ref()
+        .map_or_else(TipShares::default, |errors| TipShares::of_run(errors.n, errors.outliers, errors.within_band));
     let (error_mean_mm, error_p95_mm) = error_mm.map_or((None, None), |errors| (errors.mean, errors.p95));
-    Ok((key, Figures { ending, passed, collided, error_mean_mm, error_p95_mm }))
+    Ok((key, Figures { ending, passed, collided, error_mean_mm, error_p95_mm, tips }))
 }

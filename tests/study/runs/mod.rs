@@ -27,6 +27,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             tip_spreads: [1e-3; MAX_WHISKERS],
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
             failsafe: None,
+            tip_ends: [None; MAX_WHISKERS],
             body_touches: false,
             springs: [false; MAX_WHISKERS],
         };

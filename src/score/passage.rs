@@ -1,0 +1,141 @@
+//! How a run went through a tunnel.
+
+use crate::geometry::{Contour, ContourSet, Point2, TunnelAxis, rotate};
+use crate::percept::TipCurve;
+use crate::rig::{Rig, Whisker};
+use crate::run::Trace;
+
+use super::coverage::COVERAGE_TOLERANCE;
+use super::{Estimate, Statistics, Tip};
+
+/// Distance between the points of a wall that are looked at (m).
+const STEP: f64 = 5e-4;
+
+/// A point of a parallel of the axis is on an inner side if it is this close to it (m). An opening has no inner side.
+const ON_SIDE: f64 = 1e-6;
+
+/// How a run went through a tunnel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passage {
+    /// The longest stretch of the axis along which the platform's centre of mass went between the walls without leaving them, as a
+    /// share of the axis's length, 0 to 1.
+    pub share: f64,
+    /// The share of the left inner side that was [traced](super::traced), 0 to 1, between the first and the last contact with
+    /// either inner side; 0 without a contact.
+    pub left_coverage: f64,
+    /// The same of the right inner side.
+    pub right_coverage: f64,
+    /// Whether the whiskers of the rig reach both walls at once.
+    pub reaches_both: bool,
+}
+
+impl Passage {
+    /// The passage of a run that recorded `tips`, through the tunnel of `axes` along which it went farthest. The inner sides of
+    /// the tunnels' walls are in `reference`. `None` without a tunnel.
+    pub(super) fn of(
+        (trace, tips, estimate): (&Trace, &[Tip], &Estimate),
+        axes: &[TunnelAxis],
+        reference: &ContourSet,
+        rig: &Rig,
+    ) -> Option<Self> {
+        let shares = axes.iter().map(|axis| (axis, passed_share(trace, axis)));
+        let (axis, share) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let sides = [axis.left(), axis.right()].map(|contour| side_points(contour, axis, reference));
+        let reaches_both = whisker_span(rig).is_some_and(|span| span > clear_width(axis, &sides));
+        let [left_coverage, right_coverage] = match contact_stretch(tips, axis) {
+            None => [0.0; 2],
+            Some((first, last)) => sides.map(|points| {
+                let within = points.into_iter().filter(|(along, _)| (first..=last).contains(along));
+                let traced = within.map(|(_, point)| estimate.distance(point).is_some_and(|d| d <= COVERAGE_TOLERANCE));
+                share_of(traced)
+            }),
+        };
+        Some(Self { share, left_coverage, right_coverage, reaches_both })
+    }
+
+    /// The share that counts: that of the side traced less if the whiskers reach both walls at once, else that of the other.
+    #[must_use]
+    pub fn wall_coverage(&self) -> f64 {
+        let (left, right) = (self.left_coverage, self.right_coverage);
+        if self.reaches_both { left.min(right) } else { left.max(right) }
+    }
+}
+
+/// The share of `truths` that are true, 0 to 1; 0 of none.
+fn share_of(truths: impl Iterator<Item = bool>) -> f64 {
+    let (mut count, mut of) = (0_usize, 0_usize);
+    for truth in truths {
+        count += usize::from(truth);
+        of += 1;
+    }
+    if of > 0 { count as f64 / of as f64 } else { 0.0 }
+}
+
+fn passed_share(trace: &Trace, axis: &TunnelAxis) -> f64 {
+    let line = axis.line();
+    // Least and greatest arc length of the stretch so far, and the newest.
+    let mut stretch: Option<(f64, f64, f64)> = None;
+    let mut longest = 0.0_f64;
+    for tick in &trace.ticks {
+        let along = axis.arc_length_between(tick.body.position).filter(|_| tick.body.is_finite());
+        stretch = along.map(|along| match stretch {
+            None => (along, along, along),
+            Some((least, greatest, newest)) => {
+                let mut step = along - newest;
+                if line.is_closed() {
+                    step -= line.length() * (step / line.length()).round();
+                }
+                let along = newest + step;
+                (least.min(along), greatest.max(along), along)
+            }
+        });
+        longest = stretch.map_or(longest, |(least, greatest, _)| longest.max(greatest - least));
+    }
+    (longest / line.length()).min(1.0)
+}
+
+/// Points of an inner side, with the arc lengths of the axis's line beside them.
+fn side_points(contour: &Contour, axis: &TunnelAxis, reference: &ContourSet) -> Vec<(f64, Point2)> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count that a scene's limits bound")]
+    let count = (contour.length() / STEP).ceil() as usize;
+    let point = |index: usize| contour.point_at((index as f64 + 0.5) * contour.length() / count as f64);
+    let points = (0..count).map(point).filter(|&point| reference.distance(point) <= ON_SIDE);
+    points.map(|point| (axis.line().nearest(point).arc_length, point)).collect()
+}
+
+/// From where to where along the axis the tips touch inner sides.
+fn contact_stretch(tips: &[Tip], axis: &TunnelAxis) -> Option<(f64, f64)> {
+    let on_side = |tip: &&Tip| {
+        let distance = axis.left().nearest(tip.tip_world).distance.min(axis.right().nearest(tip.tip_world).distance);
+        distance <= COVERAGE_TOLERANCE
+    };
+    let along = tips.iter().filter(on_side).map(|tip| axis.line().nearest(tip.tip_world).arc_length);
+    along.fold(None, |stretch, along| {
+        let (first, last) = stretch.unwrap_or((along, along));
+        Some((f64::min(first, along), f64::max(last, along)))
+    })
+}
+
+/// The median distance (m) of the points of the inner sides from the side opposite.
+fn clear_width(axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> f64 {
+    let from_left = left.iter().map(|(_, point)| axis.right().nearest(*point).distance);
+    let from_right = right.iter().map(|(_, point)| axis.left().nearest(*point).distance);
+    let widths = Statistics::of(from_left.chain(from_right).collect());
+    widths.map_or(f64::INFINITY, |widths| widths.percentile(50.0))
+}
+
+/// How far apart (m) two parallel walls are at most that a whisker on the left of `rig` and one on the right both feel at once; `None`
+/// if it has no two such whiskers.
+fn whisker_span(rig: &Rig) -> Option<f64> {
+    // A wall is felt from the contact threshold on.
+    let contact_body = |whisker: &Whisker| {
+        let bend = whisker.usual_bend() * rig.sensing.contact_threshold;
+        let contact = TipCurve::new(whisker).ok()?.contact_base(bend);
+        Some(whisker.base_body + rotate(contact, whisker.direction_body))
+    };
+    let sideways = |side: f64| {
+        let whiskers = rig.whiskers.iter().filter(move |whisker| whisker.side() * side > 0.0);
+        whiskers.filter_map(contact_body).map(|contact| side * contact.y).max_by(f64::total_cmp)
+    };
+    Some(sideways(1.0)? + sideways(-1.0)?)
+}
