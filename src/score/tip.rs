@@ -42,8 +42,9 @@ impl Tip {
     /// Whether the error is more than the estimate's own standard deviation (m) explains.
     #[must_use]
     pub fn is_outlier(&self) -> bool {
+        let is_explained = self.error <= OUTLIER_ERROR + OUTLIER_DEVIATIONS * self.spread;
         // An error that is not a number is an outlier, and so is a standard deviation that is not.
-        !(self.error <= OUTLIER_ERROR + OUTLIER_DEVIATIONS * self.spread)
+        !is_explained
     }
 }
 
