@@ -22,4 +22,5 @@ mod seen;
 mod snapshots;
 mod ticks;
 mod tiers;
+mod verdicts;
 mod way;
