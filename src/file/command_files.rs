@@ -15,7 +15,7 @@ pub struct CommandFiles {
     /// All that was asked for, be it there or not, in that order.
     inputs: Vec<PathBuf>,
     uses: HashMap<Identity, Use>,
-    /// Standard output and standard error, where they are regular files.
+    /// Standard output and standard error.
     streams: [Option<Identity>; 2],
 }
 
@@ -39,7 +39,7 @@ impl CommandFiles {
         Self {
             inputs: Vec::new(),
             uses: HashMap::new(),
-            streams: [stream_identity(&stdout()), stream_identity(&stderr())],
+            streams: [stream_identity(&stdout()), stream_identity(&stderr())].map(|stream| Some(stream?.0)),
         }
     }
 
@@ -56,7 +56,8 @@ impl CommandFiles {
     /// # Errors
     /// It cannot be read, or the command's messages or results go to the same file.
     pub fn read_standard(&mut self, limit: usize) -> Result<Vec<u8>> {
-        if let Some(identity) = stream_identity(&stdin()) {
+        // A terminal is all three streams.
+        if let Some((identity, true)) = stream_identity(&stdin()) {
             self.read_once(identity, Path::new("standard input"))?;
         }
         read_at_most(stdin().lock(), limit)
@@ -104,15 +105,15 @@ impl CommandFiles {
             if about.is_dir() {
                 return Err(unwritable(ErrorKind::IsADirectory.into()));
             }
+            if let Some(stream) = Identity::inode(about).and_then(|inode| self.stream(&inode)) {
+                return Ok(Output::new(argument, path, Way::Stream(stream)));
+            }
             if !about.is_file() {
                 return Ok(Output::new(argument, path, Way::Open));
             }
         }
         place(path).map_err(unwritable)?;
         let identities: Vec<_> = Identity::of(path).collect();
-        if let Some(stream) = identities.iter().find_map(|identity| self.stream(identity)) {
-            return Ok(Output::new(argument, path, Way::Stream(stream)));
-        }
         for identity in identities {
             let (argument, path) = (argument, path.to_owned());
             match self.uses.get(&identity).cloned() {
@@ -133,14 +134,14 @@ impl CommandFiles {
     }
 }
 
-/// What a stream is if it is a regular file.
+/// What a stream is, and whether that is a regular file.
 #[cfg(unix)]
-fn stream_identity(stream: &impl std::os::fd::AsFd) -> Option<Identity> {
+fn stream_identity(stream: &impl std::os::fd::AsFd) -> Option<(Identity, bool)> {
     let about = File::from(stream.as_fd().try_clone_to_owned().ok()?).metadata().ok()?;
-    about.is_file().then(|| Identity::inode(&about))?
+    Some((Identity::inode(&about)?, about.is_file()))
 }
 
 #[cfg(not(unix))]
-fn stream_identity<S>(_: &S) -> Option<Identity> {
+fn stream_identity<S>(_: &S) -> Option<(Identity, bool)> {
     None
 }

@@ -67,3 +67,35 @@ pub(super) fn folder(path: &Path) -> &Path {
         _ => Path::new("."),
     }
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+
+    /// The oracle is the system: it follows the links when the file is made.
+    #[test]
+    fn the_place_of_a_file_is_known_before_the_file_is_there() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path();
+        std::fs::create_dir_all(root.join("a/b")).unwrap();
+        symlink("a/b", root.join("to_b")).unwrap();
+        // Each leads to the one before it: beside it, from another folder, absolutely, through a link to a folder.
+        symlink("../new", root.join("a/one")).unwrap();
+        symlink("../one", root.join("a/b/two")).unwrap();
+        symlink(root.join("to_b/two"), root.join("three")).unwrap();
+        symlink("./a/../three", root.join("four")).unwrap();
+        for path in ["new", "a/one", "to_b/two", "three", "four", "to_b/../one", "a/b/new"] {
+            let path = root.join(path);
+            let before = place(&path).unwrap();
+            assert!(!path.exists(), "{}", path.display());
+            std::fs::write(&path, "").unwrap();
+            assert_eq!(before, path.canonicalize().unwrap());
+            assert!(Identity::of(&path).any(|identity| identity == Identity::Place(before.clone())));
+            std::fs::remove_file(before).unwrap();
+        }
+        symlink("circle", root.join("circle")).unwrap();
+        assert!(place(&root.join("circle")).is_err() && place(&root.join("nowhere/new")).is_err());
+    }
+}

@@ -26,7 +26,7 @@ pub(super) enum Way {
     Stream(Stream),
 }
 
-/// A stream of the program that is a regular file.
+/// A stream of the program.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Stream {
     Output,

@@ -194,6 +194,14 @@ fn a_file_that_is_written_keeps_its_mode_its_links_and_its_protection() {
     }
     let whole = text(&folder, "chart.svg");
 
+    // What may not be written is left alone; root may write everything.
+    fs::set_permissions(&chart, Permissions::from_mode(0o444)).unwrap();
+    let may_write = fs::OpenOptions::new().write(true).open(&chart).is_ok();
+    let refused = in_folder(&folder, "graph @/quick.fsm --format dot -o @/chart.svg");
+    assert_eq!(refused.status.code(), Some(if may_write { 0 } else { 2 }), "{}", stderr(&refused));
+    assert_eq!(text(&folder, "chart.svg") == whole, !may_write);
+    assert_eq!(mode(&chart), 0o444);
+
     // A link stays, and the file that it leads to is written, be it there or not.
     fs::create_dir(folder.join("other")).unwrap();
     for (link, target) in [("first", "other/there"), ("second", "other/new")] {
