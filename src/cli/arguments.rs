@@ -58,6 +58,8 @@ pub(super) enum Command {
     /// Lay out policies, in place
     Fmt(FmtArguments),
     /// Serve an editor in which policies are written, over standard input and output
+    // It says how to get one where there is none, and is not offered there.
+    #[cfg_attr(not(feature = "lsp"), command(hide = true))]
     Lsp,
     /// Print the MuJoCo model of a scenario
     Mjcf(MjcfArguments),

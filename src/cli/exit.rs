@@ -7,6 +7,7 @@ use crate::calibration::SetsError;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::file::OutputError;
 use crate::machine::{ArtifactError, SetError};
+use crate::policy::chart::UnknownState;
 use crate::report::ChartTooLarge;
 use crate::rig::UnknownWhisker;
 use crate::scene::family::{FAMILIES, NoDraw};
@@ -134,6 +135,8 @@ pub(super) enum Failure {
     NoLsp,
     #[error("{}: {cause}", policy.display())]
     Chart { policy: PathBuf, cause: ChartTooLarge },
+    #[error("{}: {cause}", policy.display())]
+    View { policy: PathBuf, cause: UnknownState },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

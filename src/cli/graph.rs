@@ -1,6 +1,7 @@
 //! `vibrissa graph`
 
 use crate::file::CommandFiles;
+use crate::policy::chart::View;
 use crate::report::{chart_dot, chart_mermaid, chart_svg};
 
 use super::exit::{Exit, Failure};
@@ -8,9 +9,11 @@ use super::language_arguments::{ChartFormat, GraphArguments};
 use super::{input, output};
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
+    let view = View { state: arguments.state.as_deref(), depth: arguments.depth.map(usize::from) };
     let mut files = CommandFiles::new();
-    let chart = input::chart(&arguments.policy, &mut files)?;
+    let whole = input::chart(&arguments.policy, &mut files)?;
     let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
+    let chart = whole.view(view).map_err(|cause| Failure::View { policy: arguments.policy.clone(), cause })?;
     let text = match arguments.format {
         ChartFormat::Svg => {
             chart_svg(&chart).map_err(|cause| Failure::Chart { policy: arguments.policy.clone(), cause })?

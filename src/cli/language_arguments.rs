@@ -44,6 +44,13 @@ pub(super) struct GraphArguments {
     /// Format of the statechart
     #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
     pub(super) format: ChartFormat,
+    /// Show states of N levels only: with 1 those that lie in no other. What leads to or from the others leads to or from the state
+    /// around them
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
+    pub(super) depth: Option<u8>,
+    /// Show only what lies in this state, and where that leads; with --depth, N levels of it
+    #[arg(long, value_name = "NAME")]
+    pub(super) state: Option<String>,
     /// Write it into this file instead of printing it
     #[arg(short, long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,

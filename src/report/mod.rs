@@ -5,6 +5,7 @@ mod number;
 mod outline;
 mod picture;
 mod result;
+mod shade;
 mod style;
 mod table;
 mod tick_line;

@@ -1,7 +1,5 @@
 //! Colours and type of the pictures.
 
-use std::cmp::Ordering;
-
 use svg::node::element::{Line, Rectangle, Text, Title};
 
 /// A font that every system has.
@@ -30,20 +28,6 @@ pub(super) const ALARM: &str = "#c2410c";
 /// One colour a whisker (Okabe and Ito's, which colour-blind people can tell apart).
 pub(super) const WHISKERS: [&str; 8] =
     ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#009e73", "#8c510a", "#d55e00", "#666666"];
-
-/// One light colour a state, to be written on.
-pub(super) const STATES: [&str; 8] =
-    ["#d9e2ec", "#b8dcf0", "#fde3a7", "#d6c9ec", "#c7e8c9", "#f6cfd8", "#e6d5b8", "#bfe3df"];
-
-/// The colour of an estimate whose error compares with the mean like this: the thesis's green within a standard deviation
-/// and red beyond, and blue for those that are better.
-pub(super) fn error_colour(against_mean: Ordering) -> &'static str {
-    match against_mean {
-        Ordering::Less => "#0072b2",
-        Ordering::Equal => "#009e73",
-        Ordering::Greater => "#d55e00",
-    }
-}
 
 /// Where a text stands relative to its place.
 #[derive(Clone, Copy)]

@@ -53,6 +53,7 @@ pub fn drive(
     let mut trace = Trace {
         whiskers: control.perception().fitted().map(|(whisker, _)| program.whiskers[whisker].clone()).collect(),
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
+        parents: program.states.iter().map(|state| state.parent).collect(),
         period,
         ticks: Vec::with_capacity(most_ticks.min(ROOM)),
         marks: Vec::new(),

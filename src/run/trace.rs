@@ -11,6 +11,8 @@ pub struct Trace {
     pub whiskers: Vec<String>,
     /// The machine's states; ticks name them by index.
     pub states: Vec<String>,
+    /// The state that each of them lies in, by its index; an outer state comes before those in it.
+    pub parents: Vec<Option<usize>>,
     /// Time between ticks (s).
     pub period: f64,
     /// The ticks.

@@ -1,7 +1,5 @@
 //! The error of a run's tip estimates.
 
-use std::cmp::Ordering;
-
 use super::{Statistics, Tip, TipOffset};
 
 /// How far a run's tip estimates are from the nearest surface, whiskers pooled; lengths in metres.
@@ -63,13 +61,5 @@ impl ErrorFigures {
             across: distance(|offset| offset.across),
             count: statistics.count(),
         })
-    }
-
-    /// How an error (m) compares with the mean: equal if it is within a standard deviation of it. The thesis draws estimates
-    /// that are equal to the mean in this sense in green.
-    #[must_use]
-    pub fn against_mean(&self, error: f64) -> Ordering {
-        let (from_mean, std) = (error - self.mean, self.std.unwrap_or(0.0));
-        if from_mean.abs() <= std { Ordering::Equal } else { from_mean.total_cmp(&0.0) }
     }
 }

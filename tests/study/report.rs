@@ -1,5 +1,6 @@
 //! What people and programs get to see of a run.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use crate::runs::{arc_of_tips, run_with};
@@ -189,6 +190,7 @@ fn the_same_run_gives_the_same_picture_whatever_the_clock_says() {
 fn many_states_and_whiskers_with_long_names_and_a_long_reason_have_room() {
     let mut run = run_with(&vec![arc_of_tips(0.301, 0.0, 1.0, 0.05 / 30.0); 8]);
     run.trace.states = (0..30).map(|k| format!("StateOfALongName{k}")).collect();
+    run.trace.parents = vec![None; 30];
     run.trace.whiskers = (0..8).map(|k| format!("whisker_of_a_long_name_{k}")).collect();
     for (index, tick) in run.trace.ticks.iter_mut().enumerate() {
         tick.state = Some(index / 5);
@@ -197,6 +199,61 @@ fn many_states_and_whiskers_with_long_names_and_a_long_reason_have_room() {
     run.outcome = Outcome::Failed;
     run.reason = Some("the whisker was lost and ".repeat(20) + &"o".repeat(400));
     texts_stand_clear(&draw(&scene(), "thesis", &run));
+}
+
+/// The colours of the dots in a picture.
+fn dot_colours(picture: &str) -> BTreeSet<String> {
+    let dots = picture.lines().filter(|line| line.contains("stroke-linecap=\"round\"") && line.contains("d=\"M"));
+    dots.filter_map(|line| Some(line.split_once("stroke=\"")?.1.split('"').next()?.to_owned())).collect()
+}
+
+#[test]
+fn an_error_has_the_same_colour_in_every_picture_and_the_legend_says_which() {
+    let around = |radius: f64| arc_of_tips(radius, 0.0, TAU / 4.0, 0.05 / 30.0);
+    let colours = |tips: &[Vec<Option<Point2>>]| dot_colours(&draw(&scene(), "thesis", &run_with(tips)));
+    // A twentieth of a millimetre, alone and beside five millimetres, which make the mean a hundred times as large.
+    let (small, large) = (colours(&[around(0.30005)]), colours(&[around(0.305)]));
+    let both = colours(&[around(0.30005), around(0.305)]);
+    assert_eq!((small.len(), large.len()), (1, 1));
+    assert_ne!(small, large);
+    assert_eq!(both, &small | &large);
+    let picture = draw(&scene(), "thesis", &run_with(&[around(0.30005)]));
+    for colour in &both {
+        assert!(picture.contains(&format!("fill=\"{colour}\"")), "the legend has no {colour}");
+    }
+    let labels: Vec<_> = see(&picture).texts.into_iter().map(|(content, _)| content).collect();
+    for limit in ["0.01", "0.03", "0.1", "0.3", "1", "3", "10"] {
+        assert!(labels.iter().any(|label| label == limit), "no {limit} in {labels:?}");
+    }
+}
+
+#[test]
+fn a_picture_says_what_the_hausdorff_distance_is_of() {
+    let around = |sweep| draw(&scene(), "thesis", &run_with(&[arc_of_tips(0.30005, 0.0, sweep, 0.05 / 30.0)]));
+    assert!(around(0.9 * TAU).contains("of the outline's farthest untraced point"));
+    assert!(around(TAU).contains("of the farthest estimate"));
+}
+
+#[test]
+fn each_of_43_states_looks_different_and_as_in_other_runs_of_its_machine() {
+    let parents: Vec<_> = (0..43).map(|k| (k % 22 != 0).then_some(k / 22 * 22)).collect();
+    let fills = |states: &[usize]| {
+        let mut run = run_with(&[arc_of_tips(0.301, 0.0, 1.0, 0.05 / 30.0)]);
+        run.trace.states = (0..43).map(|k| format!("S{k}")).collect();
+        run.trace.parents.clone_from(&parents);
+        let count = run.trace.ticks.len();
+        for (index, tick) in run.trace.ticks.iter_mut().enumerate() {
+            tick.state = Some(states[index * states.len() / count]);
+        }
+        let picture = draw(&scene(), "thesis", &run);
+        let bands = picture.lines().filter(|line| line.starts_with("<rect") && line.contains("height=\"24\""));
+        bands
+            .map(|line| line.split_once("fill=\"").unwrap().1.split('"').next().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let all = fills(&(0..43).collect::<Vec<_>>());
+    assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), 43);
+    assert_eq!(fills(&[42, 7]), [all[42].clone(), all[7].clone()]);
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod fuzz;
 mod hash;
 mod platform;
 mod setup;
+mod sign_of_life;
 mod stamp;
 mod wheel;
 

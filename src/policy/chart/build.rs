@@ -16,8 +16,10 @@ pub(in crate::policy) fn build(source: &Source, file: &File) -> Chart {
     let always = builder.ways(Origin::AnyState, &file.always, &file.failsafes);
     Chart {
         machine: file.name.text.clone(),
-        states: file.states.iter().map(|state| builder.state(state, file)).collect(),
+        states: file.states.iter().zip(0..).map(|(state, index)| builder.state(index, state, file)).collect(),
         transitions: always.into_iter().chain(of_states).collect(),
+        parents: file.states.iter().map(|state| state.parent).collect(),
+        is_overview: false,
     }
 }
 
@@ -28,7 +30,7 @@ struct Builder<'f> {
 }
 
 impl Builder<'_> {
-    fn state(&self, state: &ast::State, file: &File) -> State {
+    fn state(&self, index: usize, state: &ast::State, file: &File) -> State {
         let arguments = state.arguments.iter().map(|argument| {
             let type_name = self.text(argument.type_name.span());
             Argument { name: argument.name.text.clone(), type_name }
@@ -36,11 +38,13 @@ impl Builder<'_> {
         let outer = state.parent.map(|parent| &file.states[parent]);
         let begin = outer.into_iter().flat_map(|outer| &outer.initial).find(|step| step.name.text == state.name.text);
         State {
+            index,
             name: state.name.text.clone(),
             arguments: arguments.collect(),
             parent: state.parent,
             initial: file.initial.iter().any(|initial| initial.text == state.name.text) || begin.is_some(),
             values: begin.map_or_else(Vec::new, |step| self.texts(&step.values)),
+            hidden: 0,
         }
     }
 
@@ -49,7 +53,18 @@ impl Builder<'_> {
     fn ways(&self, origin: Origin, transitions: &[ast::Transition], failsafes: &[ast::Target]) -> Vec<Transition> {
         let transitions = transitions.iter().map(|transition| (self.guard(&transition.guard), &transition.target));
         let ways = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
-        ways.filter_map(|(guard, target)| Some(Transition { origin, guard, target: self.target(target)? })).collect()
+        let mut ways: Vec<Transition> = ways
+            .filter_map(|(guard, target)| {
+                Some(Transition { origin, number: None, guard, target: self.target(target)? })
+            })
+            .collect();
+        // A failsafe is not tried among the others.
+        let tried = ways.iter_mut().filter(|way| way.guard != Guard::Failsafe);
+        let mut tried: Vec<&mut Transition> = tried.collect();
+        if tried.len() > 1 {
+            tried.iter_mut().zip(1..).for_each(|(way, number)| way.number = Some(number));
+        }
+        ways
     }
 
     fn guard(&self, guard: &ast::Guard) -> Guard {

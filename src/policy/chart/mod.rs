@@ -1,8 +1,10 @@
 //! The statechart of a policy: its states and transitions with their texts, for people to look at.
 
 mod build;
+mod view;
 
 pub(super) use build::build;
+pub use view::{UnknownState, View};
 
 /// States and the transitions between them, in the order of the policy.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,6 +15,10 @@ pub struct Chart {
     pub states: Vec<State>,
     /// The transitions: those of any state first, then those of every state. Those of one origin are tried in this order.
     pub transitions: Vec<Transition>,
+    /// The state that each state of the machine lies in, by their indices there, also of those that a [`View`] leaves out.
+    pub parents: Vec<Option<usize>>,
+    /// Whether a [`View`] leaves out levels of it, so that a picture should tell little of each transition.
+    pub is_overview: bool,
 }
 
 impl Chart {
@@ -43,6 +49,8 @@ impl Chart {
 /// A state.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct State {
+    /// Its index in the machine.
+    pub index: usize,
     /// Its name.
     pub name: String,
     /// What it is entered with.
@@ -53,6 +61,8 @@ pub struct State {
     pub initial: bool,
     /// The values of its arguments when it is entered first.
     pub values: Vec<String>,
+    /// How many states lie in it that are not shown.
+    pub hidden: usize,
 }
 
 /// An argument of a state.
@@ -69,6 +79,8 @@ pub struct Argument {
 pub struct Transition {
     /// Where it comes from.
     pub origin: Origin,
+    /// As the how manyth of its origin it is tried, from 1; `None` if it is the only one, a failsafe, or shown for a state that is not.
+    pub number: Option<usize>,
     /// When it is taken.
     pub guard: Guard,
     /// Where it leads.

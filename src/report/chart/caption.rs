@@ -2,7 +2,7 @@
 
 use svg::node::element::{Group, Rectangle};
 
-use super::label::Label;
+use super::label::{LINE, Label};
 use super::layout::{Place, Size};
 use super::wrap::letters;
 use crate::report::style::{self, Anchor, px, text};
@@ -17,6 +17,11 @@ const LINE_HEIGHT: f64 = 14.5;
 const GAP: f64 = 4.0;
 /// Room round the block (px): beside, above.
 const MARGIN: (f64, f64) = (6.0, 3.0);
+
+/// Letters in a line of an overview, lines of a guard or a reason, and labels of an arrow.
+const BRIEF_LINE: usize = 16;
+const BRIEF_LINES: usize = 2;
+const BRIEF_LABELS: usize = 3;
 
 /// A block of labels, one below the other.
 pub(super) struct Caption {
@@ -34,12 +39,36 @@ impl Caption {
     /// The block of `labels`; what they hand over is in `colour`.
     pub(super) fn new(labels: &[Label], colour: &'static str) -> Self {
         let entry = |label: &Label| {
-            let guard = label.guard_lines().into_iter().map(|line| (style::INK, line));
-            let effects = label.effect_lines().into_iter().map(|line| (colour, line));
+            let guard = label.guard_lines(LINE).into_iter().map(|line| (style::INK, line));
+            let effects = label.effect_lines(LINE).into_iter().map(|line| (colour, line));
             Entry { number: label.number, lines: guard.chain(effects).collect() }
         };
-        let digits = labels.iter().filter_map(|label| label.number).max().map(|number| number.to_string().len());
-        Self { entries: labels.iter().map(entry).collect(), numbers: digits.map_or(0, |digits| digits + 1) }
+        Self::of(labels.iter().map(entry).collect())
+    }
+
+    /// A block for an overview: of the first `labels` their first lines, and how many others there are.
+    pub(super) fn brief(labels: &[Label], colour: &'static str) -> Self {
+        let entry = |label: &Label| {
+            let guard = shortened(label.brief_guard_lines(BRIEF_LINE)).into_iter().map(|line| (style::INK, line));
+            // What a state is handed is a detail; why a run fails is not.
+            let effects = if colour == style::ALARM { shortened(label.effect_lines(BRIEF_LINE)) } else { Vec::new() };
+            // Transitions of inner states have no number, so that those of the others would say little.
+            Entry { number: None, lines: guard.chain(effects.into_iter().map(|line| (colour, line))).collect() }
+        };
+        let shown = if labels.len() > BRIEF_LABELS { BRIEF_LABELS - 1 } else { labels.len() };
+        let mut entries: Vec<Entry> = labels[..shown].iter().map(entry).collect();
+        if shown < labels.len() {
+            entries.push(Entry {
+                number: None,
+                lines: vec![(style::GREY, format!("and {} others", labels.len() - shown))],
+            });
+        }
+        Self::of(entries)
+    }
+
+    fn of(entries: Vec<Entry>) -> Self {
+        let digits = entries.iter().filter_map(|entry| entry.number).max().map(|number| number.to_string().len());
+        Self { entries, numbers: digits.map_or(0, |digits| digits + 1) }
     }
 
     /// The size of the block (px); zero if there are no labels.
@@ -80,4 +109,15 @@ impl Caption {
         }
         group
     }
+}
+
+/// The first of some lines, with a sign that there are more.
+fn shortened(mut lines: Vec<String>) -> Vec<String> {
+    if lines.len() > BRIEF_LINES {
+        lines.truncate(BRIEF_LINES);
+        if let Some(last) = lines.last_mut() {
+            last.push('…');
+        }
+    }
+    lines
 }

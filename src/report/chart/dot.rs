@@ -1,6 +1,6 @@
 //! The chart as text for Graphviz.
 
-use super::label::{ANY_STATE, FAILURE, Label, signature};
+use super::label::{ANY_STATE, FAILURE, LINE, Label, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
@@ -42,7 +42,7 @@ pub fn chart_dot(chart: &Chart) -> String {
 /// The states that lie in `parent`, each with those that lie in it.
 fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     for (index, state) in chart.inside(parent) {
-        let node = format!("{} [label={}]", quoted(&state.name), quoted(&signature(state)));
+        let node = format!("{} [label={}]", quoted(&state.name), quoted(&titled(state)));
         if chart.inside(Some(index)).next().is_some() {
             lines.block(&format!("subgraph {}", quoted(&format!("cluster {}", state.name))), |lines| {
                 lines.push(&node);
@@ -63,8 +63,8 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
 
 /// A label in lines that begin below one another.
 fn label(label: &Label) -> String {
-    let mut lines = label.guard_lines();
-    lines.extend(label.effect_lines());
+    let mut lines = label.guard_lines(LINE);
+    lines.extend(label.effect_lines(LINE));
     if let (Some(number), Some(first)) = (label.number, lines.first_mut()) {
         first.insert_str(0, &format!("{number} "));
     }

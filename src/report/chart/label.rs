@@ -9,6 +9,9 @@ pub(super) const ANY_STATE: &str = "any state";
 /// What stands for the end of a run in failure.
 pub(super) const FAILURE: &str = "Failure";
 
+/// Letters in a line.
+pub(super) const LINE: usize = 40;
+
 /// What is written on a transition.
 pub(super) struct Label {
     /// As the how manyth of its origin it is tried, from 1; `None` if it is the only one.
@@ -23,7 +26,7 @@ impl Label {
     /// The label of the transition with this index.
     pub(super) fn new(chart: &Chart, index: usize) -> Self {
         let transition = &chart.transitions[index];
-        Self { number: number(chart, index), guard: guard(transition), effects: effects(chart, transition) }
+        Self { number: transition.number, guard: guard(transition), effects: effects(chart, transition) }
     }
 
     /// The label of the arrow to an initial state: nothing but what that is entered with.
@@ -45,14 +48,19 @@ impl Label {
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
-    /// The guard in short lines.
-    pub(super) fn guard_lines(&self) -> Vec<String> {
-        wrapped(&clauses(&self.guard))
+    /// The guard in lines of so many letters.
+    pub(super) fn guard_lines(&self, width: usize) -> Vec<String> {
+        wrapped(&clauses(&self.guard), width)
     }
 
-    /// What it hands over in short lines.
-    pub(super) fn effect_lines(&self) -> Vec<String> {
-        wrapped(&listed(&self.effects))
+    /// The same without its first word, where that is one that most guards begin with.
+    pub(super) fn brief_guard_lines(&self, width: usize) -> Vec<String> {
+        wrapped(&clauses(self.guard.strip_prefix("when ").unwrap_or(&self.guard)), width)
+    }
+
+    /// What it hands over in lines of so many letters.
+    pub(super) fn effect_lines(&self, width: usize) -> Vec<String> {
+        wrapped(&listed(&self.effects), width)
     }
 }
 
@@ -84,18 +92,21 @@ pub(super) fn signature(state: &State) -> String {
     if state.arguments.is_empty() { state.name.clone() } else { format!("{}({})", state.name, arguments(state)) }
 }
 
+/// How many states in a state are not shown; nothing if all are.
+pub(super) fn hidden(state: &State) -> Option<String> {
+    let plural = if state.hidden == 1 { "" } else { "s" };
+    (state.hidden > 0).then(|| format!("+ {} state{plural} in it", state.hidden))
+}
+
+/// A state's name and arguments, and how many states in it are not shown.
+pub(super) fn titled(state: &State) -> String {
+    [Some(signature(state)), hidden(state)].into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
 /// A state's arguments with their types.
 pub(super) fn arguments(state: &State) -> String {
     let typed = |Argument { name, type_name }: &Argument| format!("{name}: {type_name}");
     state.arguments.iter().map(typed).collect::<Vec<_>>().join(", ")
-}
-
-fn number(chart: &Chart, index: usize) -> Option<usize> {
-    let Transition { origin, guard, .. } = &chart.transitions[index];
-    // A failsafe is not tried among the others.
-    let is_tried = |other: &&Transition| other.origin == *origin && other.guard != Guard::Failsafe;
-    let of_origin = |transitions: &[Transition]| transitions.iter().filter(is_tried).count();
-    (*guard != Guard::Failsafe && of_origin(&chart.transitions) > 1).then(|| of_origin(&chart.transitions[..=index]))
 }
 
 fn guard(transition: &Transition) -> String {

@@ -1,6 +1,6 @@
 //! The chart as text for Mermaid.
 
-use super::label::{ANY_STATE, FAILURE, Label, signature};
+use super::label::{ANY_STATE, FAILURE, Label, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
@@ -38,7 +38,7 @@ pub fn chart_mermaid(chart: &Chart) -> String {
 /// The states that lie in `parent`, each with those that lie in it.
 fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     for (index, state) in chart.inside(parent) {
-        let head = format!("state \"{}\" as {}", escaped(&signature(state)), id(index));
+        let head = format!("state \"{}\" as {}", escaped(&titled(state)), id(index));
         if chart.inside(Some(index)).next().is_some() {
             lines.block(&head, |lines| states(lines, chart, Some(index)));
         } else {

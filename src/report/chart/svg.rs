@@ -9,6 +9,7 @@ use super::nest::{Span, arrange};
 use super::symbol::Symbol;
 use crate::policy::chart::{Chart, Origin, Target, Transition};
 use crate::report::outline::Outline;
+use crate::report::shade::{define, shades};
 use crate::report::style::{self, Anchor, px, text, width_of};
 
 /// The most states and the most transitions that a picture shows.
@@ -28,7 +29,7 @@ const ARROWHEAD: (f64, f64) = (8.0, 4.0);
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{states} states and {transitions} transitions are too many for a picture, which shows {} and {} at most; \
-     choose the format dot or mermaid",
+     show less of it by --depth or --state, or choose the format dot or mermaid",
     LIMITS.0,
     LIMITS.1
 )]
@@ -93,22 +94,28 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| !holds_others(**symbol)) {
         drawing = drawing.add(symbol.draw(chart, centre, size.0));
     }
-    let document = style::sheet((width, height), &format!("statechart of {}", chart.machine))
+    let shades = shades(&chart.parents);
+    let document = style::sheet((width, height), &format!("statechart of {}", chart.machine));
+    let document = define(document, chart.states.iter().map(|state| shades[state.index]))
         .add(text(MARGIN, 40.0, Anchor::Start, TITLE, style::INK, &chart.machine).set("font-weight", 600))
         .add(text(MARGIN, 62.0, Anchor::Start, REMARK, style::GREY, remark))
         .add(drawing);
     Ok(document.to_string())
 }
 
-/// What the numbers mean, if there are any.
+/// What is left out, or what the numbers mean, if there are any.
 fn remark(chart: &Chart) -> &'static str {
-    let numbered = (0..chart.transitions.len()).any(|index| Label::new(chart, index).number.is_some());
-    if numbered { "numbers: the order in which transitions of one state are tried" } else { "" }
+    if chart.is_overview {
+        return "inner states are left out, and details of transitions: --state NAME shows those of one state";
+    }
+    let is_numbered = chart.transitions.iter().any(|transition| transition.number.is_some());
+    if is_numbered { "numbers: the order in which transitions of one state are tried" } else { "" }
 }
 
 /// The symbols of a chart; the layout begins with the first.
 fn symbols(chart: &Chart) -> Vec<Symbol> {
-    let mut symbols = vec![Symbol::Start(None)];
+    let has_start = chart.states.iter().any(|state| state.initial && state.parent.is_none());
+    let mut symbols: Vec<Symbol> = has_start.then_some(Symbol::Start(None)).into_iter().collect();
     let starts = chart.states.iter().filter(|state| state.initial && state.parent.is_some());
     symbols.extend(starts.map(|state| Symbol::Start(state.parent)));
     symbols.extend((0..chart.states.len()).map(Symbol::State));
@@ -162,10 +169,11 @@ fn links(chart: &Chart, symbols: &[Symbol]) -> Vec<Link> {
             None => bundles.push((from, to, vec![label])),
         }
     }
+    let caption = if chart.is_overview { Caption::brief } else { Caption::new };
     let place = |symbol: Symbol| symbols.iter().position(|other| *other == symbol);
     let link = |(from, to, labels): (Symbol, Symbol, Vec<Label>)| {
         let colour = if to == Symbol::Failure { style::ALARM } else { style::GREY };
-        Some(Link { from: place(from)?, to: place(to)?, caption: Caption::new(&labels, colour) })
+        Some(Link { from: place(from)?, to: place(to)?, caption: caption(&labels, colour) })
     };
     bundles.into_iter().filter_map(link).collect()
 }

@@ -2,9 +2,10 @@
 
 use svg::node::element::{Circle, Group, Rectangle};
 
-use super::label::{ANY_STATE, FAILURE, arguments, signature};
+use super::label::{ANY_STATE, FAILURE, arguments, hidden, signature};
 use super::layout::{Place, Size};
 use crate::policy::chart::Chart;
+use crate::report::shade::shades;
 use crate::report::style::{self, Anchor, px, text, width_of};
 
 /// Size of the letters of a name and of what stands under it (px).
@@ -99,7 +100,9 @@ impl Symbol {
             }
             // The final state of a statechart has two lines round it.
             Self::Failure => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5).set("fill", style::FAILURE)),
-            Self::State(index) => group.add(frame(0.0).set("fill", style::STATES[index % style::STATES.len()])),
+            Self::State(index) => {
+                group.add(frame(0.0).set("fill", shades(&chart.parents)[chart.states[index].index].fill()))
+            }
             Self::Start(_) => group,
         };
         let remarks = self.remarks(chart);
@@ -126,7 +129,11 @@ impl Symbol {
     /// What stands under the name.
     fn remarks(self, chart: &Chart) -> Vec<String> {
         match self {
-            Self::State(index) if !chart.states[index].arguments.is_empty() => vec![arguments(&chart.states[index])],
+            Self::State(index) => {
+                let state = &chart.states[index];
+                let arguments = (!state.arguments.is_empty() && !chart.is_overview).then(|| arguments(state));
+                arguments.into_iter().chain(hidden(state)).collect()
+            }
             Self::Anew(_) => vec!["entered anew".to_owned()],
             _ => Vec::new(),
         }

@@ -1,18 +1,17 @@
 //! What the map's marks mean, and the run's figures.
 
-use std::cmp::Ordering;
-
 use svg::Node;
-use svg::node::element::{Group, Path};
+use svg::node::element::{Group, Path, Rectangle};
 
-use super::map::{self, DOT, OUTLINE, UNTRACED, mark_style, pose_style};
+use super::error_class::{COLOURS, LIMITS};
+use super::map::{self, OUTLINE, UNTRACED, mark_style, pose_style};
 use super::scale::round_step;
 use crate::machine::Mark;
 use crate::report::number::{mean_std, millimetres};
 use crate::report::outline::Outline;
-use crate::report::style::{self, Anchor, error_colour, line, text};
+use crate::report::style::{self, Anchor, line, px, text};
 use crate::run::Trace;
-use crate::score::{ErrorFigures, RetrievalFigures, Score};
+use crate::score::{RetrievalFigures, Score};
 
 /// Height of a line (px).
 const LINE: f64 = 22.0;
@@ -20,8 +19,15 @@ const LINE: f64 = 22.0;
 /// Room before a heading (px).
 const GAP: f64 = 10.0;
 
+/// Height of the bar of error classes (px).
+const BAR: f64 = 12.0;
+
 /// Room for a mark (px).
 const MARK: f64 = 34.0;
+
+/// What the Hausdorff distance is of, if some of the outline is farther from the estimate than any estimate from the outline, and if not.
+const OUTLINE_FARTHEST: &str = "of the outline's farthest untraced point";
+const ESTIMATE_FARTHEST: &str = "of the farthest estimate";
 
 /// The column beside the map, in the making.
 pub(super) struct Legend {
@@ -44,7 +50,7 @@ impl Legend {
     ) -> Group {
         let mut legend = Self { group: Group::new(), left, width, y: top + 12.0 };
         legend.contour(untraced);
-        legend.estimates(score.error.as_ref());
+        legend.estimates();
         legend.platform(trace);
         legend.marks(trace);
         legend.figures(trace, score);
@@ -64,29 +70,21 @@ impl Legend {
         }
     }
 
-    fn estimates(&mut self, error: Option<&ErrorFigures>) {
-        let Some(error) = error else { return };
+    /// The colours of the classes side by side, with the limits between them.
+    fn estimates(&mut self) {
         self.y += GAP;
-        self.heading("Tip estimates by error");
-        let (mean, std) = (error.mean * 1e3, error.std.unwrap_or(0.0) * 1e3);
-        let (low, high) = (mean - std, mean + std);
-        if low > 0.0 {
-            self.error_class(Ordering::Less, &format!("below {} mm", millimetres(low)));
-            let within = format!("{} to {} mm, mean ± std", millimetres(low), millimetres(high));
-            self.error_class(Ordering::Equal, &within);
-        } else {
-            self.error_class(Ordering::Equal, &format!("up to {} mm, mean + std", millimetres(high)));
+        self.heading("Tip estimates by error (mm)");
+        let (top, width) = (self.y - 0.6 * LINE, self.width / COLOURS.len() as f64);
+        for (index, colour) in COLOURS.into_iter().enumerate() {
+            let left = self.left + index as f64 * width;
+            let field = Rectangle::new().set("x", px(left)).set("y", px(top)).set("width", px(width));
+            self.add(field.set("height", px(BAR)).set("fill", colour));
+            if let Some(limit) = LIMITS.get(index) {
+                let (right, y) = (left + width, top + BAR + LINE - 6.0);
+                self.add(text(right, y, Anchor::Middle, 12.0, style::INK, &limit.to_string()));
+            }
         }
-        self.error_class(Ordering::Greater, &format!("above {} mm", millimetres(high)));
-    }
-
-    fn error_class(&mut self, against_mean: Ordering, meaning: &str) {
-        let mut dots = Outline::default();
-        let [(from, y), (to, _)] = self.mark();
-        for k in 0..4 {
-            dots.dot((from + 2.0 + (to - from - 4.0) * f64::from(k) / 3.0, y));
-        }
-        self.entry(dots.dots(error_colour(against_mean), DOT), meaning);
+        self.y += LINE + BAR - 4.0;
     }
 
     fn platform(&mut self, trace: &Trace) {
@@ -134,6 +132,11 @@ impl Legend {
         }
         if let Some(hausdorff) = score.hausdorff {
             self.figure("Hausdorff distance", &format!("{} mm", millimetres(hausdorff * 1e3)));
+            // It is the greater of two, and so close to the greatest error only where all of the outline was traced.
+            let of_outline = score.error.as_ref().is_some_and(|error| hausdorff > error.max);
+            let meaning = if of_outline { OUTLINE_FARTHEST } else { ESTIMATE_FARTHEST };
+            self.add(text(self.left, self.y - 5.0, Anchor::Start, 11.0, style::GREY, meaning));
+            self.y += LINE - 6.0;
         }
         self.figure("coverage", &format!("{:.1} %", score.coverage * 100.0));
         if let Some(RetrievalFigures { count, radius, .. }) = score.retrieval {

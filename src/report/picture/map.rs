@@ -1,6 +1,5 @@
 //! The scene from above: objects, estimate, platform.
 
-use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::iter;
 use std::ops::Range;
@@ -8,6 +7,7 @@ use std::ops::Range;
 use svg::node::element::{ClipPath, Definitions, Group, Rectangle};
 
 use super::Untraced;
+use super::error_class::{COLOURS, class};
 use super::scale::Scale;
 use super::shaft::shaft_body;
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
@@ -17,7 +17,7 @@ use crate::report::style::{self, Anchor, line, px, text};
 use crate::rig::Rig;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
-use crate::score::{ErrorFigures, Tip, mark_places};
+use crate::score::{Tip, mark_places};
 
 /// Diameter of an estimate's dot (px).
 pub(super) const DOT: f64 = 5.0;
@@ -70,14 +70,7 @@ impl Map {
     }
 
     /// The panel with all that is on it.
-    pub(super) fn draw(
-        &self,
-        scene: &Scene,
-        trace: &Trace,
-        untraced: &[Untraced<'_>],
-        tips: &[Tip],
-        error: Option<&ErrorFigures>,
-    ) -> Group {
+    pub(super) fn draw(&self, scene: &Scene, trace: &Trace, untraced: &[Untraced<'_>], tips: &[Tip]) -> Group {
         let frame = || {
             Rectangle::new()
                 .set("x", px(self.x.places.0))
@@ -92,12 +85,13 @@ impl Map {
             inside = inside.add(self.stretches(contour, stretches).stroked(style::UNTRACED, UNTRACED));
         }
         inside = inside.add(self.platform(&scene.rig, trace));
-        for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
+        // The largest errors come last, so that nothing hides them.
+        for (index, colour) in COLOURS.into_iter().enumerate() {
             let mut dots = Outline::default();
-            let of_class = |tip: &&Tip| error.is_some_and(|error| error.against_mean(tip.error) == class);
-            let places = tips.iter().filter(of_class).map(|tip| self.place(tip.tip_world));
-            places.filter(|place| self.shows(*place)).for_each(|place| dots.dot(place));
-            inside = inside.add(dots.dots(style::error_colour(class), DOT));
+            let of_class = tips.iter().filter(|tip| class(tip.error) == index);
+            let places = of_class.map(|tip| self.place(tip.tip_world)).filter(|place| self.shows(*place));
+            places.for_each(|place| dots.dot(place));
+            inside = inside.add(dots.dots(colour, DOT));
         }
         inside = solids().fold(inside, |inside, solid| inside.add(solid.stroked(style::INK, OUTLINE)));
         for mark in Mark::ALL {

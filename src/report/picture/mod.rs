@@ -1,5 +1,6 @@
 //! One run as one picture.
 
+mod error_class;
 mod front;
 mod legend;
 mod map;
@@ -19,6 +20,7 @@ use svg::node::element::{TSpan, Text};
 use self::legend::Legend;
 use self::map::Map;
 use self::timeline::Timeline;
+use super::shade::{define, shades};
 use super::style::{self, Anchor, text};
 use crate::geometry::Contour;
 use crate::run::{Run, Trace};
@@ -44,8 +46,8 @@ const LINE: usize = 130;
 ///
 /// Above, the scene from above: the exact outlines, the tip estimates, the platform's way and some of its poses,
 /// with whiskers bent as their base angles and their tips say.
-/// Estimates are green where their error is within a standard deviation of the mean, as in the thesis's figure 5.1, red
-/// where it is greater and blue where it is smaller. Below, along time: the state, the error, the deflections.
+/// The colour of an estimate tells the class of its error; the classes are the same in every picture. Below, along time: the
+/// state, the error, the deflections. The appearance of a state depends on the machine alone.
 ///
 /// The same run gives the same picture, byte for byte: nothing in it depends on the clock.
 #[must_use]
@@ -61,10 +63,13 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
     let height = bottom + 20.0;
     let mut document = style::sheet((WIDTH, height), &format!("{}, policy {policy}: {}", scene.name, run.outcome));
+    let shades = shades(&trace.parents);
+    let shown = trace.ticks.iter().filter_map(|tick| shades.get(tick.state?).copied());
+    document = define(document, shown);
     for line in head {
         document = document.add(line);
     }
-    document.add(map.draw(scene, trace, &untraced, &tips, score.error.as_ref())).add(legend).add(strips).to_string()
+    document.add(map.draw(scene, trace, &untraced, &tips)).add(legend).add(strips).to_string()
 }
 
 /// The stretches of a reference contour (arc lengths in m) that a run did not trace.

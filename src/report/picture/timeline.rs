@@ -1,14 +1,15 @@
 //! The run along time: states, errors, deflections.
 
-use std::cmp::Ordering;
 use std::iter;
 use std::ops::Range;
 
 use svg::node::element::{Group, Rectangle};
 
+use super::error_class::{COLOURS, class};
 use super::scale::{Scale, round_step};
 use crate::report::outline::Outline;
-use crate::report::style::{self, Anchor, error_colour, line, px, text, width_of};
+use crate::report::shade::{Shade, shades};
+use crate::report::style::{self, Anchor, line, px, text, width_of};
 use crate::run::Trace;
 use crate::score::{ErrorFigures, Tip};
 
@@ -59,8 +60,10 @@ impl<'a> Timeline<'a> {
         // A failure comes last.
         present.sort_unstable_by_key(|state| (state.is_none(), *state));
         present.dedup();
-        let names: Vec<_> = present.iter().map(|&state| (name(self.trace, state), colour(state))).collect();
-        self.heading("State", &names, 10.0);
+        let shades = shades(&self.trace.parents);
+        let fill = |state| fill(&shades, state);
+        let names: Vec<_> = present.iter().map(|&state| (numbered(self.trace, state), fill(state))).collect();
+        self.heading("State", &names, 12.0);
         let top = self.y;
         for (state, ticks) in intervals {
             let ticks = &self.trace.ticks[ticks];
@@ -72,42 +75,39 @@ impl<'a> Timeline<'a> {
             // The last state may have had no time, as a failure does.
             let from = from.min(to - SHORTEST);
             let band = Rectangle::new().set("x", px(from)).set("y", px(top)).set("width", px(to - from));
-            self.add(band.set("height", px(BAND)).set("fill", colour(state)));
-            let name = name(self.trace, state);
-            if width_of(name, 12.0) + 8.0 < to - from {
-                self.add(text(0.5 * (from + to), top + 16.5, Anchor::Middle, 12.0, style::INK, name));
+            self.add(band.set("height", px(BAND)).set("fill", fill(state)));
+            // The name, or the number before it in the heading, if there is room for either.
+            let label = [name(self.trace, state).to_owned(), number(state)];
+            if let Some(label) = label.iter().find(|label| width_of(label, 12.0) + 6.0 < to - from) {
+                self.add(text(0.5 * (from + to), top + 16.5, Anchor::Middle, 12.0, style::INK, label));
             }
         }
         self.y = top + BAND + GAP;
     }
 
     fn errors(&mut self, tips: &[Tip], error: Option<&ErrorFigures>) {
-        self.heading("Error (mm)", &[], 0.0);
+        self.heading("Error (mm)", &[("mean".to_owned(), style::GREY.to_owned())], 1.0);
         let (values, ticks) = decades(tips);
         let scale = self.strip(values, ticks);
         // Errors below the scale stand on its lower edge.
         let place = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
         let Some(error) = error.filter(|error| error.mean.is_finite()) else { return };
-        let (low, high) = (error.mean - error.std.unwrap_or(0.0), error.mean + error.std.unwrap_or(0.0));
-        let (upper, lower) = (place(high), place(low.max(0.0)));
         let (left, right) = self.time.places;
-        let band = Rectangle::new().set("x", px(left)).set("y", px(upper)).set("width", px(right - left));
-        let colour = error_colour(Ordering::Equal);
-        self.add(band.set("height", px(lower - upper)).set("fill", colour).set("fill-opacity", "0.12"));
         let mean = place(error.mean);
-        self.add(line((left, mean), (right, mean), colour, 1.0));
-        for class in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
+        self.add(line((left, mean), (right, mean), style::GREY, 1.0));
+        for (index, colour) in COLOURS.into_iter().enumerate() {
             let mut dots = Outline::default();
-            for tip in tips.iter().filter(|tip| tip.error.is_finite() && error.against_mean(tip.error) == class) {
+            for tip in tips.iter().filter(|tip| tip.error.is_finite() && class(tip.error) == index) {
                 dots.dot((self.time.at(self.trace.ticks[tip.tick].time), place(tip.error)));
             }
-            self.add(dots.dots(error_colour(class), 2.2));
+            self.add(dots.dots(colour, 2.6));
         }
     }
 
     fn deflections(&mut self) {
         let trace = self.trace;
-        let names: Vec<_> = trace.whiskers.iter().map(String::as_str).zip(style::WHISKERS).collect();
+        let names = trace.whiskers.iter().cloned().zip(style::WHISKERS.map(str::to_owned));
+        let names: Vec<_> = names.collect();
         self.heading("Deflection (µrad)", &names, 3.0);
         let readings = |whisker: usize| trace.ticks.iter().map(move |tick| tick.deflections[whisker] * 1e6);
         let all = (0..names.len()).flat_map(readings).filter(|value| value.is_finite());
@@ -144,7 +144,7 @@ impl<'a> Timeline<'a> {
     }
 
     /// A heading with names and their colours behind it, in as many rows as they need; a name's mark is so high (px).
-    fn heading(&mut self, content: &str, names: &[(&str, &str)], mark: f64) {
+    fn heading(&mut self, content: &str, names: &[(String, String)], mark: f64) {
         let (left, right) = self.time.places;
         self.add(text(left, self.y + 12.0, Anchor::Start, 13.0, style::INK, content).set("font-weight", 600));
         let first = left + width_of(content, 13.0) + 18.0;
@@ -155,7 +155,7 @@ impl<'a> Timeline<'a> {
                 (x, self.y) = (first, self.y + 18.0);
             }
             let place = Rectangle::new().set("x", px(x)).set("y", px(self.y + 8.0 - 0.5 * mark));
-            self.add(place.set("width", 14).set("height", px(mark)).set("fill", *colour));
+            self.add(place.set("width", 14).set("height", px(mark)).set("fill", colour.as_str()));
             self.add(text(x + 20.0, self.y + 12.0, Anchor::Start, 12.0, style::INK, name));
             x += width;
         }
@@ -205,6 +205,17 @@ fn name(trace: &Trace, state: Option<usize>) -> &str {
     state.and_then(|state| trace.states.get(state)).map_or("Failure", String::as_str)
 }
 
-fn colour(state: Option<usize>) -> &'static str {
-    state.map_or(style::FAILURE, |state| style::STATES[state % style::STATES.len()])
+/// The number of a state: its place in the machine, from 1. A failure has none.
+fn number(state: Option<usize>) -> String {
+    state.map_or_else(String::new, |state| (state + 1).to_string())
+}
+
+/// The number and the name of a state.
+fn numbered(trace: &Trace, state: Option<usize>) -> String {
+    format!("{} {}", number(state), name(trace, state)).trim_start().to_owned()
+}
+
+/// What the area of a state is filled with.
+fn fill(shades: &[Shade], state: Option<usize>) -> String {
+    state.and_then(|state| shades.get(state)).map_or_else(|| style::FAILURE.to_owned(), |shade| shade.fill())
 }

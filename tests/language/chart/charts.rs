@@ -12,7 +12,7 @@ pub(crate) const HARD: &str = include_str!("../../fixtures/charts/hard.fsm");
 pub(crate) const NESTED: &str = include_str!("../../fixtures/charts/nested.fsm");
 
 pub(crate) fn state(name: &str, parent: Option<usize>, initial: bool) -> State {
-    State { name: name.to_owned(), arguments: Vec::new(), parent, initial, values: Vec::new() }
+    State { index: 0, name: name.to_owned(), arguments: Vec::new(), parent, initial, values: Vec::new(), hidden: 0 }
 }
 
 pub(crate) fn into(state: usize, values: Vec<String>) -> Target {
@@ -44,9 +44,10 @@ pub(crate) fn charts() -> impl Strategy<Value = Chart> {
             let numbered = |(k, (name, _)): (usize, (String, usize))| {
                 let is_first = parents[k].is_some() && !parents[..k].contains(&parents[k]);
                 let arguments = (0..k % 4).map(argument).collect();
-                State { arguments, ..state(&format!("{name}{k}"), parents[k], k == initial || is_first) }
+                State { index: k, arguments, ..state(&format!("{name}{k}"), parents[k], k == initial || is_first) }
             };
             let transition = |(from, to, text, lasting): (usize, usize, String, Option<String>)| Transition {
+                number: None,
                 origin: if from >= 12 { Origin::AnyState } else { Origin::State(from % count) },
                 target: if to >= 12 {
                     Target::Failure(text.clone())
@@ -59,6 +60,8 @@ pub(crate) fn charts() -> impl Strategy<Value = Chart> {
                 machine: "m".to_owned(),
                 states: states.into_iter().enumerate().map(numbered).collect(),
                 transitions: transitions.into_iter().map(transition).collect(),
+                parents,
+                is_overview: false,
             }
         },
     )

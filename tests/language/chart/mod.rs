@@ -4,3 +4,4 @@ mod charts;
 mod machine;
 mod picture;
 mod text;
+mod view;

@@ -49,9 +49,12 @@ fn hostile_texts_stay_texts() {
         states: vec![state("S", None, true)],
         transitions: vec![Transition {
             origin: Origin::State(0),
+            number: None,
             guard: Guard::When { condition, lasting: None },
             target: reason,
         }],
+        parents: vec![None],
+        is_overview: false,
     };
     let [svg, mermaid, dot] = [chart_svg(&chart).unwrap(), chart_mermaid(&chart), chart_dot(&chart)];
     for text in [&svg, &mermaid, &dot] {
@@ -83,6 +86,8 @@ fn nested_states_are_drawn_as_such() {
         machine: "m".to_owned(),
         states: vec![state("Outer", None, true), state("Inner", Some(0), true), state("Other", None, false)],
         transitions: vec![],
+        parents: vec![None, Some(0), None],
+        is_overview: false,
     };
     let mermaid = chart_mermaid(&chart);
     assert!(

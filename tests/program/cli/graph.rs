@@ -24,3 +24,21 @@ fn mjcf_prints_the_model() {
     let model = stdout(&output);
     assert!(model.starts_with("<mujoco") && model.contains(r#"type="cylinder""#));
 }
+
+#[test]
+fn graph_shows_a_part_of_a_statechart() {
+    for format in ["svg", "mermaid", "dot"] {
+        let shown = |arguments: &[&str]| {
+            let output = vibrissa(&[&["graph", "policies/vibrissa.fsm", "--format", format], arguments].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            stdout(&output)
+        };
+        let outermost = shown(&["--depth", "1"]);
+        assert!(outermost.contains("Retrieval") && !outermost.contains("Springing"), "{outermost}");
+        let one = shown(&["--state", "Retrieval", "--depth", "1"]);
+        assert!(one.contains("Springing") && !one.contains("Exploring"), "{one}");
+    }
+    let output = vibrissa(&["graph", "policies/vibrissa.fsm", "--state", "Retreival"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("do you mean `Retrieval`?"), "{}", stderr(&output));
+}

@@ -44,6 +44,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
         trace: Trace {
             whiskers: (0..tips.len()).map(|whisker| format!("w{whisker}")).collect(),
             states: vec!["Exploring".to_owned(), "Swiping".to_owned()],
+            parents: vec![None; 2],
             period: PERIOD,
             ticks: ticks.collect(),
             marks: vec![],
