@@ -26,6 +26,13 @@ fn main() {
         println!("cargo::error=MuJoCo is not set up: run `cargo x setup` ({} is missing)", library.display());
         exit(1);
     }
-    // For binaries, tests, benches and examples alike.
+    // For binaries, tests, benches and examples alike. The library is looked for there when it is first needed.
     println!("cargo::rustc-link-arg=-Wl,-rpath,{directory}");
+    if link_name.ends_with("dylib") {
+        // Apple's linker notes every library down that it is given, others those that something is needed of.
+        println!("cargo::rustc-link-arg=-Wl,-dead_strip_dylibs");
+    } else {
+        // Functions that the program has under MuJoCo's names are its own: the library shall not take them for those in itself.
+        println!("cargo::rustc-link-arg=-Wl,--exclude-libs,ALL");
+    }
 }

@@ -93,7 +93,9 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let checked = arguments.policies.iter().map(|path| {
         check_one(path, &mut files, arguments.json).or_else(|failure| match failure {
             // What is wrong with one file is no reason not to look at the others.
-            Failure::Read { .. } | Failure::Artifact { .. } => Ok(unreadable(path, &failure, arguments.json)),
+            Failure::Read { .. } | Failure::Name { .. } | Failure::Artifact { .. } => {
+                Ok(unreadable(path, &failure, arguments.json))
+            }
             other => Err(other),
         })
     });

@@ -61,6 +61,11 @@ impl From<Exit> for ExitCode {
 pub(super) enum Failure {
     #[error("cannot read {}: {cause}", path.display())]
     Read { path: PathBuf, cause: std::io::Error },
+    #[error(
+        "cannot read {}: its path is not UTF-8 text; give the file or folder another name, or go into the folder and name the file from there",
+        path.as_os_str().as_encoded_bytes().escape_ascii()
+    )]
+    Name { path: PathBuf },
     #[error("cannot make the folder {}: {cause}; choose another place with --out", path.display())]
     Folder { path: PathBuf, cause: std::io::Error },
     #[error(transparent)]
@@ -115,6 +120,8 @@ pub(super) enum Failure {
     SetOf { policy: PathBuf, cause: SetError },
     #[error("{}: {cause}", scenario.display())]
     Execute { scenario: PathBuf, cause: ExecuteError },
+    #[error(transparent)]
+    World(ExecuteError),
     #[error(transparent)]
     Results(#[from] ResultsError),
     #[error(transparent)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::calibration::ContactSet;
-use crate::diagnostic::{Diagnostic, Source, suggest};
+use crate::diagnostic::{Diagnostic, Position, Source, suggest};
 use crate::file::CommandFiles;
 use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
@@ -27,20 +27,35 @@ pub(super) struct Loaded<T> {
     pub(super) hash: Sha256,
 }
 
+/// The name of a file as messages tell it. Paths within a text start from it, so that it must be the path, letter by letter.
+fn name(path: &Path) -> Result<String, Failure> {
+    path.to_str().map(str::to_owned).ok_or_else(|| Failure::Name { path: path.to_owned() })
+}
+
 /// Reads a text.
 pub(super) fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, Failure> {
+    let name = name(path)?;
     let text = files.read(path, SIZE_LIMIT).and_then(text).map_err(Failure::read(path))?;
-    Ok(Source::new(path.display().to_string(), text))
+    Ok(Source::new(name, text))
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
-    let unusable = |cause| Error::new(ErrorKind::InvalidData, cause);
+    let unusable = |cause: &str| Error::new(ErrorKind::InvalidData, cause);
     if bytes.len() > SIZE_LIMIT {
         return Err(unusable(
             "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
         ));
     }
-    String::from_utf8(bytes).map_err(|_| unusable("it is not UTF-8 text; save it as UTF-8, or is it the wrong file?"))
+    String::from_utf8(bytes).map_err(|fault| {
+        let good = fault.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&fault.as_bytes()[..good]);
+        let Position { line, column } = Source::new("", before).line_column(good);
+        let byte = fault.as_bytes()[good];
+        unusable(&format!(
+            "it is not UTF-8 text: in line {line}, column {column} the byte 0x{byte:02X} begins no letter; save it as UTF-8, or is it the \
+             wrong file?"
+        ))
+    })
 }
 
 /// Reads standard input.
@@ -112,7 +127,7 @@ pub(super) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loade
     let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
     } else {
-        PolicyFile::Text(Source::new(path.display().to_string(), text(bytes).map_err(Failure::read(path))?))
+        PolicyFile::Text(Source::new(name(path)?, text(bytes).map_err(Failure::read(path))?))
     };
     Ok(Loaded { value, hash })
 }

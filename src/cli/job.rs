@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
+use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
@@ -112,7 +113,7 @@ impl Job {
         if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} % of at most {prefix}, {elapsed}") {
             bar.set_style(style);
         }
-        bar.set_message(self.scene.name.clone());
+        bar.set_message(printable(&self.scene.name).into_owned());
         bar.set_prefix(format!("{} s", self.scene.stop.time));
         let run = self.execute(|trace| {
             bar.set_position(milliseconds(seconds(trace)));

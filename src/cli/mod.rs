@@ -37,7 +37,27 @@ mod worker;
 pub use arguments::Arguments;
 pub use exit::Exit;
 
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::diagnostic::printable;
+
 use arguments::Command;
+
+/// Reads the command line. Where that asks for help, or is at fault, it is answered: the status to end with.
+///
+/// # Errors
+/// [`Exit`] when there is nothing to carry out.
+pub fn arguments() -> Result<Arguments, ExitCode> {
+    Arguments::try_parse().map_err(|answer| {
+        // The answer quotes the command line, and has colours of its own, so that what a terminal would obey is taken out before.
+        let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned());
+        let shown = Arguments::try_parse_from(shown).err();
+        let _ = shown.as_ref().unwrap_or(&answer).print();
+        ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or_default())
+    })
+}
 
 /// Carries out a command line.
 #[must_use]

@@ -5,18 +5,23 @@ use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 
 use serde::Serialize;
 
-use crate::diagnostic::{Colour, Diagnostic, Source, terminal};
+use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
 
 use super::exit::Failure;
 
 /// Prints a result and ends its line.
 pub(super) fn result(text: impl Display) -> Result<(), Failure> {
-    self::text(format_args!("{text}\n"))
+    written(&format!("{}\n", printable(&text.to_string())))
 }
 
-/// Prints a text as it is. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+/// Prints a text as it is, unless a terminal would obey it. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
 pub(super) fn text(text: impl Display) -> Result<(), Failure> {
-    match write!(stdout(), "{text}") {
+    let text = text.to_string();
+    written(&if stdout().is_terminal() { printable(&text) } else { text.into() })
+}
+
+fn written(text: &str) -> Result<(), Failure> {
+    match stdout().write_all(text.as_bytes()) {
         Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Print(cause)),
         _ => Ok(()),
     }
@@ -24,12 +29,12 @@ pub(super) fn text(text: impl Display) -> Result<(), Failure> {
 
 /// Prints a result as JSON.
 pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
-    result(serde_json::to_string_pretty(value)?)
+    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(value)?)))
 }
 
 /// Prints a message.
 pub(super) fn message(text: impl Display) {
-    let _ = writeln!(stderr(), "{text}");
+    let _ = writeln!(stderr(), "{}", printable(&text.to_string()));
 }
 
 /// Prints what went wrong.

@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
+use crate::diagnostic::printable;
+
 use super::exit::Exit;
 use super::output;
 
@@ -60,7 +62,7 @@ impl Progress {
 
     /// Shows what is being done.
     pub(super) fn doing(&self, what: impl Display) {
-        self.bar.set_message(what.to_string());
+        self.bar.set_message(printable(&what.to_string()).into_owned());
     }
 
     /// Counts a run that is done, and shows what came of it.

@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 use std::process::Command;
 
+use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask, stress_table};
 use crate::study::sweep::{Answer, StartError, Worker, answer};
-use crate::study::{engine_version, processors, stream_in_parallel};
+use crate::study::{check_world, engine_version, processors, stream_in_parallel};
 
 use super::arguments::StressArguments;
 use super::exit::{Exit, Failure};
@@ -13,6 +14,10 @@ use super::output;
 use super::progress::Progress;
 
 pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
+    // A build without MuJoCo's world has no hard cases of it; where only the library is missing, they could not but fail.
+    if cfg!(feature = "sim") {
+        check_world(WorldKind::Mujoco).map_err(Failure::World)?;
+    }
     let tasks = StressTask::all()?;
     let indices: Vec<usize> = (0..tasks.len()).collect();
     let mut progress = Progress::new(tasks.len());

@@ -1,12 +1,14 @@
 //! Faults in what the user wrote: one type with its place, and its renderings.
 
 mod kind;
+mod printable;
 mod record;
 mod source;
 mod suggestion;
 mod terminal;
 
 pub use kind::{Diagnostic, FAULT_LIMIT, Label, Severity};
+pub use printable::{printable, printable_json};
 pub use record::{Record, RecordLabel, records};
 pub use source::{Position, Source, Span};
 pub use suggestion::suggest;

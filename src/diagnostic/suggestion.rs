@@ -1,8 +1,8 @@
 //! "Did you mean …?"
 
-/// The candidate that a misspelt name was probably meant to be: the nearest by edit distance, where a swap of
-/// neighbours and a letter of the wrong case count as one edit. `None` if more than a third of the name would change
-/// (one edit is always allowed).
+/// The candidate that a misspelt name was probably meant to be: one that differs by nothing but capitals, or else the nearest by edit
+/// distance, where a swap of neighbours counts as one edit. `None` if more than a third of the name would change (one edit is always
+/// allowed).
 ///
 /// ```
 /// use vibrissa::diagnostic::suggest;
@@ -13,11 +13,7 @@
 pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (name.chars().count() / 3).max(1);
     let distance = |candidate: &str| {
-        if name.to_lowercase() == candidate.to_lowercase() {
-            usize::from(name != candidate)
-        } else {
-            strsim::damerau_levenshtein(name, candidate)
-        }
+        if name.to_lowercase() == candidate.to_lowercase() { 0 } else { strsim::damerau_levenshtein(name, candidate) }
     };
     candidates
         .into_iter()
@@ -38,8 +34,10 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_case_is_one_edit() {
+    fn capitals_count_for_nothing() {
         assert_eq!(suggest("HEADING", ["heading"]), Some("heading"));
+        assert_eq!(suggest("R0", ["l0", "r0"]), Some("r0"));
+        assert_eq!(suggest("M", ["m", "s"]), Some("m"));
     }
 
     #[test]

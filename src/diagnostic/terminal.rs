@@ -1,6 +1,7 @@
 //! Diagnostics for a person at a terminal.
 
-use super::{Diagnostic, Label, Severity, Source};
+use super::printable::same_length;
+use super::{Diagnostic, Label, Severity, Source, printable};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 /// Whether a rendering carries terminal colours.
@@ -14,7 +15,7 @@ pub enum Colour {
 }
 
 /// Renders diagnostics one below the other: the message, the place with its line and label, the hints. Ends with a
-/// newline unless there are none.
+/// newline unless there are none. Whatever a terminal would obey is shown by its number, or in the text by another letter.
 #[must_use]
 pub fn terminal(source: &Source, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let renderer = match colour {
@@ -45,15 +46,17 @@ fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> Stri
         let of_part = labels.iter().filter(|(_, label)| part(label) == index);
         let annotations = of_part.map(|(kind, label)| {
             let place = source.clamp(label.span);
-            kind.span(place.start - within.start..place.end - within.start).label(label.text.clone())
+            kind.span(place.start - within.start..place.end - within.start).label(printable(&label.text).into_owned())
         });
-        Snippet::source(source.slice(within)).path(source.part_name(index)).annotations(annotations)
+        Snippet::source(same_length(source.slice(within)))
+            .path(printable(source.part_name(index)))
+            .annotations(annotations)
     });
     let group = level
-        .primary_title(diagnostic.message.as_str())
+        .primary_title(printable(&diagnostic.message))
         .id(diagnostic.code)
         .elements(snippets)
-        .elements(diagnostic.hints.iter().map(|hint| Level::HELP.message(hint.as_str())));
+        .elements(diagnostic.hints.iter().map(|hint| Level::HELP.message(printable(hint))));
     renderer.render(&[group]) + "\n"
 }
 
@@ -114,6 +117,16 @@ error[P0000]: clash
         let fault = [Diagnostic::warning("S0000", "m", Span::new(0, 1), "l")];
         assert!(terminal(&source, &fault, Colour::Ansi).contains('\u{1b}'));
         assert!(!terminal(&source, &fault, Colour::Plain).contains('\u{1b}'));
+    }
+
+    #[test]
+    fn nothing_that_is_quoted_reaches_the_terminal_as_an_order() {
+        let evil = "a\u{1b}]0;x\u{7}\u{9b}31m\u{202e}b";
+        let source = Source::new(evil, format!("# {evil}\nlet {evil}\n"));
+        let fault = Diagnostic::error("S0000", evil, Span::new(2, 6), evil).note(Span::new(24, 26), evil).hint(evil);
+        let shown = terminal(&source, &[fault], Colour::Plain);
+        assert!(!shown.contains(['\u{1b}', '\u{7}', '\u{9b}', '\u{202e}']), "{shown:?}");
+        assert!(shown.contains("a\\u{1b}]0;x\\u{7}\\u{9b}31m\\u{202e}b"), "{shown}");
     }
 
     proptest! {

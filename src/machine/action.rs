@@ -40,7 +40,53 @@ pub enum Turn {
     Rate(f64),
 }
 
+/// A number of a command that is not finite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Flaw {
+    /// Which number it is.
+    pub part: ActionPart,
+    /// Whether it is no number at all; otherwise it is infinite.
+    pub is_nan: bool,
+}
+
+/// A number, or vector, of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum ActionPart {
+    /// The direction of the motion.
+    #[error("the direction behind `along`")]
+    Along,
+    /// The speed.
+    #[error("the speed behind `at`")]
+    Speed,
+    /// The heading to turn to.
+    #[error("the heading behind `facing`")]
+    Heading,
+    /// The yaw rate.
+    #[error("the yaw rate behind `turning`")]
+    YawRate,
+}
+
+impl std::fmt::Display for Flaw {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.part, if self.is_nan { "is not a number" } else { "is infinite" })
+    }
+}
+
 impl Action {
+    /// The first number in the action, as it is written, that is not finite.
+    #[must_use]
+    pub fn flaw(&self) -> Option<Flaw> {
+        let Self::Steer { along_world: along, speed, turn, .. } = *self else { return None };
+        let (turn, turned) = match turn {
+            Turn::Facing(heading) => (heading, ActionPart::Heading),
+            Turn::Rate(rate) => (rate, ActionPart::YawRate),
+        };
+        let numbers =
+            [(ActionPart::Along, along.x), (ActionPart::Along, along.y), (ActionPart::Speed, speed), (turned, turn)];
+        let (part, number) = numbers.into_iter().find(|(_, number)| !number.is_finite())?;
+        Some(Flaw { part, is_nan: number.is_nan() })
+    }
+
     /// Whether every number in the action is finite.
     #[inline]
     #[must_use]

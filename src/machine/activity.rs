@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::action::Action;
+use super::action::{Action, Flaw};
 use super::evaluate::{compute, evaluate};
 use super::failsafe::{Cause, Failsafe};
 use super::op::Block;
@@ -70,7 +70,7 @@ impl Activity {
                     self.compute(program, &program.body, senses);
                     return match self.act(program, 0, senses, action) {
                         Ok(()) => (Ok(()), None),
-                        Err(state) => self.leave(program, (state, Cause::NotFinite), now, senses, action),
+                        Err((state, flaw)) => self.leave(program, (state, Cause::NotFinite(flaw)), now, senses, action),
                     };
                 }
                 Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
@@ -153,14 +153,14 @@ impl Activity {
     }
 
     /// What the active states do, but for the `from` outermost: the last action that one of them gives, or to hold. If it is not
-    /// finite, the state that gave it.
+    /// finite, the state that gave it and the number.
     fn act<S: Senses>(
         &mut self,
         program: &Program,
         from: usize,
         senses: &mut S,
         action: &mut Action,
-    ) -> Result<(), usize> {
+    ) -> Result<(), (usize, Flaw)> {
         *action = Action::Hold;
         let mut giver = self.state();
         for &state in &self.active.states()[from..] {
@@ -168,7 +168,10 @@ impl Activity {
                 giver = state;
             }
         }
-        if action.is_finite() { Ok(()) } else { Err(giver) }
+        if action.is_finite() {
+            return Ok(());
+        }
+        action.flaw().map_or(Ok(()), |flaw| Err((giver, flaw)))
     }
 
     /// Runs code that gives no action.
@@ -192,7 +195,9 @@ impl Activity {
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
                 let have_acted = match cause {
-                    Cause::NotFinite => program.stays(from, *state).map_or(0, |stays| program.outward(stays).count()),
+                    Cause::NotFinite(_) => {
+                        program.stays(from, *state).map_or(0, |stays| program.outward(stays).count())
+                    }
                     // Nothing has acted yet.
                     Cause::Chain => {
                         self.compute(program, &program.body, senses);
@@ -200,7 +205,7 @@ impl Activity {
                     }
                 };
                 let acted = self.act(program, have_acted, senses, action);
-                acted.map_err(|state| Cause::NotFinite.failure(&program.states[state].name))
+                acted.map_err(|(state, flaw)| Cause::NotFinite(flaw).failure(&program.states[state].name))
             }
         };
         (went, Some(Failsafe { left: stuck, cause }))

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::action::Flaw;
 use super::tick::Failure;
 
 /// That a machine left a state by its failsafe.
@@ -16,9 +17,9 @@ pub struct Failsafe {
 /// Why a machine cannot go on in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Cause {
-    /// The state's command was not a finite number.
-    #[error("its command was not a finite number")]
-    NotFinite,
+    /// A number of the state's command was not finite.
+    #[error("its command was not finite: {0}")]
+    NotFinite(Flaw),
     /// The state wanted to be left when the tick had taken [`CHAIN_LIMIT`](super::CHAIN_LIMIT) transitions.
     #[error("it wanted more transitions than a tick takes")]
     Chain,
@@ -29,7 +30,7 @@ impl Cause {
     pub(super) fn failure(self, state: &Arc<str>) -> Failure {
         let state = Arc::clone(state);
         match self {
-            Self::NotFinite => Failure::NotFinite { state },
+            Self::NotFinite(flaw) => Failure::NotFinite { state, flaw },
             Self::Chain => Failure::Chain { state },
         }
     }

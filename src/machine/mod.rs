@@ -24,7 +24,7 @@ pub(crate) use activity::TIME_SLACK;
 pub(crate) use evaluate::compute;
 pub(crate) use operands::{Effect, Operands, Place, Role};
 
-pub use action::{Action, Mover, Turn};
+pub use action::{Action, ActionPart, Flaw, Mover, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use failsafe::{Cause, Failsafe};
 pub use op::{Block, Op, Register, Wide};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::action::Action;
+use super::action::{Action, Flaw};
 use super::activity::Activity;
 use super::failsafe::Failsafe;
 use super::program::Program;
@@ -25,11 +25,13 @@ pub enum Failure {
     /// The policy went to `Failure` and gave this reason.
     #[error("{0}")]
     Policy(Arc<str>),
-    /// A command was not a finite number.
-    #[error("state {state} gave a command that is not a finite number")]
+    /// A number of a command was not finite.
+    #[error("state {state} gave a command that is not finite: {flaw}")]
     NotFinite {
         /// The state that gave it.
         state: Arc<str>,
+        /// The number.
+        flaw: Flaw,
     },
     /// One tick took more than [`CHAIN_LIMIT`] transitions.
     #[error("more than {CHAIN_LIMIT} transitions in one tick, the last one taken into {state}")]

@@ -219,7 +219,7 @@ impl Senses for Perception {
             WhiskerScalar::Sense if whisker.touches() => whisker.deflection().signum() * whisker.side,
             WhiskerScalar::Sense => 0.0,
             WhiskerScalar::Length => whisker.length,
-            WhiskerScalar::ContourReady => truth(whisker.contour.is_ready()),
+            WhiskerScalar::ContourReady => truth(whisker.has_current_contour()),
             WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
             WhiskerScalar::TipSpread => whisker.tip_spread(),
             WhiskerScalar::Fitted => fitted,

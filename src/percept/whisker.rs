@@ -170,6 +170,12 @@ impl PerceivedWhisker {
         }
     }
 
+    /// Whether there is a contour, and this tick or the one before recorded it. One that was left off begins anew when it is recorded again.
+    /// It is not ready from the tick behind the gap on, so that no state takes the old contour for the one that it is to record.
+    pub(super) fn has_current_contour(&self) -> bool {
+        (self.recorded || self.recorded_before) && self.contour.is_ready()
+    }
+
     /// Takes the tip as a point of the contour if it touches. A contour that was left off begins anew.
     pub(super) fn record(&mut self) {
         if self.recorded {

@@ -12,6 +12,7 @@ mod ast;
 mod builtins;
 pub mod chart;
 mod description;
+mod foreign;
 mod format;
 mod grammar;
 mod hint;

@@ -4,6 +4,7 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
+use super::foreign::instead;
 use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
@@ -100,7 +101,19 @@ fn belongs(opened: &str, found: &str) -> bool {
 /// What to do about signs and words that other languages have.
 fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<String> {
     let starts = |with: &str| rest.starts_with(with);
+    let is_block_due = rules.iter().any(|rule| matches!(rule, Rule::block | Rule::open_brace));
     Some(match found {
+        "-" if starts("->") => "a transition begins with `when` or `after`: `when condition -> State`".to_owned(),
+        ":" if is_block_due => BLOCK.to_owned(),
+        ":" if rules.contains(&Rule::equals) && rest[1..].trim_start().starts_with(char::is_alphabetic) => {
+            "leave out the type: the value tells it, as in `let name = value`".to_owned()
+        }
+        ":" if rules.contains(&Rule::equals) => "write `=`".to_owned(),
+        "+" | "-" | "*" | "/" if rest[1..].starts_with('=') => {
+            format!("write the value out: `set name = name {found} value`")
+        }
+        "+" | "-" if rest[1..].starts_with(found) => format!("write the value out: `set name = name {found} 1`"),
+        "?" => "write `if condition { \u{2026} } else { \u{2026} }`, or `blend(from, to, share)`".to_owned(),
         "=" if starts("=>") => "write `->`".to_owned(),
         "=" => "`==` compares two values; `let name = value` names one".to_owned(),
         "&" => "write `and`".to_owned(),
@@ -120,14 +133,45 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         "'" => "a text stands between double quotes".to_owned(),
         "\"" => "a text can only be the reason of `Failure`, a path behind `use`, or what a test is about".to_owned(),
         "." => "a number has digits before and behind its point".to_owned(),
+        "for" if rules.contains(&Rule::kw_do) => {
+            "there are no loops: every tick runs the statements of a state anew; write a statement out for each whisker, or in a `law` for \
+             `do`"
+                .to_owned()
+        }
         "else" => "`else` follows the `}` of an `if`".to_owned(),
         "machine" | "library" => "a file holds one machine or one library, which stands first".to_owned(),
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
+        _ if instead(found).is_some() => instead(found)?.to_owned(),
+        _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
+            statement(found, rest[found.len()..].trim_start())?
+        }
+        _ if is_block_due && !is_value_due(rules) && begins_statement(found) => BLOCK.to_owned(),
         _ if is_keyword(found) && is_value_due(rules) => {
             format!("`{found}` is a word of the language and cannot stand for a value")
         }
         _ => return None,
     })
+}
+
+/// How a block is written.
+const BLOCK: &str = "a block stands in braces: `if condition { \u{2026} }`";
+
+/// What to do about a name where a statement should begin, by what follows it.
+fn statement(name: &str, behind: &str) -> Option<String> {
+    if behind.starts_with('(') {
+        Some(format!("write `do {name}(\u{2026})` to run the statements of a law"))
+    } else if [":=", "=", "+=", "-=", "*=", "/=", "++", "--"].iter().any(|sign| behind.starts_with(sign))
+        && !behind.starts_with("==")
+    {
+        Some(format!("write `let {name} = value` to name a value, or `set {name} = value` to change a `var`"))
+    } else {
+        None
+    }
+}
+
+/// Whether a word begins a statement.
+fn begins_statement(word: &str) -> bool {
+    ["do", "hold", "if", "let", "mark", "record", "set", "steer", "stop"].contains(&word)
 }
 
 /// Whether a text ends in a number and a tab.

@@ -75,13 +75,20 @@ pub(super) fn build(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<d
     }
 }
 
-/// Checks that this build has the world.
+/// Checks that the world can be had.
 ///
 /// # Errors
-/// [`ExecuteError::NoWorld`]: it was built without.
+/// [`ExecuteError`] when this build has it not, or when its simulator's library cannot be loaded.
 pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
-    let has_mujoco = cfg!(feature = "sim");
-    if kind == WorldKind::Mujoco && !has_mujoco { Err(ExecuteError::NoWorld(kind)) } else { Ok(()) }
+    match kind {
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => {
+            crate::world::engine_version().map(|_| ()).map_err(|cause| ExecuteError::Mujoco(cause.into()))
+        }
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
+        WorldKind::QuasiStatic => Ok(()),
+    }
 }
 
 /// The versions of this program and of its simulator.
@@ -90,12 +97,13 @@ pub fn engine_version() -> String {
     format!("{} with {}", env!("CARGO_PKG_VERSION"), simulator())
 }
 
-/// The version of MuJoCo, if this build has it.
+/// The version of MuJoCo, if this build has it and its library can be loaded.
 fn simulator() -> &'static str {
     #[cfg(feature = "sim")]
-    return crate::world::engine_version();
+    let version = crate::world::engine_version().ok();
     #[cfg(not(feature = "sim"))]
-    return "none";
+    let version = None;
+    version.unwrap_or("none")
 }
 
 /// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and

@@ -8,7 +8,7 @@ mod sensors;
 
 pub use fault::Fault;
 #[cfg(feature = "sim")]
-pub use mujoco::{MujocoError, MujocoWorld, PluginError, engine_version};
+pub use mujoco::{LibraryError, MujocoError, MujocoWorld, PluginError, engine_version};
 pub use quasi_static::{QuasiStaticError, QuasiStaticWorld};
 pub(crate) use sensors::Sensors;
 

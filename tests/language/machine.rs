@@ -3,7 +3,9 @@
 
 use crate::common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
-use vibrissa::machine::{Action, CHAIN_LIMIT, Cause, Failsafe, Failure, Machine, Mark, Mover, SetError, Status, Turn};
+use vibrissa::machine::{
+    Action, ActionPart, CHAIN_LIMIT, Cause, Failsafe, Failure, Flaw, Machine, Mark, Mover, SetError, Status, Turn,
+};
 use vibrissa::units::Dimension;
 
 /// The speed (m/s) that an action asks for.
@@ -155,16 +157,23 @@ fn a_chain_may_end_in_a_failure() {
 }
 
 #[test]
-fn a_command_that_is_not_finite_fails_with_the_states_name() {
-    for (along, speed, turn) in
-        [("v / 0", "1 m/s", "facing 0 rad"), ("v", "1 m/s / 0", "facing 0 rad"), ("v", "1 m/s", "turning 0 rad/s / 0")]
-    {
+fn a_command_that_is_not_finite_fails_with_the_states_name_and_the_number() {
+    use ActionPart::{Along, Heading, Speed, YawRate};
+    for (along, speed, turn, part, is_nan, told) in [
+        ("v / 0", "1 m/s", "facing 0 rad", Along, false, "the direction behind `along` is infinite"),
+        ("0 / 0 * v", "1 m/s", "facing 0 rad / 0", Along, true, "the direction behind `along` is not a number"),
+        ("v", "1 m/s / 0", "facing 0 rad", Speed, false, "the speed behind `at` is infinite"),
+        ("v", "1 m/s", "facing 0 rad / 0", Heading, true, "the heading behind `facing` is not a number"),
+        ("v", "1 m/s", "turning 0 rad/s / 0", YawRate, true, "the yaw rate behind `turning` is not a number"),
+    ] {
         let text = format!(
             "machine m initial Bad let v = vector(1, 0) state Bad {{ steer body along {along} at {speed} {turn} }}"
         );
         let (machine, ticks) = run(&text, &mut Script::touches(".."));
         assert_eq!(ticks, vec![("Failure".to_owned(), Action::Stop); 2], "and stands still for good");
-        assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "Bad".into() }));
+        let failure = machine.failure().unwrap();
+        assert_eq!(failure, &Failure::NotFinite { state: "Bad".into(), flaw: Flaw { part, is_nan } });
+        assert_eq!(failure.to_string(), format!("state Bad gave a command that is not finite: {told}"));
     }
 }
 
@@ -216,10 +225,11 @@ fn a_tick_says_which_state_was_left_by_its_failsafe_and_why() {
     );
     let mut machine = Machine::new(program(&text).into());
     let tick = machine.tick(&mut Script::touches("."));
-    assert_eq!(tick.failsafe, Some(Failsafe { left: 1, cause: Cause::NotFinite }));
+    let flaw = Flaw { part: ActionPart::Speed, is_nan: false };
+    assert_eq!(tick.failsafe, Some(Failsafe { left: 1, cause: Cause::NotFinite(flaw) }));
     // The state that a failsafe leads to is the last that is tried.
     assert_eq!((tick.action, tick.status), (Action::Stop, Status::Failed));
-    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into() }));
+    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into(), flaw }));
     assert_eq!(machine.tick(&mut Script::touches(".")).failsafe, None);
 }
 

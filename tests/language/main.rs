@@ -14,6 +14,7 @@ mod format;
 mod index;
 mod machine;
 mod machine_memory;
+mod names;
 mod nesting;
 mod page;
 mod programs;

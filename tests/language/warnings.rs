@@ -118,7 +118,7 @@ fn what_never_or_always_holds_is_told() {
         ("|r.deflection| > 361 deg", "P0508"),
         ("turn(body.yaw, r.yaw) > 190 deg", "P0508"),
         ("p > 2", "P0508"),
-        ("r.contour.curvature > 0 rad/m and not r.contour.ready", "P0508"),
+        ("r.contour.ready and not |r.contour.curvature| >= 0 rad/m", "P0508"),
         ("sin(r.yaw) > 1.1", "P0508"),
         ("sqrt(p) < 0.9", "P0508"),
         ("time < 0 s", "P0508"),
@@ -235,10 +235,12 @@ fn condition() -> impl Strategy<Value = String> {
 
 /// Something to feel, by two whiskers, in ranges that all that can be felt lies in.
 fn felt() -> impl Strategy<Value = Told> {
-    let whisker = || (any::<bool>(), 0..3_u8, -1.5..1.5_f64, any::<bool>(), -30.0..30.0_f64, 0.01..0.2_f64);
+    // A contour that was left off is not ready, and has a curvature all the same.
+    let contour = || prop_oneof![Just((true, true)), Just((false, true)), Just((false, false))];
+    let whisker = move || (any::<bool>(), 0..3_u8, -1.5..1.5_f64, contour(), -30.0..30.0_f64, 0.01..0.2_f64);
     (whisker(), whisker(), 0.0..100.0_f64, -7.0..7.0_f64).prop_map(|(r, l, time, yaw)| {
         let mut told = BTreeMap::from([("time".to_owned(), time), ("body.yaw".to_owned(), yaw)]);
-        for (name, (is_left, contact, bend, is_ready, curvature, length)) in [("r", r), ("l", l)] {
+        for (name, (is_left, contact, bend, (is_ready, is_there), curvature, length)) in [("r", r), ("l", l)] {
             let side = if is_left { 1.0 } else { -1.0 };
             let sense = f64::from(contact) - 1.0;
             let deflection = if sense == 0.0 { bend } else { bend.abs() * side * sense };
@@ -248,7 +250,7 @@ fn felt() -> impl Strategy<Value = Told> {
                 ("touching", sense.abs()),
                 ("deflection", deflection),
                 ("contour.ready", f64::from(u8::from(is_ready))),
-                ("contour.curvature", if is_ready { curvature } else { f64::NAN }),
+                ("contour.curvature", if is_there { curvature } else { f64::NAN }),
                 ("length", length),
             ] {
                 told.insert(format!("{name}.{quantity}"), value);

@@ -9,7 +9,7 @@ use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::machine::{Cause, Failsafe, Mark};
+use vibrissa::machine::{ActionPart, Cause, Failsafe, Flaw, Mark};
 use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
 use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Run};
@@ -68,13 +68,17 @@ fn a_result_has_the_keys_of_the_command_line() {
 #[test]
 fn a_result_tells_of_failsafes() {
     let mut run = half_round();
+    let flaw = Flaw { part: ActionPart::Speed, is_nan: true };
     for tick in [7, 300] {
-        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite });
+        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite(flaw) });
     }
     let failsafes = result(&run).failsafes;
     assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));
     assert_eq!(failsafes.first_s, Some(run.trace.ticks[7].time));
-    assert_eq!(failsafes.first_cause.as_deref(), Some("its command was not a finite number"));
+    assert_eq!(
+        failsafes.first_cause.as_deref(),
+        Some("its command was not finite: the speed behind `at` is not a number")
+    );
 }
 
 /// The run of [`half_round`], lost and found again twice.

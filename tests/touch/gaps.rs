@@ -128,6 +128,50 @@ fn what_does_not_depend_on_a_reading_is_known_without_it() {
 }
 
 #[test]
+fn a_contour_that_was_left_off_is_not_ready_and_can_be_read_until_its_whisker_is_recorded_again() {
+    let mut perception = perception();
+    let ready = |perception: &Perception| feels(perception, WhiskerScalar::ContourReady) > 0.5;
+    let tangent = |perception: &Perception| perception.whisker_vector(0, WhiskerVector::ContourTangent);
+    for (index, tick) in samples(&[3e-4; 90 * PER_TICK]).chunks(PER_TICK).enumerate() {
+        perception.update(tick);
+        match index {
+            // The filter has settled, and there are seven points.
+            20..40 => assert!(ready(&perception), "tick {index}"),
+            // The tick before recorded.
+            40 => assert!(ready(&perception)),
+            41..=60 => {
+                assert!(!ready(&perception), "tick {index}");
+                assert!((tangent(&perception).y - 1.0).abs() < 1e-3, "tick {index}");
+            }
+            61 => assert!(!ready(&perception) && tangent(&perception).x.is_nan(), "it begins anew"),
+            _ => {}
+        }
+        if !(40..60).contains(&index) {
+            perception.record(0);
+        }
+    }
+    assert!(ready(&perception));
+}
+
+#[test]
+fn a_state_that_is_entered_anew_waits_for_a_contour_of_its_own() {
+    let text = "machine m whisker r0 by one_channel initial Recording
+        state Recording { record r0 stop after 1 s -> Pausing }
+        state Pausing { stop after 0.3 s -> Again }
+        state Again { record r0 stop when r0.contour.ready -> Left }
+        state Left { record r0 stop }";
+    let program = Arc::new(crate::common::program(text));
+    let mut control = Control::new(&Rig::default(), program).unwrap();
+    let mut ticks_in = [0; 4];
+    for tick in samples(&[3e-4; 90 * PER_TICK]).chunks(PER_TICK) {
+        control.tick(tick);
+        ticks_in[control.machine().state()] += 1;
+    }
+    // The tip goes 1.67 mm in a tick, so that every tick has a point: seven of them, and the next tick leaves the state.
+    assert_eq!(ticks_in[..3], [30, 9, 7], "{ticks_in:?}");
+}
+
+#[test]
 fn of_poses_and_times_that_are_none_the_newest_other_counts() {
     let mut perception = perception();
     let mut tick = samples(&[3e-4; PER_TICK]);

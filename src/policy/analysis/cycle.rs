@@ -76,7 +76,7 @@ fn is_felt_freely(model: &Model<'_>, point: &Point) -> bool {
         | Unknown::BodyPosition(_)
         | Unknown::Contact(_)
         | Unknown::Deflection(_)
-        | Unknown::Ready(_)
+        | Unknown::Contour(_)
         | Unknown::Travel(_) => true,
     })
 }

@@ -2,15 +2,19 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Expression, Guard, Kind, Statement, Target, Transition, Turn};
+use crate::policy::ast::{Expression, Guard, Kind, Name, Statement, Target, Transition, Turn};
 
 /// Names that are used.
 #[derive(Debug, Default)]
-pub(super) struct Names<'a>(HashSet<&'a str>);
+pub(super) struct Names<'a> {
+    used: HashSet<&'a str>,
+    /// Those that the part itself gives: beyond it they mean nothing, or something else.
+    given: HashSet<&'a str>,
+}
 
 impl<'a> Names<'a> {
     pub(super) fn has(&self, name: &str) -> bool {
-        self.0.contains(name)
+        self.used.contains(name)
     }
 
     /// The names that `add` adds to none.
@@ -20,9 +24,14 @@ impl<'a> Names<'a> {
         names
     }
 
-    /// Adds all names of `other`.
-    pub(super) fn extend(&mut self, other: Self) {
-        self.0.extend(other.0);
+    /// Notes that the part gives these names.
+    pub(super) fn give(&mut self, names: impl IntoIterator<Item = &'a Name>) {
+        self.given.extend(names.into_iter().map(|name| name.text.as_str()));
+    }
+
+    /// Adds all names of a part within, but those that it gives itself.
+    pub(super) fn extend(&mut self, within: Self) {
+        self.used.extend(within.used.difference(&within.given));
     }
 
     pub(super) fn transitions(&mut self, transitions: &'a [Transition]) {
@@ -47,7 +56,11 @@ impl<'a> Names<'a> {
     pub(super) fn statements(&mut self, statements: &'a [Statement]) {
         for statement in statements {
             match statement {
-                Statement::Let { value, .. } | Statement::Set { value, .. } => self.expression(value),
+                Statement::Let { name, value } => {
+                    self.give([name]);
+                    self.expression(value);
+                }
+                Statement::Set { value, .. } => self.expression(value),
                 Statement::If { branches, otherwise } => {
                     for (condition, block) in branches {
                         self.expression(condition);
@@ -56,7 +69,7 @@ impl<'a> Names<'a> {
                     self.statements(otherwise);
                 }
                 Statement::Do { law, values, .. } => {
-                    self.0.insert(&law.text);
+                    self.used.insert(&law.text);
                     self.expressions(values);
                 }
                 Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
@@ -81,7 +94,7 @@ impl<'a> Names<'a> {
         match &expression.kind {
             Kind::Quantity(_) | Kind::Truth(_) => {}
             Kind::Root { name, values } => {
-                self.0.insert(&name.text);
+                self.used.insert(&name.text);
                 self.expressions(values.iter().flatten());
             }
             Kind::Member { owner, values, .. } => {

@@ -152,14 +152,14 @@ impl<'m> Region<'m> {
                 };
                 self.narrow(Unknown::Deflection(whisker), side)
             }
-            WhiskerScalar::ContourReady => self.narrow(Unknown::Ready(whisker), to),
+            WhiskerScalar::ContourReady => self.keep(Unknown::Contour(whisker), |domain| domain.keep_ready(to)),
             WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
                 self.narrow(Unknown::Whisker(whisker, quantity), to)
             }
             WhiskerScalar::ContourCurvature => {
-                // A number can only come of a contour that is ready.
+                // A number can only come of a contour.
                 to.nan
-                    || (self.narrow(Unknown::Ready(whisker), Interval::point(1.0))
+                    || (self.keep(Unknown::Contour(whisker), Domain::keep_readable)
                         && self.narrow(Unknown::Whisker(whisker, quantity), to))
             }
         }
@@ -169,7 +169,7 @@ impl<'m> Region<'m> {
     pub(super) fn narrow_vector(&mut self, whisker: usize, quantity: WhiskerVector, to: [Interval; 2]) -> bool {
         match quantity {
             WhiskerVector::ContourTangent | WhiskerVector::ContourNormal => {
-                to.iter().all(|to| to.nan) || self.narrow(Unknown::Ready(whisker), Interval::point(1.0))
+                to.iter().all(|to| to.nan) || self.keep(Unknown::Contour(whisker), Domain::keep_readable)
             }
             WhiskerVector::ContourEnd | WhiskerVector::Tip | WhiskerVector::TipBase | WhiskerVector::Base => {
                 let part = |axis| Unknown::WhiskerVector(whisker, quantity, axis);

@@ -26,8 +26,8 @@ pub(super) enum Unknown {
     Contact(usize),
     /// The deflection of a whisker that does not touch; only its magnitude counts where it touches.
     Deflection(usize),
-    /// Whether a whisker's contour is ready.
-    Ready(usize),
+    /// What there is of a whisker's contour: one of [`CONTOURS`].
+    Contour(usize),
     /// The direction of a whisker's contour (rad).
     Travel(usize),
     /// The direction away from a whisker's object (rad).
@@ -40,6 +40,9 @@ pub(super) enum Unknown {
 
 /// A whisker's side and its sense, numbered.
 const CONTACTS: [(f64, f64); 6] = [(1.0, 0.0), (-1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+
+/// A contour that is ready; none; one that was left off: it is not ready, and can be read.
+const CONTOURS: [f64; 3] = [1.0, 0.0, -1.0];
 
 /// The values that an unknown may have.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +64,8 @@ impl Domain {
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a turn, and what a filter adds.
             Unknown::Deflection(_) => range(-TAU, TAU),
-            Unknown::Ready(_) | Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
+            Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
+            Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
             Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
             Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
             Unknown::Whisker(_, WhiskerScalar::TipSpread) => range(0.0, f64::INFINITY),
@@ -108,6 +112,22 @@ impl Domain {
             numbered(number).is_some_and(|contact| Interval::point(reading(quantity, contact)).meet(to).has_any())
         });
         !numbers.is_empty()
+    }
+
+    /// Keeps only the contours of which [`WhiskerScalar::ContourReady`] lies in an interval; false if none is left.
+    pub(super) fn keep_ready(&mut self, to: Interval) -> bool {
+        self.keep_contours(|contour| is_ready(contour).meet(to).has_any())
+    }
+
+    /// Keeps only the contours that can be read; false if none is left.
+    pub(super) fn keep_readable(&mut self) -> bool {
+        self.keep_contours(is_readable)
+    }
+
+    fn keep_contours(&mut self, keeps: impl Fn(f64) -> bool) -> bool {
+        let Self::Values(contours) = self else { return true };
+        contours.retain(|&contour| keeps(contour));
+        !contours.is_empty()
     }
 
     /// Two parts of it; `None` if there is but one value.
@@ -170,10 +190,12 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
                 .reduce(Interval::join)
                 .unwrap_or(Interval::ANYTHING)
         }
-        WhiskerScalar::ContourReady => source.range(Unknown::Ready(whisker)),
+        WhiskerScalar::ContourReady => {
+            contours(source, whisker).map(is_ready).reduce(Interval::join).unwrap_or(Interval::ANYTHING)
+        }
         WhiskerScalar::ContourCurvature => {
             let curvature = source.range(Unknown::Whisker(whisker, quantity));
-            once_ready(source, whisker, curvature)
+            once_readable(source, whisker, curvature)
         }
         WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
             source.range(Unknown::Whisker(whisker, quantity))
@@ -186,18 +208,18 @@ pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: Whisker
     match quantity {
         WhiskerVector::ContourTangent => {
             let travel = source.range(Unknown::Travel(whisker));
-            [travel.cosine(), travel.sine()].map(|part| once_ready(source, whisker, part))
+            [travel.cosine(), travel.sine()].map(|part| once_readable(source, whisker, part))
         }
         WhiskerVector::ContourNormal => {
             let away = source.range(Unknown::Away(whisker));
-            [away.cosine(), away.sine()].map(|part| once_ready(source, whisker, part))
+            [away.cosine(), away.sine()].map(|part| once_readable(source, whisker, part))
         }
         WhiskerVector::ContourEnd => {
             // There is an end before there is a tangent, and before the first point there is none.
-            let ready = source.range(Unknown::Ready(whisker));
+            let may_be_none = !contours(source, whisker).all(is_readable);
             [0, 1].map(|axis| {
                 let end = source.range(Unknown::WhiskerVector(whisker, quantity, axis));
-                Interval { nan: end.nan || (ready.may_fail() && end.single().is_none()), ..end }
+                Interval { nan: end.nan || (may_be_none && end.single().is_none()), ..end }
             })
         }
         WhiskerVector::Tip | WhiskerVector::TipBase | WhiskerVector::Base => {
@@ -227,12 +249,27 @@ fn reading(quantity: WhiskerScalar, (side, sense): (f64, f64)) -> f64 {
     }
 }
 
-/// What is no number before the contour is ready.
-fn once_ready(source: &mut impl Source, whisker: usize, value: Interval) -> Interval {
-    let ready = source.range(Unknown::Ready(whisker));
-    match (ready.may_hold(), ready.may_fail()) {
-        (true, false) => value,
-        (true, true) => Interval { nan: true, ..value },
+/// What there may be of a whisker's contour.
+fn contours(source: &mut impl Source, whisker: usize) -> impl Iterator<Item = f64> {
+    let domain = source.domain(Unknown::Contour(whisker));
+    let contours = if let Domain::Values(contours) = domain { contours.as_slice() } else { &[] };
+    contours.iter().copied()
+}
+
+fn is_ready(contour: f64) -> Interval {
+    Interval::point(f64::from(u8::from(contour > 0.5)))
+}
+
+fn is_readable(contour: f64) -> bool {
+    contour.abs() > 0.5
+}
+
+/// What is no number before there is a contour.
+fn once_readable(source: &mut impl Source, whisker: usize, value: Interval) -> Interval {
+    let readable = contours(source, whisker).filter(|&contour| is_readable(contour)).count();
+    match contours(source, whisker).count() {
+        all if all == readable => value,
+        _ if readable > 0 => Interval { nan: true, ..value },
         _ => Interval::NO_NUMBER,
     }
 }

@@ -8,23 +8,24 @@ use super::names::Names;
 
 /// Warns of parameters, whiskers, laws, derived values, arguments and uses that nothing needs. A library's laws and derived
 /// values are there for others.
-pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
+pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let file = &files.main;
     let (mut used, mut unread) = (Names::default(), Vec::new());
-    let mut part = |names: &Names<'_>, arguments: &[Argument], of: &str| {
+    let mut part = |names: &mut Names<'f>, arguments: &'f [Argument], of: &str| {
+        names.give(arguments.iter().map(|argument| &argument.name));
         for argument in arguments.iter().filter(|argument| !names.has(&argument.name.text)) {
             let hint = format!("use it, or leave it out here and wherever `{of}` is given its values");
             warnings.push(never_used("P0507", "argument", &argument.name, hint));
         }
     };
     for derived in &file.derived {
-        let names = Names::of(|names| names.expression(&derived.value));
-        part(&names, &derived.arguments, &derived.name.text);
+        let mut names = Names::of(|names| names.expression(&derived.value));
+        part(&mut names, &derived.arguments, &derived.name.text);
         used.extend(names);
     }
     for law in &file.laws {
-        let names = Names::of(|names| names.statements(&law.body));
-        part(&names, &law.arguments, &law.name.text);
+        let mut names = Names::of(|names| names.statements(&law.body));
+        part(&mut names, &law.arguments, &law.name.text);
         used.extend(names);
     }
     let own = file.states.iter().map(|state| {
@@ -38,10 +39,11 @@ pub(super) fn unused(files: &Files, warnings: &mut Vec<Diagnostic>) {
             names.targets(&state.failsafes);
         })
     });
-    let mut of_states: Vec<Names<'_>> = own.collect();
+    let mut of_states: Vec<Names<'f>> = own.collect();
     // What a state knows, those in it know; they follow it.
-    while let (Some(names), Some(state)) = (of_states.pop(), file.states.get(of_states.len())) {
-        part(&names, &state.arguments, &state.name.text);
+    while let (Some(mut names), Some(state)) = (of_states.pop(), file.states.get(of_states.len())) {
+        part(&mut names, &state.arguments, &state.name.text);
+        names.give(state.memory.iter().map(|(name, _)| name));
         let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
         unread.extend(idle);
         match state.parent {

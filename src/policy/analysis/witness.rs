@@ -108,7 +108,7 @@ fn dimension(model: &Model<'_>, unknown: Unknown) -> Dimension {
         Unknown::WhiskerVector(_, quantity, _) => {
             member(MemberSource::Vector(quantity)).map(|(_, member)| member.r#type)
         }
-        Unknown::Contact(_) | Unknown::Ready(_) => None,
+        Unknown::Contact(_) | Unknown::Contour(_) => None,
     };
     match r#type {
         Some(Type::Scalar(dimension) | Type::Vector(dimension)) => dimension,

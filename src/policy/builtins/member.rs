@@ -120,7 +120,7 @@ const CONTOUR: [Member; 6] = [
         "ready",
         Type::Truth,
         WhiskerScalar::ContourReady,
-        "whether there are seven points, each a millimetre or more from the last; the curve is fitted to the newest seven",
+        "whether this tick or the one before recorded it, and there are seven points, each a millimetre or more from the last; the curve is fitted to the newest seven",
     ),
     Member {
         at: Some(At::Contour(ContourVector::Tangent)),

@@ -1,5 +1,7 @@
 //! What can be written at a place.
 
+use std::collections::HashMap;
+
 use crate::diagnostic::Span;
 use crate::policy::ast::{Name, TypeName};
 use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
@@ -117,15 +119,21 @@ impl Index {
         }
     }
 
-    /// The symbols that are known at a place.
+    /// The symbols that are known at a place: of several with one name the innermost, which hides the others.
     pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
         let at = context.typed.start;
-        self.symbols.iter().filter(move |symbol| {
+        let known = self.symbols.iter().filter(move |symbol| {
             (symbol.visible.start..=symbol.visible.end).contains(&at)
                 && context.statement != Some(symbol.whole.start)
                 && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
                 && (symbol.kind != SymbolKind::Memory || symbol.span.start < context.memory_end)
-        })
+        });
+        let mut innermost: HashMap<&str, usize> = HashMap::new();
+        for symbol in known.clone() {
+            let start = innermost.entry(&symbol.name).or_default();
+            *start = symbol.visible.start.max(*start);
+        }
+        known.filter(move |symbol| innermost.get(symbol.name.as_str()) == Some(&symbol.visible.start))
     }
 
     /// Whether a value that a statement names is known at a place behind it: transitions do not know what their state's statements

@@ -21,7 +21,7 @@ use std::collections::{HashMap, HashSet};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use crate::machine::{Program, Register};
 
-use super::ast::{Argument, Name, Statement, TypeName};
+use super::ast::{Argument, Expression, Name, Statement, TypeName};
 use super::hint::did_you_mean;
 use super::load::Files;
 use super::test::{FigurePlace, PolicyTest};
@@ -129,8 +129,10 @@ struct Compiler<'f> {
     writing: Vec<&'f Name>,
     /// What the state does whose transitions are being written.
     doing: &'f [Statement],
+    /// The memory of the state whose memory is being declared.
+    begun: &'f [(Name, Expression)],
     /// The memory that the machine, the state being written and its outer states have declared.
-    variables: Vec<&'f str>,
+    variables: Vec<&'f Name>,
     /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
     memories: Vec<(Register, u16)>,
     /// The figures of the run that the expectation being written reads; `None` outside of tests.
@@ -160,6 +162,7 @@ impl<'f> Compiler<'f> {
             broken: HashSet::new(),
             writing: Vec::new(),
             doing: &[],
+            begun: &[],
             variables: Vec::new(),
             memories: Vec::new(),
             figures: None,
@@ -214,18 +217,18 @@ impl<'f> Compiler<'f> {
     /// A scope in which `arguments` stand for values that are not known yet.
     fn scope_of_arguments(&mut self, arguments: &'f [Argument]) -> Scope<'f> {
         let mut scope = Scope::default();
-        self.bind_arguments(&mut scope, arguments);
+        self.bind_arguments(&mut scope, 0, arguments);
         scope
     }
 
-    /// Adds `arguments`, whose values are not known yet, to a scope.
-    fn bind_arguments(&mut self, scope: &mut Scope<'f>, arguments: &'f [Argument]) {
+    /// Adds `arguments`, whose values are not known yet, to a scope whose first `hidable` names they may hide.
+    fn bind_arguments(&mut self, scope: &mut Scope<'f>, hidable: usize, arguments: &'f [Argument]) {
         for argument in arguments {
             let meaning = self.type_of(&argument.type_name).map(|r#type| {
                 let register = self.code.place(r#type.width());
                 Value { r#type, register }
             });
-            self.bind(scope, &argument.name, meaning);
+            self.bind(scope, hidable, &argument.name, meaning);
         }
     }
 

@@ -1,6 +1,6 @@
 //! What names stand for in each file: its own items, and those that it uses.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Derived, File, Law, Name, Use};
@@ -13,13 +13,22 @@ use super::scope::{Meaning, is_reserved, reserved, taken};
 /// What names stand for in one file.
 #[derive(Debug, Default)]
 pub(super) struct Names<'f> {
-    /// Where each item is named.
+    /// Where each item, and each memory of the machine, is named.
     pub(super) items: HashMap<&'f str, Span>,
+    /// The names of the machine's memory, which not all of the file knows.
+    pub(super) memory: HashSet<&'f str>,
     /// Parameters and whiskers.
     pub(super) globals: HashMap<&'f str, Meaning>,
     /// Derived values and laws, each with the number of the file that it stands in.
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
+}
+
+impl Names<'_> {
+    /// Where an item is named that the whole file knows.
+    pub(super) fn item(&self, name: &str) -> Option<Span> {
+        self.items.get(name).copied().filter(|_| !self.memory.contains(name))
+    }
 }
 
 impl<'f> Compiler<'f> {
@@ -73,6 +82,7 @@ impl<'f> Compiler<'f> {
             }
         }
         let names = self.names_mut();
+        names.memory = file.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
     }

@@ -1,8 +1,9 @@
 //! Names and what they stand for.
 
 use crate::diagnostic::{Diagnostic, Span, suggest};
-use crate::policy::ast::{Name, Statement};
+use crate::policy::ast::{Expression, Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
+use crate::policy::foreign::instead;
 use crate::policy::hint::did_you_mean;
 use crate::policy::standard;
 use crate::policy::types::{Type, Value};
@@ -24,6 +25,11 @@ impl<'f> Scope<'f> {
         self.find(name).map(|&(_, meaning)| meaning)
     }
 
+    /// Where the name was given that is known by this text.
+    pub(super) fn given(&self, name: &str) -> Option<Span> {
+        self.find(name).map(|(known, _)| known.span)
+    }
+
     pub(super) fn insert(&mut self, name: &'f Name, meaning: Meaning) {
         self.names.push((name, meaning));
     }
@@ -43,16 +49,24 @@ impl<'f> Scope<'f> {
         self.names.truncate(len);
     }
 
+    /// The names without those of `hidden`.
+    pub(super) fn without(&self, hidden: &'f [(Name, Expression)]) -> Self {
+        let is_hidden = |name: &Name| hidden.iter().any(|(hidden, _)| hidden.text == name.text);
+        Self { names: self.names.iter().filter(|(name, _)| !is_hidden(name)).copied().collect() }
+    }
+
     fn find(&self, name: &str) -> Option<&(&'f Name, Meaning)> {
         self.names.iter().rev().find(|(known, _)| known.text == name)
     }
 }
 
 impl<'f> Compiler<'f> {
-    /// Gives a name to a value in a scope, unless the name is taken: one name means one thing.
-    pub(super) fn bind(&mut self, scope: &mut Scope<'f>, name: &'f Name, meaning: Meaning) {
-        let before = scope.find(&name.text).map(|(known, _)| known.span);
-        match before.or_else(|| self.names().items.get(name.text.as_str()).copied()) {
+    /// Gives a name to a value in a scope, unless the name is taken: by an item of the file, or by a name of the scope. Those before the first
+    /// `hidable` names may be given again, and are hidden then: they are of states around, and of the machine.
+    pub(super) fn bind(&mut self, scope: &mut Scope<'f>, hidable: usize, name: &'f Name, meaning: Meaning) {
+        let own = scope.names[hidable..].iter().rev().find(|(known, _)| known.text == name.text);
+        let before = own.map(|(known, _)| known.span);
+        match before.or_else(|| self.names().item(&name.text)) {
             _ if is_reserved(&name.text) => self.report(reserved(name)),
             Some(before) => self.report(taken(name, before)),
             None => {}
@@ -66,11 +80,19 @@ impl<'f> Compiler<'f> {
         let message = format!("nothing is called `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
         let text = &name.text;
+        if let Some(advice) = instead(text) {
+            self.report(diagnostic.hint(advice));
+            return;
+        }
         let diagnostic = if self.names().laws.contains_key(text.as_str()) {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
         } else if text == "run" {
             diagnostic.hint("only the expectations of a `test` know the run")
-        } else if self.variables.contains(&text.as_str()) {
+        } else if let Some(memory) = self.begun.iter().find(|(known, _)| known.text == *text) {
+            diagnostic.note(memory.0.span, "given here").hint(
+                "a `var` of a state knows only those above it; a name that the state gives hides that of a state around it in the whole state",
+            )
+        } else if self.variables.iter().any(|known| known.text == *text) {
             // Whoever knows memory at all knows a state's where that is written; so it is the machine's.
             diagnostic.hint(if self.writing.is_empty() && self.figures.is_none() {
                 format!("`{text}` is memory of the machine: a `var` of the machine knows only those above it")
@@ -101,6 +123,7 @@ impl<'f> Compiler<'f> {
                 self.names().globals.iter().filter(is_whisker).map(|(&known, _)| known).collect();
             whiskers.sort_unstable();
             match suggest(text, whiskers) {
+                Some(whisker) if whisker.to_lowercase() == text.to_lowercase() => diagnostic,
                 Some(whisker) => diagnostic
                     .hint(format!("to use another whisker of the rig, bind it too: `whisker {whisker}, {text}`")),
                 None => diagnostic,
@@ -136,5 +159,5 @@ pub(super) fn taken(name: &Name, before: Span) -> Diagnostic {
     let message = format!("the name `{}` is given twice", name.text);
     Diagnostic::error("P0202", message, name.span, "given again here")
         .note(before, "first given here")
-        .hint("one name means one thing in a whole policy; choose another")
+        .hint("choose another name; only arguments and `var` of a state may have a name of a state around it, or of the machine's memory")
 }

@@ -28,7 +28,7 @@ impl<'f> Compiler<'f> {
         match statement {
             Statement::Let { name, value } => {
                 let meaning = self.expression(scope, value).map(|value| self.kept(scope, value));
-                self.bind(scope, name, meaning);
+                self.bind(scope, 0, name, meaning);
             }
             Statement::Set { name, value } => self.set(scope, name, value)?,
             Statement::If { branches, otherwise } => self.conditional(scope, branches, otherwise),
@@ -60,7 +60,8 @@ impl<'f> Compiler<'f> {
 
     /// A value that stays what it is: a copy, if it is that of memory, which `set` can change.
     fn kept(&mut self, scope: &Scope<'f>, value: Value) -> Value {
-        let memory = |name: &&str| scope.get(name).flatten().is_some_and(|memory| memory.register == value.register);
+        let memory =
+            |name: &&Name| scope.get(&name.text).flatten().is_some_and(|memory| memory.register == value.register);
         if !self.variables.iter().any(memory) {
             return value;
         }
@@ -95,12 +96,16 @@ impl<'f> Compiler<'f> {
 
     fn set(&mut self, scope: &Scope<'f>, name: &'f Name, value: &'f Expression) -> Option<()> {
         let meaning = scope.get(&name.text);
-        if !self.writing.is_empty() || !self.variables.contains(&name.text.as_str()) {
+        let is_memory =
+            scope.given(&name.text).is_some_and(|given| self.variables.iter().any(|known| known.span == given));
+        if !self.writing.is_empty() || !is_memory {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
             self.report(if self.writing.is_empty() {
                 let diagnostic = Diagnostic::error("P0406", message, name.span, "no memory that is known here");
-                did_you_mean(diagnostic, &name.text, self.variables.iter().copied()).hint(format!(
+                // What is hidden has the very name.
+                let others = self.variables.iter().map(|known| known.text.as_str()).filter(|known| *known != name.text);
+                did_you_mean(diagnostic, &name.text, others).hint(format!(
                     "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or by the machine and all states if \
                      it stands outside of them",
                     name.text

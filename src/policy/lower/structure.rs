@@ -52,7 +52,7 @@ pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
 pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Option<Program> {
     let file = &files.main;
     // Laws and derived values, which come first, are told that they do not know it.
-    compiler.variables.extend(file.memory.iter().map(|(name, _)| name.text.as_str()));
+    compiler.variables.extend(file.memory.iter().map(|(name, _)| name));
     let parameters = items(compiler, files);
     let (scope, entry) = compiler.own_memory(file);
     let body = compiler.own_body(&scope, file);
@@ -222,14 +222,19 @@ impl<'f> Compiler<'f> {
             }
             let start = state.parent.map_or(own.len(), |parent| ends[parent]);
             scope.truncate(start);
-            self.bind_arguments(&mut scope, &state.arguments);
+            self.bind_arguments(&mut scope, start, &state.arguments);
             let names = state.arguments.iter().map(|argument| &argument.name.text);
             let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
             self.states.insert(&state.name.text, StateEntry { index, arguments });
+            // In all of the state its own memory hides that of states around it, also above where it is declared.
+            self.begun = &state.memory;
+            let mut known = scope.without(&state.memory);
             for (name, value) in &state.memory {
-                let memory = self.remember(&scope, value);
-                self.bind(&mut scope, name, memory);
+                let memory = self.remember(&known, value);
+                self.bind(&mut scope, start, name, memory);
+                known.insert(name, memory);
             }
+            self.begun = &[];
             ends.push(scope.len());
             declared.push(scope.since(start));
         }
@@ -254,7 +259,7 @@ impl<'f> Compiler<'f> {
             for (name, meaning) in names {
                 scope.insert(name, meaning);
             }
-            self.variables.extend(state.memory.iter().map(|(name, _)| name.text.as_str()));
+            self.variables.extend(state.memory.iter().map(|(name, _)| name));
             ends.push((scope.len(), self.variables.len()));
             self.state(index, state, &mut scope, timers)
         });

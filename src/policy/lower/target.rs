@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::machine::{self, Block};
 use crate::policy::ast::{Expression, File, Name, State, Step, Target};
+use crate::policy::foreign::instead_of_target;
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::Value;
 
@@ -147,7 +148,11 @@ impl<'f> Compiler<'f> {
     fn unknown_state(&self, name: &Name) -> Diagnostic {
         let message = format!("there is no state `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
-        did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]))
+        let diagnostic = did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]));
+        match instead_of_target(&name.text) {
+            Some(advice) => diagnostic.hint(advice),
+            None => diagnostic,
+        }
     }
 
     /// Whether a state on a way is given as many values as it takes.

@@ -5,6 +5,10 @@ use std::sync::Once;
 use mujoco_rs::logging::set_log_handler;
 use mujoco_rs::wrappers::mj_logging::{MjLogMessage, MjtLogLevel};
 
+use crate::diagnostic::printable;
+
+use super::library::{self, LibraryError};
+
 /// What each of MuJoCo's warning counters means and what to do about it, in their order.
 pub(super) const WARNINGS: [&str; 7] = [
     "an inertia matrix became singular; give the rig heavier parts",
@@ -16,15 +20,21 @@ pub(super) const WARNINGS: [&str; 7] = [
     "a command is too large or not a number",
 ];
 
-/// The version of the linked MuJoCo.
-#[must_use]
-pub fn engine_version() -> &'static str {
-    route_engine_messages();
-    mujoco_rs::mujoco_version()
+/// The version of MuJoCo.
+///
+/// # Errors
+/// [`LibraryError`] when its library cannot be used.
+pub fn engine_version() -> Result<&'static str, LibraryError> {
+    prepare_engine()?;
+    Ok(mujoco_rs::mujoco_version())
 }
 
-/// Keeps MuJoCo from writing a log file into the working directory.
-pub(super) fn route_engine_messages() {
+/// Loads MuJoCo, and keeps it from writing a log file into the working directory.
+///
+/// # Errors
+/// [`LibraryError`] when its library cannot be used.
+pub(super) fn prepare_engine() -> Result<(), LibraryError> {
+    library::load()?;
     static ROUTED: Once = Once::new();
     #[expect(
         unsafe_code,
@@ -32,6 +42,7 @@ pub(super) fn route_engine_messages() {
     )]
     // SAFETY: every use of MuJoCo in this crate comes after a call of this function, and `Once` lets one thread through.
     ROUTED.call_once(|| unsafe { set_log_handler(on_engine_message) });
+    Ok(())
 }
 
 /// Warnings are counted by the engine and become [`Fault`](crate::world::Fault)s; an error ends the process, so its text must get
@@ -39,7 +50,7 @@ pub(super) fn route_engine_messages() {
 #[expect(clippy::print_stderr, reason = "MuJoCo ends the process right after an error")]
 fn on_engine_message(message: &MjLogMessage) {
     if matches!(message.level(), MjtLogLevel::mjLOG_ERROR) {
-        eprintln!("error: MuJoCo stopped: {}", message.subject());
+        eprintln!("error: MuJoCo stopped: {}", printable(message.subject()));
         std::process::exit(3);
     }
 }

@@ -4,7 +4,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use mujoco_rs::wrappers::load_plugin_library;
+use super::library::open;
 
 /// The directory of the library that the program is linked with; a MuJoCo of the system has none that is known.
 const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
@@ -31,34 +31,28 @@ pub enum PluginError {
         /// Where it should be.
         path: PathBuf,
     },
-    /// MuJoCo cannot be told such a path.
+    /// It is there, and cannot be loaded.
     #[error(
-        "MuJoCo takes no path that is not UTF-8 text without null bytes ({}): build the program in a directory of another name",
-        path.display()
+        "MuJoCo's plugin for cables cannot be loaded ({cause}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig"
     )]
-    Path {
-        /// Where the plugin is.
-        path: PathBuf,
+    Damaged {
+        /// What the loader says.
+        cause: String,
     },
 }
 
-/// Loads the plugin, once in a process.
-///
-/// A file that is there and cannot be loaded, as it is cut short or for another processor, ends the process: MuJoCo does that itself, with
-/// the loader's message, and whether a library loads can be told only by loading it.
+/// Loads the plugin, once in a process, as MuJoCo itself would; but MuJoCo ends the process where that fails.
 ///
 /// # Errors
-/// [`PluginError`] when the plugin is not where the library is, or that is not known.
+/// [`PluginError`] when the plugin is not where the library is, or that is not known, or when it cannot be loaded.
 pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
-    static LOADED: OnceLock<bool> = OnceLock::new();
+    static LOADED: OnceLock<Result<(), String>> = OnceLock::new();
     let path = plugin_in(DIRECTORY)?;
-    // What is refused is the form of the path.
-    let loaded = *LOADED.get_or_init(|| load_plugin_library(&path).is_ok());
-    if loaded { Ok(()) } else { Err(PluginError::Path { path }) }
+    let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| cause.to_string()));
+    loaded.clone().map_err(|cause| PluginError::Damaged { cause })
 }
 
-/// Where the plugin is. MuJoCo would end the process for one that is not there; and of a bare name it would not look in the current
-/// directory.
+/// Where the plugin is. For one that is not there the loader's message would be longer, and say less.
 fn plugin_in(directory: Option<&str>) -> Result<PathBuf, PluginError> {
     let file = format!("{DLL_PREFIX}elasticity{DLL_SUFFIX}");
     let Some(directory) = directory.filter(|directory| !directory.is_empty()) else {

@@ -8,7 +8,8 @@ use crate::world::sensors::{Sensors, whole};
 use crate::world::{Fault, SPRINGING, World};
 
 use super::engine::Engine;
-use super::messages::{WARNINGS, route_engine_messages};
+use super::library::LibraryError;
+use super::messages::{WARNINGS, prepare_engine};
 use super::plugin::{PluginError, load_cable_plugin};
 use super::pruner::Pruner;
 
@@ -24,6 +25,9 @@ pub enum MujocoError {
     /// The cables of the rig need a plugin, which cannot be had.
     #[error(transparent)]
     Plugin(#[from] PluginError),
+    /// MuJoCo's library cannot be used.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
 }
 
 /// A rig before solids, simulated by MuJoCo.
@@ -64,7 +68,7 @@ impl MujocoWorld {
     }
 
     fn with(rig: &Rig, solids: &[Solid], start: Pose, seed: u64, room: Option<usize>) -> Result<Self, MujocoError> {
-        route_engine_messages();
+        prepare_engine()?;
         if rig.physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }

@@ -1,6 +1,6 @@
 //! What states in states mean, by example.
 
-use vibrissa::machine::{Action, Failure, Guard};
+use vibrissa::machine::{Action, ActionPart, Failure, Flaw, Guard};
 
 use crate::common::{Feel, Script, program, run, states};
 
@@ -51,7 +51,10 @@ fn a_command_that_is_not_finite_fails_with_the_name_of_the_state_that_gave_it() 
     let text = "machine m initial O
         state O { initial A  steer body along vector(1, 0) at 1 m/s / 0 turning 0 rad/s  state A { let x = 1 } }";
     let (machine, _) = run(text, &mut Script::touches("."));
-    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "O".into() }));
+    assert_eq!(
+        machine.failure(),
+        Some(&Failure::NotFinite { state: "O".into(), flaw: Flaw { part: ActionPart::Speed, is_nan: false } })
+    );
 }
 
 #[test]

@@ -112,8 +112,11 @@ impl Interpreter<'_> {
             return *value;
         }
         let around = place.sees.map_or_else(Vec::new, |state| self.program.way(state));
-        if let Some(value) = around.iter().rev().find_map(|&state| self.kept[state].get(name)) {
-            return *value;
+        let mut kept = around.iter().rev().filter_map(|&state| self.kept[state].get(name)).copied();
+        if let Some(value) = kept.next() {
+            let hides = kept.next().is_some() || self.own.contains_key(name);
+            self.seen("what hides another", hides.then_some(place.part));
+            return value;
         }
         if let Some(value) = self.own.get(name) {
             return *value;

@@ -79,7 +79,7 @@ impl Grower<'_> {
     fn grow_own(&mut self) {
         for index in 0..self.pick(4) {
             let r#type = self.one_of(&Type::ALL);
-            // Laws and derived values do not know it, and their arguments cannot be called so.
+            // Laws and derived values do not know it, so that their arguments may be called so.
             let (name, value) = (format!("m{index}"), self.expression(r#type, 2));
             self.know(&name, r#type, true);
             self.program.memory.push((name, r#type, value));
@@ -105,12 +105,21 @@ impl Grower<'_> {
         self.program.states.push(State { parent, ..State::default() });
         self.know_state(index, globals);
         let arguments = if index == 0 { Vec::new() } else { self.arguments(3) };
+        let mut names: Vec<String> = arguments.iter().map(|(name, _)| name.clone()).collect();
+        let (first, outside) = (names.len(), self.scope.len());
+        for index in 0..self.pick(4) {
+            let name = self.hiding_name(&names);
+            names.push(name.unwrap_or_else(|| format!("x{}", outside + index)));
+        }
+        // What a memory hides is hidden from what stands above it, too.
         let mut memory = Vec::new();
-        for _ in 0..self.pick(4) {
+        for index in first..names.len() {
+            self.hidden = names[index..].to_vec();
             let r#type = self.one_of(&Type::ALL);
-            let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
-            self.know(&name, r#type, true);
-            memory.push((name, r#type, value));
+            let value = self.expression(r#type, 2);
+            self.hidden.clear();
+            self.know(&names[index], r#type, true);
+            memory.push((names[index].clone(), r#type, value));
         }
         let state = &mut self.program.states[index];
         (state.arguments, state.memory) = (arguments, memory);
@@ -217,7 +226,7 @@ impl Grower<'_> {
                 _ => String::new(),
             };
             statements.push(statement);
-            let memory = self.scope.iter().find(|known| known.is_memory && known.name == copied).cloned();
+            let memory = self.known().into_iter().find(|known| known.is_memory && known.name == copied);
             if let Some(memory) = memory {
                 statements.push(Statement::Set(memory.name, self.expression(memory.r#type, 2)));
             }
@@ -226,7 +235,7 @@ impl Grower<'_> {
     }
 
     fn statement(&mut self, may: May, depth: u8) -> Statement {
-        let memory: Vec<_> = self.scope.iter().filter(|known| known.is_memory).cloned().collect();
+        let memory: Vec<_> = self.known().into_iter().filter(|known| known.is_memory).collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
         match self.pick(17) {
             0 | 1 => {

@@ -18,6 +18,8 @@ pub(crate) struct Grower<'g> {
     bytes: std::slice::Iter<'g, u8>,
     pub(crate) program: Program,
     pub(crate) scope: Vec<Known>,
+    /// Names that a state gives, and that mean nothing while what they begin with is grown.
+    pub(crate) hidden: Vec<String>,
     sites: usize,
 }
 
@@ -41,7 +43,14 @@ const SCALARS: [Type; 7] =
 
 impl<'g> Grower<'g> {
     pub(crate) fn new(parts: &'g [Vec<u8>]) -> Self {
-        Self { parts: parts.iter(), bytes: [].iter(), program: Program::default(), scope: Vec::new(), sites: 0 }
+        Self {
+            parts: parts.iter(),
+            bytes: [].iter(),
+            program: Program::default(),
+            scope: Vec::new(),
+            hidden: Vec::new(),
+            sites: 0,
+        }
     }
 
     pub(crate) fn next_part(&mut self) {
@@ -71,6 +80,24 @@ impl<'g> Grower<'g> {
         format!("x{}", self.scope.len())
     }
 
+    /// Seldom, for an argument or a memory, the name of something around that it may hide, but none of those `taken`.
+    pub(crate) fn hiding_name(&mut self, taken: &[String]) -> Option<String> {
+        let around = self.scope.iter().map(|known| known.name.clone());
+        let machine = (0..3).map(|index| format!("m{index}"));
+        let hidable: Vec<String> =
+            around.chain(machine).filter(|name| name.starts_with(['x', 'm']) && !taken.contains(name)).collect();
+        (self.pick(4) == 3 && !hidable.is_empty()).then(|| self.one_of(&hidable))
+    }
+
+    /// The names that are known: of several that are called so the one that came last.
+    pub(crate) fn known(&self) -> Vec<Known> {
+        let is_hidden = |index: usize, name: &String| {
+            self.hidden.contains(name) || self.scope[index + 1..].iter().any(|later| later.name == *name)
+        };
+        let known = self.scope.iter().enumerate().filter(|(index, known)| !is_hidden(*index, &known.name));
+        known.map(|(_, known)| known.clone()).collect()
+    }
+
     pub(crate) fn arguments(&mut self, most: usize) -> Arguments {
         let count = self.pick(most + 1);
         let mut arguments = Arguments::new();
@@ -78,7 +105,9 @@ impl<'g> Grower<'g> {
             let another = self.one_of(&Type::ALL);
             // Arguments of one type can be taken for one another.
             let same = arguments.last().map(|&(_, r#type)| r#type).filter(|_| self.pick(2) == 1);
-            let (name, r#type) = (self.fresh_name(), same.unwrap_or(another));
+            let taken: Vec<String> = arguments.iter().map(|(name, _)| name.clone()).collect();
+            let name = self.hiding_name(&taken).unwrap_or_else(|| self.fresh_name());
+            let r#type = same.unwrap_or(another);
             self.know(&name, r#type, false);
             arguments.push((name, r#type));
         }
@@ -99,7 +128,7 @@ impl<'g> Grower<'g> {
 
     pub(crate) fn expression(&mut self, r#type: Type, depth: u8) -> Expression {
         let names: Vec<String> =
-            self.scope.iter().filter(|known| known.r#type == r#type).map(|known| known.name.clone()).collect();
+            self.known().into_iter().filter(|known| known.r#type == r#type).map(|known| known.name).collect();
         let derived: Vec<_> = self.program.derived.iter().filter(|derived| derived.r#type == r#type).cloned().collect();
         match self.pick(if depth == 0 { 6 } else { 10 }) {
             0 => self.simple(r#type),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-use vibrissa::machine::{Action, Cause, Failure, Senses};
+use vibrissa::machine::{Action, ActionPart, Cause, Failure, Flaw, Senses, Turn};
 
 use super::evaluate::{Place, Value};
 use super::filter::Filter;
@@ -104,7 +104,7 @@ impl<'p> Interpreter<'p> {
         }
         self.run_own();
         match self.act(0) {
-            Err(stuck) => self.leave(stuck, Cause::NotFinite, failsafe),
+            Err((stuck, flaw)) => self.leave(stuck, Cause::NotFinite(flaw), failsafe),
             Ok(action) => Ok(action.unwrap_or(Action::Hold)),
         }
     }
@@ -233,16 +233,16 @@ impl<'p> Interpreter<'p> {
     }
 
     /// Runs the active states' statements, but for the `done` outermost ones; the last command that they give. If it is not
-    /// finite, the state that gave it.
-    fn act(&mut self, done: usize) -> Result<Option<Action>, usize> {
+    /// finite, the state that gave it, and which of its numbers is not.
+    fn act(&mut self, done: usize) -> Result<Option<Action>, (usize, Flaw)> {
         let mut given = None;
         for state in self.active.clone().split_off(done) {
             let command = self.run(&self.program.states[state].body, &mut Place::new(Some(state), "a body"));
             given = command.map(|command| (state, command)).or(given);
         }
-        match given {
-            Some((state, command)) if !is_finite(command) => Err(state),
-            given => Ok(given.map(|(_, command)| command)),
+        match given.map(|(state, command)| (state, flaw(command))) {
+            Some((state, Some(flaw))) => Err((state, flaw)),
+            _ => Ok(given.map(|(_, command)| command)),
         }
     }
 
@@ -256,7 +256,7 @@ impl<'p> Interpreter<'p> {
         let Some((from, target)) = found else {
             self.seen("a failure", Some("a command"));
             return Err(match cause {
-                Cause::NotFinite => Failure::NotFinite { state: name(stuck) },
+                Cause::NotFinite(flaw) => Failure::NotFinite { state: name(stuck), flaw },
                 Cause::Chain => Failure::Chain { state: name(stuck) },
             });
         };
@@ -265,13 +265,13 @@ impl<'p> Interpreter<'p> {
         *failsafe = Some((self::name(stuck), cause));
         self.take(from, target)?;
         // The machine and those that stay active have run in this tick.
-        let done = if let (Target::State { way, .. }, Cause::NotFinite) = (target, cause) {
+        let done = if let (Target::State { way, .. }, Cause::NotFinite(_)) = (target, cause) {
             self.program.way(way[0].0).len() - 1
         } else {
             self.run_own();
             0
         };
-        let action = self.act(done).map_err(|state| Failure::NotFinite { state: name(state) })?;
+        let action = self.act(done).map_err(|(state, flaw)| Failure::NotFinite { state: name(state), flaw })?;
         Ok(action.unwrap_or(Action::Hold))
     }
 }
@@ -280,12 +280,15 @@ fn name(state: usize) -> String {
     format!("S{state}")
 }
 
-fn is_finite(action: Action) -> bool {
-    match action {
-        Action::Hold | Action::Stop => true,
-        Action::Steer { along_world, speed, turn, .. } => {
-            let (vibrissa::machine::Turn::Facing(turn) | vibrissa::machine::Turn::Rate(turn)) = turn;
-            [along_world.x, along_world.y, speed, turn].into_iter().all(f64::is_finite)
-        }
-    }
+/// The first of a command's numbers that is not finite: along, at, facing or turning.
+fn flaw(action: Action) -> Option<Flaw> {
+    let of = |part, numbers: &[f64]| {
+        let bad = numbers.iter().find(|number| !number.is_finite());
+        bad.map(|bad| Flaw { part, is_nan: bad.is_nan() })
+    };
+    let Action::Steer { along_world, speed, turn, .. } = action else { return None };
+    of(ActionPart::Along, &[along_world.x, along_world.y]).or(of(ActionPart::Speed, &[speed])).or(match turn {
+        Turn::Facing(heading) => of(ActionPart::Heading, &[heading]),
+        Turn::Rate(rate) => of(ActionPart::YawRate, &[rate]),
+    })
 }

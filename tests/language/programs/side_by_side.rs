@@ -123,7 +123,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 33] = [
+const DONE: [(&str, &[&str]); 34] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -136,6 +136,7 @@ const DONE: [(&str, &[&str]); 33] = [
     ("set of the machine's memory", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of what was named before", &["a body", "an if", "an entry", "an exit"]),
     ("set of an outer state's memory", &["a body", "an if", "an entry", "an exit"]),
+    ("what hides another", &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
     ("if", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("do", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("record", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),

@@ -77,7 +77,9 @@ fn every_command_that_writes_takes_the_place_alike() {
 
 #[test]
 fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_status_2() {
-    for (file, expected) in [("/dev/zero", "it is a device"), ("tests/fixtures/latin1.txt", "not UTF-8")] {
+    for (file, expected) in
+        [("/dev/zero", "it is a device"), ("tests/fixtures/latin1.txt", "in line 1, column 20 the byte 0xB5")]
+    {
         for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
             let output = vibrissa(&arguments);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}");

@@ -10,6 +10,10 @@ mod fmt;
 mod graph;
 #[cfg(target_os = "linux")]
 mod interrupt;
+#[cfg(all(target_os = "linux", feature = "sim"))]
+mod library;
+#[cfg(target_os = "linux")]
+mod names;
 pub(crate) mod program;
 mod run;
 mod stress;

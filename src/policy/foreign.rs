@@ -1,0 +1,73 @@
+//! Words and signs of other languages, and what a policy has in their place.
+
+/// Words that other languages have, and what to write instead.
+const WORDS: [(&[&str], &str); 17] = [
+    (
+        &["while", "loop", "until", "repeat", "break", "continue", "foreach"],
+        "there are no loops: every tick runs the statements of a state anew; write `if condition { \u{2026} }`, or a state that `when condition -> State` leaves",
+    ),
+    (
+        &["print", "println", "printf", "echo", "log"],
+        "a policy prints nothing; `vibrissa run --ticks FILE` writes what every tick perceived and commanded",
+    ),
+    (&["elif", "elseif", "elsif"], "write `else if condition { \u{2026} }`"),
+    (&["then"], "a block stands in braces: `if condition { \u{2026} }`"),
+    (&["endif", "end", "fi"], "a block ends with `}`"),
+    (
+        &["return"],
+        "a law gives no value, and goes on to its `}`; `let name(w: whisker) = expression` is a value that depends on others",
+    ),
+    (
+        &["def", "fn", "func", "function", "fun", "proc"],
+        "write `law name(w: whisker) { \u{2026} }` for statements, or `let name(w: whisker) = expression` for a value",
+    ),
+    (&["goto", "goTo", "transition", "switch_to"], "write `when condition -> State`, or `after 1 s -> State`"),
+    (&["switch", "match", "case"], "write `if condition { \u{2026} } else if condition { \u{2026} }`"),
+    (
+        &["wait", "sleep", "delay"],
+        "a tick waits for nothing: a state stays active until `after 1 s -> State` leaves it",
+    ),
+    (
+        &["import", "include", "require", "from"],
+        "write `use \"file.fsm\"`, or `use std.swipe` for a module of the standard library",
+    ),
+    (
+        &["mut", "const", "int", "float", "double", "bool", "auto", "local"],
+        "write `let name = value` for a value, `var name = value` for memory, or `param name = 50 mm/s` for what a run can set; their types are not written",
+    ),
+    (&["pass", "noop"], "leave it out: a block may be empty"),
+    (&["True", "TRUE"], "write `true`"),
+    (&["False", "FALSE"], "write `false`"),
+    (
+        &["null", "NULL", "None", "nil", "undefined"],
+        "every value is there; keep in a `var` of its own whether one counts: `var is_known = false`",
+    ),
+    (&["pi", "PI"], "write an angle with its unit: `180 deg`"),
+];
+
+/// What to write instead of a word that other languages have.
+pub(super) fn instead(word: &str) -> Option<&'static str> {
+    WORDS.iter().find(|(words, _)| words.contains(&word)).map(|&(_, advice)| advice)
+}
+
+/// What to write instead of a target that other languages have for the end of a run that went well.
+pub(super) fn instead_of_target(state: &str) -> Option<&'static str> {
+    ["success", "succeeded", "done", "end", "finish", "finished", "completed", "exit"].contains(&state.to_lowercase().as_str()).then_some(
+        "a run is completed when what the scenario's `stop` names has come about; a policy ends it only by `Failure(\"reason\")`, and stands still \
+         in a state that does: `state Done { stop }`",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::policy::grammar::is_keyword;
+
+    #[test]
+    fn a_word_is_there_once_and_none_is_a_word_of_the_language() {
+        let words: Vec<&str> = WORDS.iter().flat_map(|(words, _)| words.iter().copied()).collect();
+        for (index, word) in words.iter().enumerate() {
+            assert!(!is_keyword(word) && !words[..index].contains(word), "{word}");
+        }
+    }
+}

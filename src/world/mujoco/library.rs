@@ -1,0 +1,117 @@
+//! MuJoCo's library, loaded when it is first needed, so that the program starts without it.
+//!
+//! mujoco-rs declares MuJoCo's functions and leaves them to the linker. Those that the program uses are defined here, so that the linker
+//! needs nothing of the library, and the library is no longer among those that the loader must find before the program starts. Each
+//! passes its call on to the function of that name in the library.
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::ffi::{c_char, c_int, c_void};
+use std::sync::LazyLock;
+
+use libloading::Library;
+use mujoco_rs::mujoco_c;
+use mujoco_rs::mujoco_c::{mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS, mjfLogHandler};
+
+/// Why MuJoCo's library cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup`, or use the world `quasistatic`, which does not need it"
+)]
+pub struct LibraryError {
+    /// What the loader says.
+    cause: String,
+}
+
+/// The functions, once the library is loaded. It is never unloaded.
+static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
+    let failed = |cause: libloading::Error| LibraryError { cause: cause.to_string() };
+    open(file_name()).and_then(|library| Functions::of(&library)).map_err(failed)
+});
+
+/// Loads the library, once in a process.
+///
+/// # Errors
+/// [`LibraryError`] when it is not where the loader looks for it, or is not usable.
+pub(super) fn load() -> Result<(), LibraryError> {
+    FUNCTIONS.as_ref().map(|_| ()).map_err(Clone::clone)
+}
+
+/// Loads a library for good.
+pub(super) fn open(name: impl AsRef<std::ffi::OsStr>) -> Result<std::mem::ManuallyDrop<Library>, libloading::Error> {
+    #[expect(unsafe_code, reason = "a library runs code of its own when it is loaded")]
+    // SAFETY: it is MuJoCo's, or a plugin of MuJoCo's. All that these do when they are loaded is to register themselves.
+    let library = unsafe { Library::new(name.as_ref()) };
+    library.map(std::mem::ManuallyDrop::new)
+}
+
+/// What the library is called that mujoco-rs is written for. Its directory is among those in which the loader looks for the program.
+fn file_name() -> String {
+    let [major, minor, patch] = [mjVERSION_HEADER / 1_000_000, mjVERSION_HEADER / 1000 % 1000, mjVERSION_HEADER % 1000];
+    if cfg!(target_vendor = "apple") {
+        format!("@rpath/{DLL_PREFIX}mujoco.{major}.{minor}.{patch}{DLL_SUFFIX}")
+    } else {
+        format!("{DLL_PREFIX}mujoco{DLL_SUFFIX}.{major}.{minor}.{patch}")
+    }
+}
+
+/// The functions for calls of mujoco-rs. Every use of MuJoCo in this crate comes after [`load`], so that there are some; what uses
+/// mujoco-rs without it ends here.
+#[expect(clippy::print_stderr, reason = "MuJoCo's functions cannot tell that they are missing")]
+fn functions() -> &'static Functions {
+    FUNCTIONS.as_ref().unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        std::process::exit(2)
+    })
+}
+
+/// Defines the functions, and a table of those in the library. One whose signature is not mujoco-rs's does not compile. A function that is
+/// missing here ties the program to the library again; a test sees to that.
+macro_rules! pass_on {
+    ($(fn $name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
+        #[expect(non_snake_case, reason = "MuJoCo's names")]
+        struct Functions {
+            $($name: unsafe extern "C" fn($($type),*) $(-> $result)?,)*
+        }
+
+        impl Functions {
+            fn of(library: &Library) -> Result<Self, libloading::Error> {
+                #[expect(unsafe_code, reason = "a library does not say what its functions take")]
+                // SAFETY: the name of the file has MuJoCo's version, and the signatures are those of that version.
+                unsafe { Ok(Self { $($name: *library.get(stringify!($name))?,)* }) }
+            }
+        }
+
+        $(
+            const _: unsafe extern "C" fn($($type),*) $(-> $result)? = mujoco_c::$name;
+
+            #[expect(unsafe_code, reason = "mujoco-rs leaves the function to the linker")]
+            // SAFETY: nothing else in the program has the name. What the function demands is the caller's to keep, as if it had called the
+            // function in the library.
+            #[unsafe(no_mangle)]
+            unsafe extern "C" fn $name($($argument: $type),*) $(-> $result)? {
+                unsafe { (functions().$name)($($argument),*) }
+            }
+        )*
+    };
+}
+
+pass_on! {
+    fn mj_addBufferVFS(vfs: *mut mjVFS, name: *const c_char, buffer: *const c_void, length: c_int) -> c_int;
+    fn mj_defaultVFS(vfs: *mut mjVFS);
+    fn mj_deleteData(data: *mut mjData);
+    fn mj_deleteModel(model: *mut mjModel);
+    fn mj_deleteVFS(vfs: *mut mjVFS);
+    fn mj_energyPos(model: *const mjModel, data: *mut mjData);
+    fn mj_energyVel(model: *const mjModel, data: *mut mjData);
+    fn mj_forward(model: *const mjModel, data: *mut mjData);
+    fn mj_loadXML(file: *const c_char, vfs: *const mjVFS, error: *mut c_char, length: c_int) -> *mut mjModel;
+    fn mj_makeData(model: *const mjModel) -> *mut mjData;
+    fn mj_name2id(model: *const mjModel, kind: c_int, name: *const c_char) -> c_int;
+    fn mj_resetDataKeyframe(model: *const mjModel, data: *mut mjData, key: c_int);
+    fn mj_step(model: *const mjModel, data: *mut mjData);
+    fn mj_version() -> c_int;
+    fn mj_versionString() -> *const c_char;
+    fn mju_getLogConfig() -> mjLogConfig;
+    fn mju_setLogConfig(config: mjLogConfig);
+    fn mju_setLogHandler(handler: mjfLogHandler) -> mjfLogHandler;
+}
