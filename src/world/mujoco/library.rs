@@ -5,6 +5,7 @@
 //! passes its call on to the function of that name in the library.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::error::Error as _;
 use std::ffi::{c_char, c_int, c_void};
 use std::sync::LazyLock;
 
@@ -24,7 +25,7 @@ pub struct LibraryError {
 
 /// The functions, once the library is loaded. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
-    let failed = |cause: libloading::Error| LibraryError { cause: cause.to_string() };
+    let failed = |cause: libloading::Error| LibraryError { cause: told(&cause) };
     open(file_name()).and_then(|library| Functions::of(&library)).map_err(failed)
 });
 
@@ -42,6 +43,11 @@ pub(super) fn open(name: impl AsRef<std::ffi::OsStr>) -> Result<std::mem::Manual
     // SAFETY: it is MuJoCo's, or a plugin of MuJoCo's. All that these do when they are loaded is to register themselves.
     let library = unsafe { Library::new(name.as_ref()) };
     library.map(std::mem::ManuallyDrop::new)
+}
+
+/// What the loader says, which names the file.
+pub(super) fn told(cause: &libloading::Error) -> String {
+    cause.source().map_or_else(|| cause.to_string(), ToString::to_string)
 }
 
 /// What the library is called that mujoco-rs is written for. Its directory is among those in which the loader looks for the program.

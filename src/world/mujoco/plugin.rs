@@ -4,7 +4,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::library::open;
+use super::library::{open, told};
 
 /// The directory of the library that the program is linked with; a MuJoCo of the system has none that is known.
 const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
@@ -48,7 +48,7 @@ pub enum PluginError {
 pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
     static LOADED: OnceLock<Result<(), String>> = OnceLock::new();
     let path = plugin_in(DIRECTORY)?;
-    let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| cause.to_string()));
+    let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| told(&cause)));
     loaded.clone().map_err(|cause| PluginError::Damaged { cause })
 }
 
