@@ -127,13 +127,13 @@ const HIDING: &str = "machine m\nvar n = 1\nlet f(n: number) = n + 1\ninitial A\
 
 #[test]
 fn an_editor_tells_what_hides_from_what_is_hidden() {
+    use Role::{Declares, Reads, Writes};
     assert!(faults(HIDING).is_empty());
     let index = Index::new(&Source::new("test.fsm", HIDING), None);
     let lines = |place: &str| -> Vec<(usize, Role)> {
         let references = index.references(HIDING.find(place).unwrap());
         references.into_iter().map(|(span, role)| (index.source().line_column(span.start).line, role)).collect()
     };
-    use Role::{Declares, Reads, Writes};
     assert_eq!(lines("n = 1"), [(2, Declares), (5, Writes), (13, Writes)]);
     assert_eq!(lines("n: number"), [(3, Declares), (3, Reads)]);
     assert_eq!(lines("n = 3"), [(7, Writes), (7, Reads), (8, Declares), (10, Reads), (10, Reads)]);

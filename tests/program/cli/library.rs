@@ -67,8 +67,8 @@ fn a_damaged_library_or_plugin_is_told_with_what_to_do() {
     let libraries = Path::new(LIBRARIES.unwrap());
     let lib = directory.join("lib");
     std::fs::create_dir(&lib).unwrap();
-    let name = std::fs::read_dir(libraries).unwrap().map(|entry| entry.unwrap().file_name());
-    let name = name.filter(|name| name.to_string_lossy().starts_with("libmujoco.so.")).next().unwrap();
+    let mut names = std::fs::read_dir(libraries).unwrap().map(|entry| entry.unwrap().file_name());
+    let name = names.find(|name| name.to_string_lossy().starts_with("libmujoco.so.")).unwrap();
     let told_by = |scene: &str| {
         let output = run(&directory, &["run", scene]);
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
