@@ -30,7 +30,7 @@ impl<'a> Names<'a> {
     }
 
     /// Adds all names of a part within, but those that it gives itself.
-    pub(super) fn extend(&mut self, within: Self) {
+    pub(super) fn extend(&mut self, within: &Self) {
         self.used.extend(within.used.difference(&within.given));
     }
 

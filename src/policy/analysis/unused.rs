@@ -21,12 +21,12 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     for derived in &file.derived {
         let mut names = Names::of(|names| names.expression(&derived.value));
         part(&mut names, &derived.arguments, &derived.name.text);
-        used.extend(names);
+        used.extend(&names);
     }
     for law in &file.laws {
         let mut names = Names::of(|names| names.statements(&law.body));
         part(&mut names, &law.arguments, &law.name.text);
-        used.extend(names);
+        used.extend(&names);
     }
     let own = file.states.iter().map(|state| {
         Names::of(|names| {
@@ -47,8 +47,8 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
         unread.extend(idle);
         match state.parent {
-            Some(parent) => of_states[parent].extend(names),
-            None => used.extend(names),
+            Some(parent) => of_states[parent].extend(&names),
+            None => used.extend(&names),
         }
     }
     file.memory.iter().for_each(|(_, value)| used.expression(value));

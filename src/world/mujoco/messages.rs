@@ -34,8 +34,8 @@ pub fn engine_version() -> Result<&'static str, LibraryError> {
 /// # Errors
 /// [`LibraryError`] when its library cannot be used.
 pub(super) fn prepare_engine() -> Result<(), LibraryError> {
-    library::load()?;
     static ROUTED: Once = Once::new();
+    library::load()?;
     #[expect(
         unsafe_code,
         reason = "MuJoCo's log handler is global; nothing else in the process uses MuJoCo before this"
