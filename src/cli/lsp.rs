@@ -7,8 +7,8 @@ use super::exit::{Exit, Failure};
 pub(super) fn lsp() -> Result<Exit, Failure> {
     use crate::editor::{Ended, serve};
 
-    let (input, output) = (std::io::stdin(), std::io::stdout());
-    match serve(&mut input.lock(), &mut output.lock(), &super::input::library_for_editor).map_err(Failure::Editor)? {
+    let (input, output) = (std::io::BufReader::new(std::io::stdin()), std::io::stdout());
+    match serve(input, &mut output.lock(), &super::input::library_for_editor).map_err(Failure::Editor)? {
         Ended::Orderly => Ok(Exit::Done),
         Ended::Abrupt => Ok(Exit::Unexpected),
     }

@@ -20,6 +20,8 @@ pub(super) struct Document {
     pub(super) index: Index,
     /// Its faults and those of the files that it uses, or what it is warned of. Places are those of the index's source.
     pub(super) faults: Vec<Diagnostic>,
+    /// Whether the text has changed since it was looked at.
+    is_stale: bool,
     lines: Lines,
     encoding: Encoding,
 }
@@ -30,7 +32,7 @@ impl Document {
         let source = Source::new(name, text);
         let whole = gather(&source, library);
         let (lines, index, faults) = (Lines::new(&source.text), Index::new(&whole, None), faults(&whole));
-        Self { uri, source, version, index, faults, lines, encoding }
+        Self { uri, source, version, index, faults, is_stale: false, lines, encoding }
     }
 
     /// Looks at the text anew, and at the files that it uses.
@@ -39,6 +41,12 @@ impl Document {
         self.lines = Lines::new(&self.source.text);
         self.index = Index::new(&whole, Some(&self.index));
         self.faults = faults(&whole);
+        self.is_stale = false;
+    }
+
+    /// Whether it has to be looked at before something is said of it.
+    pub(super) fn is_stale(&self) -> bool {
+        self.is_stale
     }
 
     /// Whether it uses the file at a path, or would if that were there.
@@ -47,7 +55,7 @@ impl Document {
         (1..source.count()).any(|part| source.part_name(part) == path)
     }
 
-    /// Carries out changes one after the other.
+    /// Carries out changes one after the other. What is known of the text is that of the old one until it is looked at.
     pub(super) fn change(&mut self, version: i32, changes: Vec<TextDocumentContentChangeEvent>) {
         let mut text = std::mem::take(&mut self.source.text);
         for change in changes {
@@ -61,6 +69,7 @@ impl Document {
         }
         self.source = Source::new(std::mem::take(&mut self.source.name), text);
         self.version = version;
+        self.is_stale = true;
     }
 
     pub(super) fn byte(&self, position: lsp::Position) -> usize {

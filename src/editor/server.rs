@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::io::{self, BufRead, Write};
+use std::time::Duration;
 
 use gen_lsp_types::json_rpc::{Error, Id, RequestObject, ResponseObject};
 use gen_lsp_types::{
@@ -15,8 +16,12 @@ use serde_json::Value;
 use super::capabilities::{Client, initialized};
 use super::diagnose::diagnostics;
 use super::document::Document;
+use super::queue::Queue;
 use super::uri;
 use super::wire::{self, Incoming, error};
+
+/// For how long nothing comes in before a changed text is looked at that nothing is asked of.
+const QUIET: Duration = Duration::from_millis(10);
 
 /// How a server ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +48,8 @@ pub(super) struct Server<'l> {
     phase: Phase,
     pub(super) client: Client,
     documents: HashMap<Uri, Document>,
+    /// Those that have another text, or were closed, since they were looked at.
+    changed: Vec<Uri>,
     library: &'l Library<'l>,
 }
 
@@ -51,32 +58,39 @@ pub(super) struct Server<'l> {
 ///
 /// # Errors
 /// Reading or writing failed: the editor is gone.
-pub fn serve(input: &mut dyn BufRead, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
+pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
-    let mut server = Server { phase, client, documents: HashMap::new(), library };
+    let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
+    let mut queue = Queue::of(input)?;
     loop {
-        match wire::read(input)? {
+        let patience = (!server.changed.is_empty()).then_some(QUIET);
+        let Some(incoming) = queue.next(patience) else {
+            server.catch_up(output)?;
+            continue;
+        };
+        match incoming? {
             Incoming::Message(message) => {
                 let (method, id, parameters) = message.into_parts();
                 let parameters = parameters.unwrap_or_default();
                 match id {
-                    Some(id) => wire::write(output, &server.request(id, &method, parameters))?,
+                    Some(id) => {
+                        server.catch_up(output)?;
+                        wire::write(output, &server.request(id, &method, parameters))?;
+                    }
                     None if Method::from(method.as_str()) == Method::Exit => {
                         let is_orderly = server.phase == Phase::ShutDown;
                         return Ok(if is_orderly { Ended::Orderly } else { Ended::Abrupt });
                     }
-                    None if server.phase == Phase::Running => {
-                        let changed = server.notification(&method, parameters);
-                        for news in changed.iter().flat_map(|changed| server.news(changed)) {
-                            wire::write(output, &news)?;
-                        }
-                    }
+                    None if server.phase == Phase::Running => server.notification(&method, parameters),
                     None => {}
                 }
             }
             Incoming::Faulty(id, error) => wire::write(output, &ResponseObject::from_error(id, error))?,
             Incoming::Nothing => {}
-            Incoming::End => return Ok(Ended::Abrupt),
+            Incoming::End => {
+                server.catch_up(output)?;
+                return Ok(Ended::Abrupt);
+            }
         }
     }
 }
@@ -101,9 +115,17 @@ impl Server<'_> {
         }
     }
 
-    /// Takes note of what the editor says, and gives the document that has another text now. What cannot be understood is passed
-    /// over: nobody waits for an answer.
-    fn notification(&mut self, method: &str, parameters: Value) -> Option<Uri> {
+    /// Takes note of what the editor says. What cannot be understood is passed over: nobody waits for an answer.
+    fn notification(&mut self, method: &str, parameters: Value) {
+        if let Some(uri) = self.note(method, parameters)
+            && !self.changed.contains(&uri)
+        {
+            self.changed.push(uri);
+        }
+    }
+
+    /// The same; gives the document that has another text now.
+    fn note(&mut self, method: &str, parameters: Value) -> Option<Uri> {
         match Method::from(method) {
             Method::TextDocumentDidOpen => {
                 let opened = read::<DidOpenTextDocumentParams>(parameters)?.text_document;
@@ -118,7 +140,6 @@ impl Server<'_> {
                 let uri = changed.text_document.text_document_identifier.uri;
                 let document = self.documents.get_mut(&uri)?;
                 document.change(changed.text_document.version, changed.content_changes);
-                self.look(&uri);
                 Some(uri)
             }
             Method::TextDocumentDidClose => {
@@ -130,8 +151,21 @@ impl Server<'_> {
         }
     }
 
+    /// Looks at all documents that have another text, and tells what there is to say of them.
+    fn catch_up(&mut self, output: &mut dyn Write) -> io::Result<()> {
+        for changed in std::mem::take(&mut self.changed) {
+            for news in self.news(&changed) {
+                wire::write(output, &news)?;
+            }
+        }
+        Ok(())
+    }
+
     /// What there is to say now that a document has another text, or is closed: of itself, and of those that use it.
     fn news(&mut self, changed: &Uri) -> Vec<RequestObject> {
+        if self.documents.get(changed).is_some_and(Document::is_stale) {
+            self.look(changed);
+        }
         let none = || PublishDiagnosticsParams { uri: changed.clone(), version: None, diagnostics: Vec::new() };
         let own = self.documents.get(changed).map(|document| diagnostics(changed, document, self.client));
         let mut news = vec![publish(own.unwrap_or_else(none))];

@@ -63,6 +63,60 @@ fn what_the_server_does_not_know_is_refused_and_what_needs_no_answer_has_none() 
 }
 
 #[test]
+fn of_changes_that_wait_the_last_is_looked_at() {
+    let mut editor = Editor::open(THESIS);
+    let changed = |index: usize| THESIS.replacen("whisker r0, l0", &format!("whisker r0, l{index}"), 1);
+    let change = |index: usize, text: &str| {
+        let document = json!({"uri": URI, "version": index});
+        let parameters = json!({"textDocument": document, "contentChanges": [{"text": text}]});
+        json!({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": parameters})
+    };
+    let mut bytes = Vec::new();
+    for index in 1..=1000 {
+        let body = change(index, &changed(index)).to_string();
+        bytes.extend(format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes());
+    }
+    editor.send_bytes(&bytes);
+    let asked = json!({"textDocument": {"uri": URI}});
+    editor.send(&json!({"jsonrpc": "2.0", "id": 1, "method": "textDocument/documentSymbol", "params": asked}));
+    let mut told = 0;
+    let answer = loop {
+        let message = editor.receive();
+        if message["id"] == 1 {
+            break message;
+        }
+        told += 1;
+    };
+    assert!(answer.to_string().contains("l1000"), "{answer}");
+    assert_eq!(editor.diagnostics["version"], 1000);
+    // One; more where what sends them is kept waiting.
+    assert!(told < 100, "{told} times");
+    assert_eq!(editor.leave().code(), Some(0));
+}
+
+#[test]
+fn a_request_that_is_taken_back_while_it_waits_is_refused() {
+    let mut editor = Editor::open(THESIS);
+    let asked = json!({"textDocument": {"uri": URI}, "position": position(THESIS, "speed", 0)});
+    let hover = |id: &str| json!({"jsonrpc": "2.0", "id": id, "method": "textDocument/hover", "params": asked});
+    let document = json!({"uri": URI, "version": 1});
+    let change = json!({"textDocument": document, "contentChanges": [{"text": THESIS}]});
+    let change = json!({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": change});
+    let cancel = json!({"jsonrpc": "2.0", "method": "$/cancelRequest", "params": {"id": "second"}});
+    // The first makes the server compile; the second waits for it.
+    let messages = [change, hover("first"), hover("second"), cancel, hover("third")];
+    let frame = |message: &Value| format!("Content-Length: {}\r\n\r\n{message}", message.to_string().len());
+    editor.send_bytes(messages.iter().map(frame).collect::<String>().as_bytes());
+    let mut answers = std::iter::repeat_with(|| editor.receive()).filter(|message| message.get("id").is_some());
+    let [first, second, third] = std::array::from_fn(|_| answers.next().unwrap());
+    assert!(first["id"] == "first" && first["result"].is_object(), "{first}");
+    assert!(second["id"] == "second" && code(&second) == -32800, "{second}");
+    assert!(third["id"] == "third" && third["result"].is_object(), "{third}");
+    drop(answers);
+    assert_eq!(editor.leave().code(), Some(0));
+}
+
+#[test]
 fn nothing_is_answered_before_the_editor_has_introduced_itself() {
     let mut editor = Editor::new();
     assert_eq!(code(&editor.ask("textDocument/hover", json!({}))), -32002);
