@@ -11,7 +11,7 @@ use crate::study::sweep::Shard;
 use super::language_arguments::{CheckArguments, CompileArguments, FmtArguments, GraphArguments, TestArguments};
 use super::settings::Settings;
 pub(super) use super::values::{TierName, World};
-use super::values::{parse_angle, parse_friction, parse_length};
+use super::values::{parse_angle, parse_friction, parse_jobs, parse_length, parse_repeats};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -132,16 +132,16 @@ pub(super) struct BenchArguments {
           conflicts_with_all = ["friction", "noise", "world", "no_prune", "estimators", "timing", "out"])]
     pub(super) worlds: Vec<TierName>,
     /// Measure times instead: run every scene N times, one run at a time, and print medians
-    #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"])]
-    pub(super) timing: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"], value_parser = parse_repeats)]
+    pub(super) timing: Option<usize>,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print only JSON: an array of results, each with what the thesis reports
     #[arg(long)]
     pub(super) json: bool,
-    /// How many runs to do at a time; as many as there are processors unless given
-    #[arg(short, long, value_name = "J")]
+    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -202,8 +202,8 @@ pub(super) struct CompareArguments {
     /// Print only JSON: the runs that did not complete, and the figures with their intervals
     #[arg(long)]
     pub(super) json: bool,
-    /// How many runs to do at a time; as many as there are processors unless given
-    #[arg(short, long, value_name = "J")]
+    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -220,8 +220,8 @@ pub(super) struct ParetoArguments {
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     /// How often to run every setting; run times are medians
-    #[arg(long, value_name = "N", default_value = "3")]
-    pub(super) repeats: NonZeroUsize,
+    #[arg(long, value_name = "N", default_value = "3", value_parser = parse_repeats)]
+    pub(super) repeats: usize,
     /// Write the results and a picture of time against error into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -266,8 +266,8 @@ pub(super) struct FamiliesArguments {
     /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,
-    /// How many runs to do at a time; as many as there are processors unless given
-    #[arg(short, long, value_name = "J")]
+    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -285,8 +285,8 @@ pub(super) struct SweepArguments {
     /// Do only the K-th of N parts; which part a run belongs to depends on its key alone
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub(super) shard: Shard,
-    /// How many runs to do at a time; as many as there are processors unless given
-    #[arg(short, long, value_name = "J")]
+    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
     /// Write results into this directory, or go on with those that are there; out/NAME unless given
     #[arg(short, long, value_name = "DIR")]
@@ -330,8 +330,8 @@ pub(super) struct StressArguments {
     /// Print only JSON: an array of cases and settings
     #[arg(long)]
     pub(super) json: bool,
-    /// How many cases to run at a time; as many as there are processors unless given
-    #[arg(short, long, value_name = "J")]
+    /// How many cases to run at a time, at most 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 

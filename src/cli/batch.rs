@@ -2,15 +2,26 @@
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
+use std::sync::Once;
 
 use crate::report::{RunResult, picture};
 use crate::scene::{Expectation, Violation};
 use crate::score::Score;
-use crate::study::{in_parallel, processors};
+use crate::study::{Threads, in_parallel, processors};
 
 use super::exit::Failure;
 use super::job::Job;
+use super::output;
 use super::progress::Progress;
+
+/// As many threads as are asked for, or as there are processors.
+pub(super) fn threads(jobs: Option<NonZeroUsize>) -> Threads {
+    static TOLD: Once = Once::new();
+    let fewer = |started| {
+        TOLD.call_once(|| output::message(format_args!("warning: the system starts no more than {started} at a time")));
+    };
+    Threads { count: jobs.unwrap_or_else(processors), fewer }
+}
 
 /// What is kept of a run: its trace is large.
 pub(super) struct Finished {
@@ -36,7 +47,7 @@ pub(super) fn finished(job: &Job, is_drawn: impl Fn(&[Violation]) -> bool) -> Re
 /// pictures of those that are to be drawn, by what is not as expected. Standard error tells how many are done.
 pub(super) fn run_all(
     jobs: &[Job],
-    threads: Option<NonZeroUsize>,
+    asked: Option<NonZeroUsize>,
     is_drawn: impl Fn(&[Violation]) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
     let mut progress = Progress::new(jobs.len());
@@ -46,7 +57,7 @@ pub(super) fn run_all(
             progress.done(format_args!("{}: {}", result.scenario, result.outcome));
         }
     };
-    let finished = in_parallel(jobs, threads.unwrap_or_else(processors), run, done);
+    let finished = in_parallel(jobs, threads(asked), run, done);
     progress.finish();
     finished.into_iter().collect()
 }

@@ -8,6 +8,7 @@ use crate::study::estimators::{estimators_table, judge_all};
 use crate::study::in_parallel;
 
 use super::arguments::{BenchArguments, World};
+use super::batch::threads;
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
 use super::{input, output};
@@ -22,9 +23,9 @@ pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
         judge_all(&scene, Arc::clone(&program), world).map_err(failed)
     };
     // One at a time unless told otherwise: their times are compared, too.
-    let threads = arguments.jobs.unwrap_or(NonZeroUsize::MIN);
+    let jobs = arguments.jobs.or(Some(NonZeroUsize::MIN));
     let mut progress = Progress::new(SCENARIOS.len());
-    let rows = in_parallel(SCENARIOS, threads, work, |rows| {
+    let rows = in_parallel(SCENARIOS, threads(jobs), work, |rows| {
         if let Some(row) = rows.as_ref().ok().and_then(|rows| rows.first()) {
             progress.done(&row.scenario);
         }

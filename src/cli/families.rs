@@ -9,11 +9,11 @@ use crate::scene::Violation;
 use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 use crate::study::bench::DEFAULT_POLICY;
 use crate::study::families::{FamilyRun, FamilyTally, families_table};
-use crate::study::{in_parallel, processors};
+use crate::study::in_parallel;
 use crate::units::{Dimension, format_si};
 
 use super::arguments::FamiliesArguments;
-use super::batch::{Finished, run_all};
+use super::batch::{Finished, run_all, threads};
 use super::exit::{Exit, Failure};
 use super::input::{self, Loaded, Policy};
 use super::job::Job;
@@ -72,7 +72,7 @@ fn trials(arguments: &FamiliesArguments) -> Result<Vec<Trial>, Failure> {
         let draw = family.draw(arguments.seed, trial)?;
         Ok(Trial { family: family.name, number: trial, draw })
     };
-    in_parallel(&keys, arguments.jobs.unwrap_or_else(processors), draw, |_| ()).into_iter().collect()
+    in_parallel(&keys, threads(arguments.jobs), draw, |_| ()).into_iter().collect()
 }
 
 /// The families with these names, each once, or all.

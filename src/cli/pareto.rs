@@ -38,7 +38,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         ])
     });
     let report = report.transpose()?;
-    let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats.get());
+    let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats);
     let mut progress = Progress::new(settings.len() * repeats);
     let measured = measure(&scene, &program, world, &settings, repeats, |setting| progress.done(setting));
     progress.finish();

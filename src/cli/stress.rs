@@ -6,9 +6,10 @@ use std::process::Command;
 use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask, stress_table};
 use crate::study::sweep::{Answer, StartError, Worker, answer};
-use crate::study::{check_world, engine_version, processors, stream_in_parallel};
+use crate::study::{check_world, engine_version, stream_in_parallel};
 
 use super::arguments::StressArguments;
+use super::batch::threads;
 use super::exit::{Exit, Failure};
 use super::output;
 use super::progress::Progress;
@@ -25,7 +26,7 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     let mut failure = None;
     stream_in_parallel(
         &indices,
-        arguments.jobs.unwrap_or_else(processors),
+        threads(arguments.jobs),
         || None,
         |slot, index| answer(slot, worker, &index.to_string()),
         |index, answer| {

@@ -6,12 +6,13 @@ use std::process::Command;
 
 use crate::file::CommandFiles;
 use crate::scene::Sweep;
+use crate::study::stream_in_parallel;
 use crate::study::sweep::{
     Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
 };
-use crate::study::{processors, stream_in_parallel};
 
 use super::arguments::SweepArguments;
+use super::batch::threads;
 use super::exit::{Exit, Failure};
 use super::output;
 use super::plan::Plan;
@@ -39,7 +40,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let mut failure = None;
     stream_in_parallel(
         &left,
-        arguments.jobs.unwrap_or_else(processors),
+        threads(arguments.jobs),
         || None,
         |slot, index| answer(slot, start, &index.to_string()),
         |task, answer| {

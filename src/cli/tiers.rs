@@ -7,9 +7,10 @@ use crate::machine::Program;
 use crate::scene::WorldKind;
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::tiers::{Tier, compare_tiers, tiers_table};
-use crate::study::{Ending, check_world, in_parallel, processors};
+use crate::study::{Ending, check_world, in_parallel};
 
 use super::arguments::BenchArguments;
+use super::batch::threads;
 use super::bench::policies;
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
@@ -28,7 +29,7 @@ pub(super) fn tiers(arguments: &BenchArguments) -> Result<Exit, Failure> {
         let others: Vec<_> = arguments.worlds.iter().map(|tier| tier.of(&scene)).collect();
         compare_tiers(&scene, program, &Tier::chain(&scene), &others).map_err(failed)
     };
-    let rows = in_parallel(&pairs, arguments.jobs.unwrap_or_else(processors), work, |rows| {
+    let rows = in_parallel(&pairs, threads(arguments.jobs), work, |rows| {
         if let Some(row) = rows.as_ref().ok().and_then(|rows| rows.first()) {
             progress.done(&row.scenario);
         }

@@ -1,7 +1,5 @@
 //! `vibrissa bench --timing N`
 
-use std::num::NonZeroUsize;
-
 use crate::scene::Outcome;
 use crate::study::bench::{Conditions, Timing, TimingRow, timing_table};
 
@@ -11,10 +9,10 @@ use super::output;
 use super::progress::Progress;
 
 /// Does every job so many times, one run at a time. One round has every job once, so that what else the machine does falls on all of them.
-pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: NonZeroUsize, json: bool) -> Result<Exit, Failure> {
-    let mut progress = Progress::new(jobs.len() * repeats.get());
-    let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats.get()); jobs.len()];
-    for _ in 0..repeats.get() {
+pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: usize, json: bool) -> Result<Exit, Failure> {
+    let mut progress = Progress::new(jobs.len() * repeats);
+    let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats); jobs.len()];
+    for _ in 0..repeats {
         for ((_, job), times) in jobs.iter().zip(&mut times) {
             progress.doing(&job.scene.name);
             let timing = Timing::take(&job.scene, &job.program, job.world, job.seed);

@@ -1,8 +1,11 @@
 //! The values of arguments: worlds, parameters, quantities.
 
+use std::num::NonZeroUsize;
+
 use clap::ValueEnum;
 
 use crate::scene::{Scene, WorldKind};
+use crate::study::processors;
 use crate::study::tiers::Tier;
 use crate::units::{Dimension, parse_quantity};
 
@@ -45,6 +48,28 @@ impl TierName {
             Self::PeerCable => Tier::peer_cable(scene),
         }
     }
+}
+
+/// The most runs at a time for each processor. More of them only take memory.
+const JOBS_PER_PROCESSOR: usize = 32;
+/// The most times that something is measured.
+const MOST_REPEATS: usize = 1000;
+
+/// How many runs to do at a time.
+pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
+    let most = processors().get().saturating_mul(JOBS_PER_PROCESSOR);
+    let jobs = parse_count(text, most).map_err(|range| format!("{range}, {JOBS_PER_PROCESSOR} for each processor"))?;
+    Ok(NonZeroUsize::new(jobs).unwrap_or(NonZeroUsize::MIN))
+}
+
+/// How often to measure something.
+pub(super) fn parse_repeats(text: &str) -> Result<usize, String> {
+    parse_count(text, MOST_REPEATS)
+}
+
+fn parse_count(text: &str, most: usize) -> Result<usize, String> {
+    let count = text.trim().parse().ok().filter(|count| (1..=most).contains(count));
+    count.ok_or_else(|| format!("write a whole number from 1 to {most}"))
 }
 
 /// A coefficient of friction from 0 to 1.

@@ -8,7 +8,7 @@ use crate::file::CommandFiles;
 use crate::scene::SweepRun;
 use crate::study::engine_version;
 use crate::study::stress::StressTask;
-use crate::study::sweep::{Shard, SweepLine};
+use crate::study::sweep::{Shard, StartError, SweepLine};
 
 use super::arguments::WorkerArguments;
 use super::batch::finished;
@@ -36,7 +36,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
 fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>>) -> Result<Exit, Failure> {
     output::result(greeting)?;
     let (sender, requests) = channel();
-    std::thread::spawn(move || {
+    let listen = move || {
         for request in stdin().lines().map_while(Result::ok) {
             if sender.send(request).is_err() {
                 break;
@@ -44,7 +44,8 @@ fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>
         }
         // Whoever asks is gone, also in the middle of a run: nobody waits for its result.
         std::process::exit(0);
-    });
+    };
+    std::thread::Builder::new().spawn(listen).map_err(StartError::Process)?;
     for request in requests {
         let Some(line) = request.parse().ok().and_then(&line) else {
             return Ok(Exit::Unusable);

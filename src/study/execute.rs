@@ -49,7 +49,9 @@ pub fn execute(
 ) -> Result<Run, ExecuteError> {
     let before = Instant::now();
     let world = std::thread::scope(|scope| {
-        scope.spawn(|| Perception::prepare(&scene.rig, &program.tip_models));
+        let prepare = || Perception::prepare(&scene.rig, &program.tip_models);
+        // A system that starts no more threads has it prepared when it is first asked for.
+        let _ = std::thread::Builder::new().spawn_scoped(scope, prepare);
         build(scene, world.into(), seed)
     });
     let control = Control::new(&scene.rig, program)?;

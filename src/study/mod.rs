@@ -19,5 +19,5 @@ pub mod tiers;
 use execute::build;
 pub use execute::{ExecuteError, check_world, engine_hash, engine_version, execute};
 pub use judge::violations;
-pub use parallel::{in_parallel, processors, stream_in_parallel};
+pub use parallel::{Threads, in_parallel, processors, stream_in_parallel};
 pub use tally::{Ending, Figures, Tally, TipShares};

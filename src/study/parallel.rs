@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
-use std::thread::{available_parallelism, scope};
+use std::thread::{Builder, available_parallelism, scope};
 
 /// How many threads make sense on this machine.
 #[must_use]
@@ -12,11 +12,27 @@ pub fn processors() -> NonZeroUsize {
     available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
+/// How many threads to work on.
+#[derive(Debug, Clone, Copy)]
+pub struct Threads {
+    /// The most that work at a time.
+    pub count: NonZeroUsize,
+    /// Hears how many there are instead, if the system does not start as many.
+    pub fewer: fn(usize),
+}
+
+impl From<NonZeroUsize> for Threads {
+    /// So many; nobody hears if there are fewer.
+    fn from(count: NonZeroUsize) -> Self {
+        Self { count, fewer: |_| () }
+    }
+}
+
 /// Does `work` on every task, on so many `threads`, and gives what came of it in the order of the tasks. `done` hears on the
 /// calling thread of each that is done, in the order in which they are.
 pub fn in_parallel<T: Sync, R: Send>(
     tasks: &[T],
-    threads: NonZeroUsize,
+    threads: impl Into<Threads>,
     work: impl Fn(&T) -> R + Sync,
     mut done: impl FnMut(&R),
 ) -> Vec<R> {
@@ -38,20 +54,24 @@ pub fn in_parallel<T: Sync, R: Send>(
 
 /// The same without keeping what comes of the tasks: `done` gets it, with the index of its task, and may break the work off, which
 /// then ends with the tasks that have begun. Tasks begin in their order. Each thread does its tasks with a `tool` of its own.
+///
+/// If the system starts fewer threads, these do all tasks; if it starts none, the calling thread does.
 pub fn stream_in_parallel<T: Sync, S, R: Send>(
     tasks: &[T],
-    threads: NonZeroUsize,
+    threads: impl Into<Threads>,
     tool: impl Fn() -> S + Sync,
     work: impl Fn(&mut S, &T) -> R + Sync,
     mut done: impl FnMut(usize, R) -> ControlFlow<()>,
 ) {
     let next = AtomicUsize::new(0);
     // A result at a time for each thread: who cannot keep up with them is not buried under them.
-    let (sender, receiver) = sync_channel(threads.get());
+    let threads = threads.into();
+    let wanted = threads.count.get().min(tasks.len());
+    let (sender, receiver) = sync_channel(wanted);
     scope(|scope| {
-        for _ in 0..threads.get().min(tasks.len()) {
+        let is_started = |_: &usize| {
             let (sender, next, tool, work) = (sender.clone(), &next, &tool, &work);
-            scope.spawn(move || {
+            let thread = Builder::new().spawn_scoped(scope, move || {
                 let mut tool = tool();
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
@@ -62,8 +82,21 @@ pub fn stream_in_parallel<T: Sync, S, R: Send>(
                     }
                 }
             });
-        }
+            thread.is_ok()
+        };
+        let started = (0..wanted).take_while(is_started).count();
         drop(sender);
+        if started < wanted {
+            (threads.fewer)(started.max(1));
+        }
+        if started == 0 {
+            let mut tool = tool();
+            for (index, task) in tasks.iter().enumerate() {
+                if done(index, work(&mut tool, task)).is_break() {
+                    break;
+                }
+            }
+        }
         for (index, result) in receiver {
             if done(index, result).is_break() {
                 break;
@@ -76,16 +109,21 @@ pub fn stream_in_parallel<T: Sync, S, R: Send>(
 mod tests {
     use super::*;
 
+    fn threads(count: usize) -> Threads {
+        let fewer = |started| panic!("only {started} threads were started");
+        Threads { count: NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN), fewer }
+    }
+
     #[test]
     fn every_task_is_done_once_and_results_keep_their_order() {
         let tasks: Vec<u64> = (0..200).collect();
-        for threads in [1, 2, 7, 500].into_iter().filter_map(NonZeroUsize::new) {
+        for count in [1, 2, 7, 100] {
             let mut heard = 0;
-            let squares = in_parallel(&tasks, threads, |task| task * task, |_| heard += 1);
+            let squares = in_parallel(&tasks, threads(count), |task| task * task, |_| heard += 1);
             assert_eq!(squares, tasks.iter().map(|task| task * task).collect::<Vec<_>>());
             assert_eq!(heard, 200);
         }
-        assert_eq!(in_parallel(&[], NonZeroUsize::MIN, |task: &u64| *task, |_| ()), [0_u64; 0]);
+        assert_eq!(in_parallel(&[], threads(1), |task: &u64| *task, |_| ()), [0_u64; 0]);
     }
 
     #[test]
@@ -100,7 +138,7 @@ mod tests {
         let mut heard = Vec::new();
         stream_in_parallel(
             &tasks,
-            NonZeroUsize::MIN,
+            threads(1),
             || 0,
             work,
             |index, (done, task)| {

@@ -58,8 +58,8 @@ impl Worker {
         let requests = child.stdin.take();
         let answers = BufReader::new(child.stdout.take().ok_or_else(missing)?);
         let errors = child.stderr.take().ok_or_else(missing)?;
-        let errors = Some(std::thread::spawn(move || last_lines(errors)));
-        let mut worker = Self { child, requests, answers, errors };
+        let mut worker = Self { child, requests, answers, errors: None };
+        worker.errors = Some(std::thread::Builder::new().spawn(move || last_lines(errors))?);
         match worker.line() {
             Ok(line) if line == greeting => Ok(worker),
             Ok(_) => Err(StartError::Changed),

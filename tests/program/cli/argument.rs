@@ -1,6 +1,8 @@
 //! What the program is called with.
 
-use super::program::{bad, stderr, stdout, vibrissa};
+use std::process::{Command, Output};
+
+use super::program::{ROOT, bad, stderr, stdout, vibrissa};
 
 #[test]
 fn help_explains_every_command() {
@@ -28,6 +30,32 @@ fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
     }
 }
 
+/// A stack that no machine has room for: no thread can be started.
+#[test]
+fn without_other_threads_all_is_done_by_the_first() {
+    let arguments = ["families", "two-objects", "--count", "3", "--world", "quasistatic", "--json", "-j", "3"];
+    let alone = Command::new(env!("CARGO_BIN_EXE_vibrissa"))
+        .args(arguments)
+        .env("RUST_MIN_STACK", (1_u64 << 46).to_string())
+        .current_dir(ROOT)
+        .output()
+        .unwrap();
+    assert!(stderr(&alone).contains("warning: the system starts no more than 1 at a time"), "{}", stderr(&alone));
+    let several = vibrissa(&arguments);
+    assert_eq!((alone.status.code(), figures(&alone)), (several.status.code(), figures(&several)));
+}
+
+/// How runs ended, and their errors.
+fn figures(output: &Output) -> Vec<String> {
+    let figures = stdout(output)
+        .lines()
+        .filter(|line| line.contains("outcome") || line.contains("_mm"))
+        .map(str::to_owned)
+        .collect();
+    assert_ne!(figures, [""; 0]);
+    figures
+}
+
 #[test]
 fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
     let disk = "scenarios/disk.yaml";
@@ -46,7 +74,11 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
         (vec!["bench", "--set", "trust=1"], "policies/thesis.fsm: the policy has no parameter `trust`"),
         (vec!["families", "--set", "speed=20 mm/s"], "families draw the speed"),
-        (vec!["bench", "--jobs", "0"], "--jobs"),
+        (vec!["bench", "--jobs", "0"], "write a whole number from 1 to "),
+        (vec!["sweep", "a.yaml", "-j", "100000000"], "32 for each processor"),
+        (vec!["bench", "--timing", "18446744073709551615"], "write a whole number from 1 to 1000"),
+        (vec!["pareto", "--repeats", "18446744073709551615"], "write a whole number from 1 to 1000"),
+        (vec!["families", "--count", "100001"], "1..=100000"),
         (vec!["bench", "--friction", "0.1,2"], "from 0 to 1"),
         (vec!["compare", "policies/thesis.fsm"], "1 policy is given; give two or more"),
         (vec!["compare", disk], "0 policies are given"),
