@@ -55,6 +55,12 @@ pub enum ContourError {
     /// An open contour ends where it starts.
     #[error("the contour ends where it starts: make it a closed one")]
     EndsMeet,
+    /// There are too many long pieces beside each other to check that none meets another.
+    #[error("more than {limit} pairs of its pieces may meet: use fewer long slanting sides")]
+    Intricate {
+        /// How many pairs can be checked.
+        limit: usize,
+    },
     /// Two pieces cross, touch or cover each other.
     #[error("pieces {first} and {second} meet at ({:.6}, {:.6}) m: a contour may not cross or touch itself", at.x, at.y)]
     SelfIntersection {

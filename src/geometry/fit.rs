@@ -49,6 +49,29 @@ pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) 
     Some(pieces)
 }
 
+/// At most how many arcs [`fit`] makes of a curve, a few times too many: from its first three derivatives, taken in so many places.
+///
+/// Over a length 2 h whose curvature changes evenly, by k' along it, a pair of arcs that shares ends and directions with the curve is
+/// off by k'/6 t (h - t)² at the distance t from its middle: by k' (2 h)³ / 324 at most. Halving makes up to twice as many as are needed.
+pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to: f64, places: u32) -> usize {
+    let step = (to - from) / f64::from(places);
+    let share = |index: u32| {
+        let [first, second, third] = derivatives(from + step * (f64::from(index) + 0.5));
+        let speed = first.norm();
+        let turning = 3.0 * first.perp(&second) * first.dot(&second) / (speed * speed);
+        // The change of the curvature with the parameter, times the square of the speed.
+        ((first.perp(&third) - turning).abs() / (speed * 324.0 * TOLERANCE)).cbrt()
+    };
+    let pairs = 2.0 * step.abs() * (0..places).map(share).sum::<f64>();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive count; a cast of more gives the greatest"
+    )]
+    let arcs = (2.0 * pairs).ceil() as usize;
+    arcs.saturating_add(2 * LEAST_PARTS as usize)
+}
+
 /// Two arcs that go from one place to another, leaving the first and reaching the second in its direction.
 fn biarc((start, out): Place, (end, into): Place) -> [Piece; 2] {
     let (out, into) = (out.normalize(), into.normalize());
@@ -79,6 +102,8 @@ fn arc(start: Point2, out: Vector2, end: Point2) -> Piece {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+    use std::f64::consts::TAU;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -101,6 +126,23 @@ mod tests {
                 prop_assert!(contour.nearest(point).distance <= 1.1 * TOLERANCE);
             }
             prop_assert!(contour.corners().is_empty());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_curve_has_more_arcs_than_are_told_before(amplitude in 0.001..0.3_f64, exponent in -0.5..3.0_f64, waves in 0.2..20.0_f64) {
+            let wave_number = 10_f64.powf(exponent);
+            let to = waves * TAU / wave_number;
+            let derivatives = |x: f64| {
+                let (sin, cos) = (wave_number * x).sin_cos();
+                let slope = amplitude * wave_number;
+                [Vector2::new(1.0, slope * cos), Vector2::new(0.0, -slope * wave_number * sin), Vector2::new(0.0, -slope * wave_number.powi(2) * cos)]
+            };
+            let told = most_arcs(derivatives, 0.0, to, 1000);
+            if let Some(arcs) = fit(wave(amplitude, wave_number), 0.0, to, LEAST_PARTS) {
+                prop_assert!(arcs.len() <= told && told <= 6 * arcs.len(), "{} of {told}", arcs.len());
+            }
         }
     }
 

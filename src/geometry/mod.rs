@@ -1,11 +1,12 @@
 //! Poses, and exact planar contours made of segments and circular arcs: lengths, areas, nearest points, signed
-//! distances, parallel contours, shape makers.
+//! distances, parallel contours, unions, shape makers.
 //!
 //! Lengths are metres, angles radians; x is to the right, y up, angles and turns are positive counter-clockwise.
 //! Everything is computed on the pieces themselves, never on a polyline that stands in for them.
 
 mod angle;
 mod arc;
+mod arrangement;
 mod bezier;
 mod bounding_box;
 mod contour;
@@ -25,6 +26,7 @@ mod segment;
 mod shapes;
 mod simple;
 mod strip;
+mod union;
 
 pub use angle::{turn_between, wrap};
 pub use arc::Arc;
@@ -43,10 +45,11 @@ pub use pose::{Pose, perpendicular, rotate, unit};
 pub use sample::ContourPoint;
 pub use segment::Segment;
 pub use shapes::{
-    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve, polygon,
-    regular_polygon, rounded_rectangle,
+    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve,
+    polar_curve_pieces, polygon, regular_polygon, rounded_rectangle,
 };
 pub use strip::{Side, Strip, StripError};
+pub use union::{TOUCHING, UnionError, United, unite};
 
 /// A point of the plane: coordinates in metres.
 pub type Point2 = nalgebra::Point2<f64>;

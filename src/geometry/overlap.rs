@@ -1,7 +1,10 @@
 //! Whether two contours overlap.
 
-use super::Contour;
-use super::simple::{around, meeting};
+use rstar::AABB;
+
+use super::distance::Leaf;
+use super::simple::{grown, meeting};
+use super::{Contour, JOIN_TOLERANCE};
 
 impl Contour {
     /// Whether two contours cross or touch, or one lies inside the other.
@@ -16,13 +19,35 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
-        if !self.bounding_box().meets(&other.bounding_box()) {
-            return false;
+        self.meets(other, JOIN_TOLERANCE, &mut 0, usize::MAX).unwrap_or(true)
+    }
+
+    /// Whether two contours come within a `tolerance` (m) of each other, or one lies inside the other. What is looked at is added
+    /// to `work`; `None` if that is more than `most`.
+    pub(super) fn meets(&self, other: &Self, tolerance: f64, work: &mut usize, most: usize) -> Option<bool> {
+        let frame = grown(&self.bounding_box(), tolerance);
+        // What is nowhere near the other contour as a whole need not be asked for by each piece.
+        if other.near(frame).next().is_none() && self.near(grown(&other.bounding_box(), tolerance)).next().is_none() {
+            return Some(false);
         }
-        let meets = self.pieces.iter().any(|piece| {
-            let mut near = other.tree.locate_in_envelope_intersecting(around(piece));
-            near.any(|leaf| meeting(piece, &leaf.piece, &[]).is_some())
-        });
-        meets || self.contains(other.point_at(0.0)) || other.contains(self.point_at(0.0))
+        for piece in &self.pieces {
+            // Looking for pieces is work, too.
+            *work += 1;
+            for leaf in other.near(grown(&piece.bounding_box(), tolerance)) {
+                *work += 1;
+                if meeting(piece, &leaf.piece, &[], tolerance).is_some() {
+                    return Some(true);
+                }
+            }
+            if *work > most {
+                return None;
+            }
+        }
+        Some(self.contains(other.point_at(0.0)) || other.contains(self.point_at(0.0)))
+    }
+
+    /// The pieces whose boxes meet a box.
+    pub(super) fn near(&self, frame: AABB<[f64; 2]>) -> impl Iterator<Item = &Leaf> {
+        self.tree.locate_in_envelope_intersecting(frame)
     }
 }

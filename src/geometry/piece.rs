@@ -1,6 +1,8 @@
 //! What contours are made of.
 
-use super::{Arc, BoundingBox, Point2, Pose, Segment, Vector2};
+use std::f64::consts::PI;
+
+use super::{Arc, BoundingBox, Point2, Pose, Segment, Vector2, perpendicular};
 
 /// One piece of a contour, travelled from its start to its end.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -23,6 +25,30 @@ impl Piece {
     #[must_use]
     pub fn arc(centre: Point2, radius: f64, start_angle: f64, sweep: f64) -> Self {
         Self::Arc(Arc { centre, radius, start_angle, sweep })
+    }
+
+    /// The arc over a sweep (rad, positive to the left, not 0, within ±2π) from one point (m) to another.
+    #[must_use]
+    pub fn arc_between(start: Point2, end: Point2, sweep: f64) -> Self {
+        let chord = end - start;
+        // The centre lies to the left of the chord's middle for a left turn.
+        let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / (0.5 * sweep).tan());
+        let outward = start - centre;
+        Self::arc(centre, outward.norm(), outward.y.atan2(outward.x), sweep)
+    }
+
+    /// One or two pieces that go from the same start to another end (m), near its own: a straight one, or arcs over the same angle.
+    #[must_use]
+    pub fn ending_at(&self, end: Point2) -> Vec<Self> {
+        match self {
+            Self::Segment(segment) => vec![Self::segment(segment.start, end)],
+            Self::Arc(arc) if arc.sweep.abs() <= PI => vec![Self::arc_between(arc.start(), end, arc.sweep)],
+            // Of an arc that is nearly a circle the ends are near each other, and would tell little of where it is.
+            Self::Arc(arc) => {
+                let half = Arc { sweep: 0.5 * arc.sweep, ..*arc };
+                vec![Self::Arc(half), Self::arc_between(half.end(), end, half.sweep)]
+            }
+        }
     }
 
     /// Length (m).

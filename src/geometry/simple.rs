@@ -3,16 +3,28 @@
 use rstar::{AABB, RTree};
 
 use super::distance::Leaf;
-use super::{Arc, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendicular};
+use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendicular};
+
+/// How many pairs of pieces whose boxes overlap are looked at before it takes too long, a second or two. Only of many long slanting
+/// pieces there are so many.
+pub(super) const MOST_PAIRS: usize = 2_000_000;
 
 /// Checks that the pieces of a chain meet nowhere but at their joints. Neighbours that go back over each other from a
 /// joint are for [`turn`](super::joint::turn) to find.
 pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
+    let mut pairs = 0;
     for (first, piece) in pieces.iter().enumerate() {
-        for second in tree.locate_in_envelope_intersecting(around(piece)).map(|leaf| leaf.index).filter(|&i| i > first)
-        {
+        for leaf in tree.locate_in_envelope_intersecting(grown(&piece.bounding_box(), JOIN_TOLERANCE)) {
+            pairs += 1;
+            if pairs > MOST_PAIRS {
+                return Err(ContourError::Intricate { limit: MOST_PAIRS });
+            }
+            let second = leaf.index;
+            if second <= first {
+                continue;
+            }
             let joints = shared_joints(pieces, closed, first, second);
-            if let Some(at) = meeting(piece, &pieces[second], &joints) {
+            if let Some(at) = meeting(piece, &pieces[second], &joints, JOIN_TOLERANCE) {
                 return Err(ContourError::SelfIntersection { first, second, at });
             }
         }
@@ -20,13 +32,9 @@ pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Resul
     Ok(())
 }
 
-/// The box of all that is within the tolerance of a piece's own box.
-pub(super) fn around(piece: &Piece) -> AABB<[f64; 2]> {
-    let bounds = piece.bounding_box();
-    AABB::from_corners(
-        [bounds.min.x - JOIN_TOLERANCE, bounds.min.y - JOIN_TOLERANCE],
-        [bounds.max.x + JOIN_TOLERANCE, bounds.max.y + JOIN_TOLERANCE],
-    )
+/// The box of all that is within a `margin` (m) of a box.
+pub(super) fn grown(bounds: &BoundingBox, margin: f64) -> AABB<[f64; 2]> {
+    AABB::from_corners([bounds.min.x - margin, bounds.min.y - margin], [bounds.max.x + margin, bounds.max.y + margin])
 }
 
 /// The joints that two pieces of a chain share.
@@ -41,17 +49,17 @@ fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) ->
     joints
 }
 
-/// A point that two pieces share apart from their joints.
+/// A point that two pieces share, to a `tolerance` (m), apart from their joints.
 ///
 /// Pieces that meet cross, or touch, or an end of one lies on the other; where they cover each other, an end of one does.
-pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2]) -> Option<Point2> {
+pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2], tolerance: f64) -> Option<Point2> {
     let ends = [a.start(), a.end(), b.start(), b.end()];
     let crossings = match joints.first() {
         Some(&joint) => [second_crossing(a, b, joint), None],
-        None => crossings(a, b),
+        None => crossings(a, b, tolerance),
     };
-    let shared = |point: &Point2| a.distance(*point) <= JOIN_TOLERANCE && b.distance(*point) <= JOIN_TOLERANCE;
-    let at_joint = |point: &Point2| joints.iter().any(|joint| (point - joint).norm() <= 2.0 * JOIN_TOLERANCE);
+    let shared = |point: &Point2| a.distance(*point) <= tolerance && b.distance(*point) <= tolerance;
+    let at_joint = |point: &Point2| joints.iter().any(|joint| (point - joint).norm() <= 2.0 * tolerance);
     ends.into_iter().chain(crossings.into_iter().flatten()).find(|point| shared(point) && !at_joint(point))
 }
 
@@ -72,12 +80,14 @@ fn second_crossing(a: &Piece, b: &Piece, crossing: Point2) -> Option<Point2> {
     Some(on_axis + 2.0 * along_axis * along_axis.dot(&from_axis) - from_axis)
 }
 
-/// Where the lines or circles that carry two pieces cross or come within the tolerance of touching.
-fn crossings(a: &Piece, b: &Piece) -> [Option<Point2>; 2] {
+/// Where the lines or circles that carry two pieces cross or come within a `tolerance` (m) of touching.
+pub(super) fn crossings(a: &Piece, b: &Piece, tolerance: f64) -> [Option<Point2>; 2] {
     match (a, b) {
         (Piece::Segment(a), Piece::Segment(b)) => [line_line(a, b), None],
-        (Piece::Segment(line), Piece::Arc(arc)) | (Piece::Arc(arc), Piece::Segment(line)) => line_circle(line, arc),
-        (Piece::Arc(a), Piece::Arc(b)) => circle_circle(a, b),
+        (Piece::Segment(line), Piece::Arc(arc)) | (Piece::Arc(arc), Piece::Segment(line)) => {
+            line_circle(line, arc, tolerance)
+        }
+        (Piece::Arc(a), Piece::Arc(b)) => circle_circle(a, b, tolerance),
     }
 }
 
@@ -88,22 +98,22 @@ fn line_line(a: &Segment, b: &Segment) -> Option<Point2> {
     (sine != 0.0).then_some(crossing)
 }
 
-fn line_circle(line: &Segment, circle: &Arc) -> [Option<Point2>; 2] {
+fn line_circle(line: &Segment, circle: &Arc, tolerance: f64) -> [Option<Point2>; 2] {
     let along = line.tangent();
     let foot = line.start + along * (circle.centre - line.start).dot(&along);
     let distance = (foot - circle.centre).norm();
-    if distance > circle.radius + JOIN_TOLERANCE {
+    if distance > circle.radius + tolerance {
         return [None; 2];
     }
     let half_chord = along * ((circle.radius - distance) * (circle.radius + distance)).max(0.0).sqrt();
     [Some(foot - half_chord), Some(foot + half_chord)]
 }
 
-fn circle_circle(a: &Arc, b: &Arc) -> [Option<Point2>; 2] {
+fn circle_circle(a: &Arc, b: &Arc, tolerance: f64) -> [Option<Point2>; 2] {
     let between = b.centre - a.centre;
     let distance = between.norm();
-    let apart = distance > a.radius + b.radius + JOIN_TOLERANCE;
-    let nested = distance < (a.radius - b.radius).abs() - JOIN_TOLERANCE;
+    let apart = distance > a.radius + b.radius + tolerance;
+    let nested = distance < (a.radius - b.radius).abs() - tolerance;
     if apart || nested || distance == 0.0 {
         return [None; 2];
     }

@@ -1,25 +1,19 @@
-//! Whether outlines of a file keep apart.
+//! Whether outlines of a file keep out of each other.
 
 use crate::geometry::Contour;
 
 use super::found::Outline;
 use super::{OutlineError, OutlineFault};
 
-/// Whether none of the outlines lies inside another or meets it; the first that does is told.
+/// Whether none of the outlines lies inside another, where it may be meant for a hole; the first that does is told.
 pub(super) fn check(outlines: &[Outline]) -> Result<(), OutlineError> {
     for (index, second) in outlines.iter().enumerate() {
         for first in &outlines[..index] {
-            if !first.contour.overlaps(&second.contour) {
-                continue;
-            }
             let (outer, inner) =
                 if is_inside(&first.contour, &second.contour) { (second, first) } else { (first, second) };
-            let fault = if is_inside(&inner.contour, &outer.contour) {
-                OutlineFault::Hole { outer_line: outer.line }
-            } else {
-                OutlineFault::Overlap { other_line: outer.line }
-            };
-            return Err(fault.at(inner.line));
+            if is_inside(&inner.contour, &outer.contour) {
+                return Err(OutlineFault::Hole { outer_line: outer.line }.at(inner.line));
+            }
         }
     }
     Ok(())

@@ -1,8 +1,6 @@
 //! Pieces made to follow each other.
 
-use std::f64::consts::PI;
-
-use crate::geometry::{Arc, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, perpendicular};
+use crate::geometry::{JOIN_TOLERANCE, Piece, SHORTEST_PIECE};
 
 use super::{OutlineFault, TOLERANCE};
 
@@ -19,7 +17,7 @@ pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
             closed.push(*piece);
         } else if gap <= 2.0 * TOLERANCE {
             // Two ends that are one because both are within the tolerance of a third.
-            closed.extend(ending(piece, end));
+            closed.extend(piece.ending_at(end));
         } else {
             return Err(OutlineFault::Open { from: piece.end(), to: end });
         }
@@ -27,38 +25,16 @@ pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
     Ok(closed)
 }
 
-/// A piece that goes from the same start to another end, near its own.
-fn ending(piece: &Piece, end: Point2) -> Vec<Piece> {
-    match piece {
-        Piece::Segment(segment) => vec![Piece::segment(segment.start, end)],
-        Piece::Arc(arc) if arc.sweep.abs() <= PI => vec![between(arc.start(), end, arc.sweep)],
-        // Of an arc that is nearly a circle the ends are near each other, and would tell little of where it is.
-        Piece::Arc(arc) => {
-            let half = Arc { sweep: 0.5 * arc.sweep, ..*arc };
-            vec![Piece::Arc(half), between(half.end(), end, half.sweep)]
-        }
-    }
-}
-
-/// The arc over a sweep (rad, positive to the left, not 0, within ±2π) from one point to another.
-pub(super) fn between(start: Point2, end: Point2, sweep: f64) -> Piece {
-    let chord = end - start;
-    let half = 0.5 * sweep;
-    // The centre lies to the left of the chord's middle for a left turn.
-    let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / half.tan());
-    let radius = (start - centre).norm();
-    let outward = start - centre;
-    Piece::arc(centre, radius, outward.y.atan2(outward.x), sweep)
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+    use std::f64::consts::PI;
+
     use proptest::prelude::*;
 
     use super::*;
-    use crate::geometry::Contour;
+    use crate::geometry::{Contour, Point2};
 
     proptest! {
         #[test]
@@ -67,7 +43,7 @@ mod tests {
         ) {
             prop_assume!(sweep.abs() > 1e-2);
             let Piece::Arc(arc) = Piece::arc(Point2::new(x, 0.2), radius, from, sweep) else { unreachable!() };
-            let Piece::Arc(again) = between(arc.start(), arc.end(), sweep) else { unreachable!() };
+            let Piece::Arc(again) = Piece::arc_between(arc.start(), arc.end(), sweep) else { unreachable!() };
             prop_assert!((again.centre - arc.centre).norm() + (again.radius - arc.radius).abs() < 1e-11);
             prop_assert!((again.start() - arc.start()).norm() + (again.end() - arc.end()).norm() < 1e-14);
         }

@@ -62,6 +62,12 @@ pub enum OutlineFault {
     /// A number is not finite, or too large.
     #[error("a coordinate is more than 100 m from the origin, or no number")]
     FarOff,
+    /// A circle or an arc has no size.
+    #[error("a circle or an arc has the radius {radius}: it must be positive")]
+    Radius {
+        /// Its radius, in units of the file.
+        radius: f64,
+    },
     /// A polygon has too few corners.
     #[error("{count} corners make no polygon")]
     Corners {
@@ -118,12 +124,6 @@ pub enum OutlineFault {
         /// The line of the outer one.
         outer_line: Option<usize>,
     },
-    /// An outline meets another.
-    #[error("an outline crosses or touches another{}", Other(*other_line))]
-    Overlap {
-        /// The line of the other.
-        other_line: Option<usize>,
-    },
 }
 
 impl OutlineFault {
@@ -142,6 +142,7 @@ impl OutlineFault {
             Self::NoElement { .. } => "leave `element` out for all that is in the file",
             Self::Unsupported { advice, .. } => advice,
             Self::FarOff => "is the `unit` right?",
+            Self::Radius { .. } => "draw it anew with a positive radius, or take it out",
             Self::Corners { .. } => "give at least three, a line each",
             Self::Open { .. } => "close it; or, if it is no outline, take it out or choose another `element`",
             Self::Branches { .. } => "take out what is drawn twice, and lines that are no outline",
@@ -151,7 +152,6 @@ impl OutlineFault {
             Self::NotWatertight { .. } => "mend the mesh: most modelling programs can",
             Self::Missed { .. } => "choose a `height` between, or another `unit`",
             Self::Hole { .. } => "whiskers cannot reach a hole: take it out, or choose one of the two as `element`",
-            Self::Overlap { .. } => "join the two, or choose one of them as `element`",
         }
         .to_owned()
     }

@@ -40,15 +40,14 @@ pub const SIZE_LIMIT: usize = 16 << 20;
 #[cfg(feature = "outlines")]
 const TOLERANCE: f64 = 1e-6;
 
-/// The most pieces that all outlines of a file may have together.
-#[cfg(feature = "outlines")]
-const MOST_PIECES: usize = 10_000;
+/// The most pieces that all outlines of a file may have together, and all objects of a scenario.
+pub const MOST_PIECES: usize = 10_000;
 
 /// The most outlines of a file.
 #[cfg(feature = "outlines")]
 const MOST_OUTLINES: usize = 256;
 
-/// The outlines in a file: closed contours, none within another and none that meet. Their frame is the file's, in metres; its y
+/// The outlines in a file: closed contours, none within another. They may meet. Their frame is the file's, in metres; its y
 /// axis points up, so that an SVG, whose own points down, is mirrored.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ use i_triangle::float::triangulatable::Triangulatable;
 
 use crate::geometry::{Contour, Point2};
 
-use super::part::{MOST_CORNERS, Part, chords};
+use super::part::{Part, corners};
 use super::solid::SolidError;
 
 /// The furthest (m) that a chord lies from its arc.
@@ -15,10 +15,7 @@ const AREA_TOLERANCE: f64 = 1e-9;
 /// Convex parts that together are the inside of a closed contour: triangles between its corners, Delaunay's, joined as long
 /// as they stay convex.
 pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
-    let corners: Vec<Point2> = contour.pieces().iter().flat_map(|piece| chords(piece, SAGITTA)).collect();
-    if corners.len() > MOST_CORNERS {
-        return Err(SolidError::Corners { count: corners.len(), limit: MOST_CORNERS });
-    }
+    let corners = corners(contour, SAGITTA)?;
     let outline: Vec<[f64; 2]> = corners.iter().map(|corner| [corner.x, corner.y]).collect();
     let polygons = outline.as_slice().triangulate_as::<i64>().into_delaunay().to_convex_polygons();
     let parts: Vec<Vec<Point2>> =

@@ -13,7 +13,7 @@ const SAGITTA: f64 = 1e-6;
 /// arc is then 4.7 millionths of the radius: 1.4 µm at 0.3 m, 0.24 mm at 50 m.
 const CHORDS_PER_TURN: f64 = 1024.0;
 /// The most corners of an outline: the time in which MuJoCo builds one grows with their square, to a second or two here.
-pub(super) const MOST_CORNERS: usize = 2048;
+const MOST_CORNERS: usize = 2048;
 
 /// A convex part of a solid, as MuJoCo can hold it.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,11 +41,15 @@ impl Part {
         if let [Piece::Arc(arc)] = contour.pieces() {
             return Ok(Self::Cylinder { centre: arc.centre, radius: arc.radius });
         }
-        let outline: Vec<Point2> = contour.pieces().iter().flat_map(|piece| chords(piece, SAGITTA)).collect();
-        if outline.len() > MOST_CORNERS {
-            return Err(SolidError::Corners { count: outline.len(), limit: MOST_CORNERS });
+        Ok(Self::Prism { outline: corners(contour, SAGITTA)? })
+    }
+
+    /// How many corners it has from above; none if it is round.
+    pub(crate) fn corners(&self) -> usize {
+        match self {
+            Self::Cylinder { .. } => 0,
+            Self::Prism { outline } => outline.len(),
         }
-        Ok(Self::Prism { outline })
     }
 
     /// Whether some straight line shows that what is between these points (m, world frame) is farther off than `reach` (m).
@@ -81,20 +85,31 @@ impl Part {
     }
 }
 
-/// The starts of the chords that stand for a piece, none further from it than `sagitta` (m) unless that took more than
+/// The corners of an outline with chords for its arcs, none further from them than `sagitta` (m) unless that took more than
 /// [`CHORDS_PER_TURN`].
-pub(super) fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2> {
-    let count = match piece {
-        Piece::Segment(_) => 1,
-        Piece::Arc(arc) => {
-            let widest = (2.0 * (1.0 - sagitta / arc.radius).clamp(-1.0, 1.0).acos()).max(TAU / CHORDS_PER_TURN);
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-            let count = (arc.sweep.abs() / widest).ceil().max(1.0) as usize;
-            count
-        }
-    };
-    let length = piece.length();
+///
+/// # Errors
+/// [`SolidError::Corners`] when there are too many.
+pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, SolidError> {
+    let count = contour.pieces().iter().map(|piece| chord_count(piece, sagitta)).sum();
+    if count > MOST_CORNERS {
+        return Err(SolidError::Corners { count, limit: MOST_CORNERS });
+    }
+    Ok(contour.pieces().iter().flat_map(|piece| chords(piece, sagitta)).collect())
+}
+
+/// The starts of the chords that stand for a piece.
+fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2> {
+    let (count, length) = (chord_count(piece, sagitta), piece.length());
     (0..count).map(move |chord| piece.point_at(length * chord as f64 / count as f64))
+}
+
+fn chord_count(piece: &Piece, sagitta: f64) -> usize {
+    let Piece::Arc(arc) = piece else { return 1 };
+    let widest = (2.0 * (1.0 - sagitta / arc.radius).clamp(-1.0, 1.0).acos()).max(TAU / CHORDS_PER_TURN);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let count = (arc.sweep.abs() / widest).ceil().max(1.0) as usize;
+    count
 }
 
 #[cfg(test)]

@@ -138,6 +138,8 @@ mod tests {
         assert!((area(&format!("{{polygon: {{vertices: {square}}}}}")) - 0.04).abs() < 1e-12);
         let rounded = format!("{{rounded_rectangle: {{{centre}, width: 20 cm, height: 20 cm, corner_radius: 10 cm}}}}");
         assert!((area(&rounded) - 0.01 * PI).abs() < 1e-12);
+        let sharp = with_object(&format!("{{rectangle: {{{centre}, width: 20 cm, height: 10 cm, heading: 30 deg}}}}"));
+        assert!((sharp.outline().area() - 0.02).abs() < 1e-12 && sharp.outline().corners().len() == 4);
         let regular = format!("{{regular_polygon: {{{centre}, circumradius: 1 m, sides: 4, heading: 45 deg}}}}");
         assert!((area(&regular.replace("1 m", "10 cm")) - 0.02).abs() < 1e-12);
         let start = "start: {position: [0 m, 0 m], heading: 0 deg}";

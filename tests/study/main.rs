@@ -22,5 +22,6 @@ mod seen;
 mod snapshots;
 mod ticks;
 mod tiers;
+mod united;
 mod verdicts;
 mod way;

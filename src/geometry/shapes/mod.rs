@@ -13,7 +13,7 @@ mod tunnel_axis;
 pub use circle::circle;
 pub use error::ShapeError;
 pub use path::Path;
-pub use polar_curve::{Harmonic, polar_curve};
+pub use polar_curve::{Harmonic, polar_curve, polar_curve_pieces};
 pub use polygon::polygon;
 pub use regular_polygon::regular_polygon;
 pub use rounded_rectangle::rounded_rectangle;

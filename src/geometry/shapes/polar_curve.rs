@@ -4,8 +4,11 @@ use std::f64::consts::TAU;
 
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
-use crate::geometry::fit::{LEAST_PARTS, fit};
-use crate::geometry::{Contour, Point2, perpendicular, unit};
+use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
+use crate::geometry::{Contour, Point2, Vector2, perpendicular, unit};
+
+/// In how many places a wave is looked at to tell how many arcs it takes.
+pub(super) const PLACES_PER_WAVE: u32 = 32;
 
 /// A wave on a circle: `a cos(n θ + φ)` is added to its radius.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -55,6 +58,36 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
     Ok(Contour::closed(pieces)?)
 }
 
+/// At most how many pieces [`polar_curve`] makes, a few times too many. Where there is no such curve the number means nothing.
+#[must_use]
+pub fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
+    let derivatives = |angle: f64| {
+        let mut distance = [radius, 0.0, 0.0, 0.0];
+        for &Harmonic { order, amplitude, phase } in harmonics {
+            let order = f64::from(order);
+            let (sin, cos) = (order * angle + phase).sin_cos();
+            for (derivative, value) in
+                distance.iter_mut().zip([cos, -order * sin, -order.powi(2) * cos, order.powi(3) * sin])
+            {
+                *derivative += amplitude * value;
+            }
+        }
+        polar_derivatives(angle, distance)
+    };
+    let finest = harmonics.iter().map(|harmonic| harmonic.order).max().unwrap_or(1);
+    most_arcs(derivatives, 0.0, TAU, PLACES_PER_WAVE.saturating_mul(finest.max(1)))
+}
+
+/// Derivatives of a place by its angle, from the distance at that angle and the distance's own first three derivatives.
+pub(super) fn polar_derivatives(angle: f64, [distance, first, second, third]: [f64; 4]) -> [Vector2; 3] {
+    let (outward, across) = (unit(angle), perpendicular(unit(angle)));
+    [
+        first * outward + distance * across,
+        (second - distance) * outward + 2.0 * first * across,
+        (third - 3.0 * first) * outward + (3.0 * second - distance) * across,
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
@@ -76,6 +109,8 @@ mod tests {
             let point = centre + (0.2 + harmonics.iter().map(wave).sum::<f64>()) * unit(angle);
             prop_assert!(contour.nearest(point).distance < 1.1e-6);
             prop_assert!(contour.corners().is_empty() && contour.area() > 0.0);
+            let told = polar_curve_pieces(0.2, &harmonics);
+            prop_assert!(contour.pieces().len() <= told && told <= 8 * contour.pieces().len(), "{} of {told}", contour.pieces().len());
         }
     }
 

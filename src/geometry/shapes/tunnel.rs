@@ -3,9 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::error::{finite, positive};
+use super::polar_curve::{PLACES_PER_WAVE, polar_derivatives};
 use super::{ShapeError, TunnelAxis};
-use crate::geometry::fit::{LEAST_PARTS, fit};
+use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
 use crate::geometry::{Contour, Piece, Point2, Pose, Side, Strip, Vector2, perpendicular, unit};
+
+/// At most how many more pieces a side of a round tunnel's outer wall has for its opening.
+const FUNNEL_PIECES: usize = 512;
 
 /// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +113,54 @@ impl Tunnel {
 }
 
 impl CentreLine {
+    /// At most how many pieces the outlines of both walls have, a few times too many, if the middles of the walls are a `width` (m) apart.
+    /// Where there is no such tunnel the number means nothing.
+    #[must_use]
+    pub fn most_pieces(&self, width: f64) -> usize {
+        // Two sides and two ends.
+        let wall = |pieces: usize| pieces.saturating_mul(2).saturating_add(2);
+        match self {
+            Self::Polyline { runs, .. } => 2 * wall(runs.len()),
+            Self::Sine { amplitude, wave_number, length } => {
+                let derivatives = |x: f64| {
+                    let (sin, cos) = (wave_number * x).sin_cos();
+                    let slope = amplitude * wave_number;
+                    let bend = Vector2::new(0.0, -slope * wave_number * sin);
+                    [Vector2::new(1.0, slope * cos), bend, Vector2::new(0.0, -slope * wave_number * wave_number * cos)]
+                };
+                // A parallel of the line takes as many arcs as the line: its curvature changes less where it is longer.
+                let half_wave = 0.5 * TAU / wave_number.abs();
+                let least = 2 * LEAST_PARTS as usize;
+                let each = most_arcs(derivatives, 0.0, half_wave, PLACES_PER_WAVE) - least;
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a cast of more gives the greatest"
+                )]
+                let waves = (length / half_wave).ceil() as usize;
+                wall(each.saturating_mul(waves).saturating_add(least)).saturating_mul(2)
+            }
+            Self::Polar { radius, amplitude, waves, .. } => {
+                let ring = |aside: f64| {
+                    let derivatives = |angle: f64| {
+                        let order = f64::from(*waves);
+                        let (sin, cos) = (order * angle).sin_cos();
+                        let [first, second, third] = [order * cos, -order.powi(2) * sin, -order.powi(3) * cos];
+                        let distance = [
+                            radius + aside + amplitude * sin,
+                            amplitude * first,
+                            amplitude * second,
+                            amplitude * third,
+                        ];
+                        polar_derivatives(angle, distance)
+                    };
+                    most_arcs(derivatives, 0.0, TAU, PLACES_PER_WAVE.saturating_mul((*waves).max(1)))
+                };
+                wall(ring(-0.5 * width)).saturating_add(wall(ring(0.5 * width).saturating_add(FUNNEL_PIECES)))
+            }
+        }
+    }
+
     fn check(&self) -> Result<(), ShapeError> {
         match self {
             Self::Polyline { runs, .. } => runs.iter().try_for_each(|&(length, heading)| {

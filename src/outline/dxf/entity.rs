@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{EllipticArc, Piece, Vector2, perpendicular};
 
-use super::super::chain::between;
 use super::super::plane::Plane;
 use super::super::{OutlineError, OutlineFault, TOLERANCE};
 use super::record::Record;
@@ -68,6 +67,9 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
         }
         "CIRCLE" | "ARC" => {
             let radius = entity.number(40, 0.0)?;
+            if radius <= 0.0 {
+                return Err(OutlineFault::Radius { radius }.into());
+            }
             let angles = match entity.kind {
                 "ARC" => [entity.number(50, 0.0)?, entity.number(51, 360.0)?].map(f64::to_radians),
                 _ => [0.0, TAU],
@@ -163,7 +165,7 @@ fn polyline(vertices: &[Vertex], flags: i32, plane: &Plane) -> Result<Drawn, Out
         let length = (end - start).norm();
         let (bend, size) = (0.5 * length * bulge.abs(), bulge.abs().max(bulge.abs().recip()));
         if length * size <= LARGEST_RADIUS {
-            pieces.push(between(start, end, 4.0 * (hand * bulge).atan()));
+            pieces.push(Piece::arc_between(start, end, 4.0 * (hand * bulge).atan()));
         } else if bend <= TOLERANCE {
             pieces.push(Piece::segment(start, end));
         } else {

@@ -2,6 +2,7 @@
 
 mod arc;
 mod attribute;
+mod bounds;
 mod path;
 mod root;
 mod shape;
@@ -23,7 +24,8 @@ const MOST_NODES: u32 = 500_000;
 /// Reads the outlines of all shapes, or of those of one element.
 pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
     let text = std::str::from_utf8(bytes).map_err(|_| syntax("it is no text in UTF-8"))?;
-    // Drawing programs write a document type; the parser bounds what its entities become.
+    bounds::check(text)?;
+    // Drawing programs write a document type.
     let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         // The parser says 1:1 where it knows no place.

@@ -9,6 +9,9 @@ use crate::scene::{Expectation, Metric, Outcome};
 /// What a scenario expects that does not say: that its runs complete.
 pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
 
+/// The most collisions that can be allowed.
+const MOST_COLLISIONS: u32 = 1_000_000;
+
 /// Reads `expect`.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {
     let mut fields = Fields::of(reader, &entry.value, "an expectation", entry.key.span)?;
@@ -20,10 +23,16 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
         expectations.push(COMPLETION);
     }
     for metric in Metric::ALL {
+        if metric == Metric::Collisions {
+            let count = fields
+                .entry(metric.name())
+                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MOST_COLLISIONS, 0));
+            expectations.extend(count.map(|count| Expectation::Bound { metric, bound: count.into() }));
+            continue;
+        }
         let (range, example) = match metric {
             Metric::Outliers => ((0.0, 1.0), "0.2 %"),
             _ if metric.is_share() => ((0.0, 1.0), "95 %"),
-            Metric::Collisions => ((0.0, 1e6), "0"),
             Metric::CornerTimeMax => ((1e-3, 86_400.0), "3 s"),
             Metric::CornerPathMax => ((1e-9, 1e3), "15 cm"),
             _ => ((1e-9, 1.0), "0.8 mm"),

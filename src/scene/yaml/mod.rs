@@ -3,6 +3,7 @@
 //! The parser gives a tree in which every node knows its place; reading walks the tree, and puts what is wrong on a list
 //! instead of stopping at it. Checks that take several values together come last and run on what could be read.
 
+mod budget;
 mod change;
 mod expect;
 mod fault;

@@ -21,8 +21,8 @@ const WIDTH: Key = Key { name: "width", ..RADIUS };
 const HEIGHT: Key = Key { name: "height", ..RADIUS };
 const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
 
-const KINDS: [&str; 8] =
-    ["circle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "outline", "tunnel"];
+const KINDS: [&str; 9] =
+    ["circle", "rectangle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "outline", "tunnel"];
 
 /// What one object is.
 pub(super) enum Object {
@@ -53,6 +53,7 @@ fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Objec
     let plain = |contour| Placed { value: Object::Plain(contour), span: entry.key.span };
     let contour = match kind {
         "circle" => read_circle(reader, entry),
+        "rectangle" => read_rectangle(reader, entry),
         "rounded_rectangle" => read_rounded_rectangle(reader, entry),
         "polygon" => read_polygon(reader, entry),
         "regular_polygon" => read_regular_polygon(reader, entry),
@@ -72,7 +73,20 @@ fn read_circle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     let centre = centre(reader, &mut fields);
     let radius = fields.number(reader, &RADIUS);
     fields.finish(reader);
+    reader.make(1, entry.key.span)?;
     made(reader, circle(centre?, radius?.value), entry.key.span, &[])
+}
+
+fn read_rectangle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
+    let mut fields = Fields::of(reader, &entry.value, "a rectangle", entry.key.span)?;
+    let centre = centre(reader, &mut fields);
+    let width = fields.number(reader, &WIDTH);
+    let height = fields.number(reader, &HEIGHT);
+    let heading = heading(reader, &mut fields);
+    fields.finish(reader);
+    reader.make(4, entry.key.span)?;
+    let shape = rounded_rectangle(centre?, width?.value, height?.value, 0.0, heading);
+    made(reader, shape, entry.key.span, &[])
 }
 
 fn read_rounded_rectangle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
@@ -84,6 +98,7 @@ fn read_rounded_rectangle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Cont
     let heading = heading(reader, &mut fields);
     fields.finish(reader);
     let (width, height, corner_radius) = (width?, height?, corner_radius?);
+    reader.make(8, entry.key.span)?;
     let shape = rounded_rectangle(centre?, width.value, height.value, corner_radius.value, heading);
     if let Err(ShapeError::CornerRadius { limit, .. }) = shape {
         let shorter = if width.value <= height.value { width.span } else { height.span };
@@ -105,6 +120,7 @@ fn read_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     let items = reader.items(&vertices.value, "a list of points", VERTICES)?;
     let points: Vec<_> = items.iter().map(|item| reader.point(item, &VERTEX)).collect();
     let points: Vec<Placed<Point2>> = points.into_iter().collect::<Option<_>>()?;
+    reader.make(points.len(), entry.key.span)?;
     let corners: Vec<Point2> = points.iter().map(|point| point.value).collect();
     let shape = polygon(&corners);
     match shape {
@@ -141,7 +157,9 @@ fn read_regular_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contou
     let sides = fields.required("sides", "6").and_then(|entry| reader.count(&entry.value, "sides", 3_usize..=1000, 6));
     let heading = heading(reader, &mut fields);
     fields.finish(reader);
-    made(reader, regular_polygon(centre?, circumradius?.value, sides?, heading), entry.key.span, &[])
+    let sides = sides?;
+    reader.make(sides, entry.key.span)?;
+    made(reader, regular_polygon(centre?, circumradius?.value, sides, heading), entry.key.span, &[])
 }
 
 pub(super) fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option<Point2> {

@@ -46,7 +46,10 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
     });
     let request = Request { unit, element: element.as_ref().map(|element| element.value.as_str()), height };
     match outline::read(&bytes.ok()?, format, &request) {
-        Ok(contours) => Some(contours.into_iter().map(move |contour| contour.transformed(&frame))),
+        Ok(contours) => {
+            reader.make(contours.iter().map(|contour| contour.pieces().len()).sum(), path.span)?;
+            Some(contours.into_iter().map(move |contour| contour.transformed(&frame)))
+        }
         Err(error) => {
             let place = match (&error.fault, &element) {
                 (OutlineFault::NoElement { .. }, Some(element)) => element.span,

@@ -33,7 +33,9 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     let moves = moves.and_then(|entry| reader.items(&entry.value, "a list of moves", EXAMPLE));
     let closed = fields.entry("closed").map_or(Some(true), |entry| reader.flag(&entry.value));
     fields.finish(reader);
-    let moves: Vec<_> = moves?.iter().map(|item| read_move(reader, item)).collect();
+    let moves = moves?;
+    reader.make(moves.len() + 1, entry.key.span)?;
+    let moves: Vec<_> = moves.iter().map(|item| read_move(reader, item)).collect();
 
     let mut path = Path::from(start?.value);
     let mut pieces: Vec<Span> = Vec::new();

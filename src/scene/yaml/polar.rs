@@ -1,12 +1,13 @@
 //! `polar`: smooth closed curves.
 
+use super::fault;
 use super::fields::Fields;
 use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use super::object::{RADIUS, centre, made};
 use super::reader::Reader;
-use crate::diagnostic::Span;
-use crate::geometry::{Contour, Harmonic, polar_curve};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::{Contour, Harmonic, polar_curve, polar_curve_pieces};
 use crate::units::Dimension;
 use std::f64::consts::TAU;
 
@@ -14,6 +15,9 @@ const AMPLITUDE: Key = Key::new("amplitude", Dimension::LENGTH, (-10.0, 10.0), "
 const PHASE: Key = Key::new("phase", Dimension::ANGLE, (-TAU, TAU), "30 deg");
 
 const HARMONICS: &str = "[{order: 3, amplitude: 20 mm, phase: 30 deg}]";
+
+/// The most harmonics of a curve: one for each order that there may be.
+const MOST_HARMONICS: usize = 100;
 
 /// Reads a curve in polar coordinates.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
@@ -24,9 +28,18 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     fields.finish(reader);
     let harmonics = harmonics?;
     let items = reader.items(&harmonics.value, "a list of harmonics", HARMONICS)?;
+    if items.len() > MOST_HARMONICS {
+        let message = format!("a polar curve cannot have {} harmonics", items.len());
+        let label = format!("must be at most {MOST_HARMONICS}");
+        let fault = Diagnostic::error(fault::RANGE, message, harmonics.key.span, label);
+        reader.report(fault.hint("join those of the same order"));
+        return None;
+    }
     let harmonics: Vec<_> = items.iter().map(|item| harmonic(reader, item, harmonics.key.span)).collect();
     let harmonics: Vec<_> = harmonics.into_iter().collect::<Option<_>>()?;
-    made(reader, polar_curve(centre?, radius?.value, &harmonics), entry.key.span, &[])
+    let (centre, radius) = (centre?, radius?.value);
+    reader.make(polar_curve_pieces(radius, &harmonics), entry.key.span)?;
+    made(reader, polar_curve(centre, radius, &harmonics), entry.key.span, &[])
 }
 
 fn harmonic(reader: &mut Reader<'_>, item: &Placed<Node>, place: Span) -> Option<Harmonic> {

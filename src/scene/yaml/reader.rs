@@ -1,9 +1,11 @@
 //! Reading values from the tree.
 
+use super::budget::Budget;
 use super::fault;
 use super::fields::list;
 use super::node::{Entry, Node, Placed};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span, suggest};
+use crate::outline::MOST_PIECES;
 use crate::scene::Files;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -13,17 +15,38 @@ pub(super) struct Reader<'s> {
     source: &'s Source,
     files: &'s mut Files<'s>,
     faults: Vec<Diagnostic>,
+    budget: Budget,
 }
 
 impl<'s> Reader<'s> {
     /// A reader of the values of `source`, in which `faults` have been found so far; it finds what they refer to in `files`.
     pub(super) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
-        Self { source, files, faults }
+        Self { source, files, faults, budget: Budget::default() }
     }
 
     /// The bytes of the file that the text calls `path`.
     pub(super) fn file(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        (self.files)(path)
+        self.budget.check_files()?;
+        let bytes = (self.files)(path)?;
+        self.budget.read(bytes.len());
+        Ok(bytes)
+    }
+
+    /// Counts the pieces of an object, at `place`, before it is made. If there are too many of all objects together, none is made.
+    pub(super) fn make(&mut self, pieces: usize, place: Span) -> Option<()> {
+        match self.budget.make(pieces) {
+            Ok(()) => Some(()),
+            Err(Some(count)) => {
+                let message = "the objects have too many lines and arcs";
+                let label = format!("with those before it up to {count}, must be at most {MOST_PIECES}");
+                let fault = Diagnostic::error(fault::TOO_LARGE, message, place, label);
+                self.report(
+                    fault.hint("leave out objects, or make them with fewer sides, shorter lines or longer waves"),
+                );
+                None
+            }
+            Err(None) => None,
+        }
     }
 
     /// How many faults there are so far.

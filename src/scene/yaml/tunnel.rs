@@ -42,6 +42,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Tunnel> {
         reader.report(fault.hint("make the walls thinner, or the tunnel wider"));
         return None;
     }
+    reader.make(line.most_pieces(width.value), entry.key.span)?;
     match Tunnel::new(&line, width.value, thickness.value, &frame) {
         Ok(tunnel) => Some(tunnel),
         Err(error) => {

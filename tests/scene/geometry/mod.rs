@@ -8,3 +8,4 @@ mod oracle;
 pub(crate) mod random;
 mod set;
 mod simple;
+mod union;

@@ -104,3 +104,29 @@ fn what_draws_nothing_is_bounded_too() {
         assert!(matches!(error.fault, OutlineFault::TooLarge { limit: 1_000_000, .. }), "{error}");
     }
 }
+
+#[test]
+fn what_would_take_the_parser_too_long_is_refused_before() {
+    let read = |text: &str| read(text.as_bytes(), Format::Svg, &Request { unit: Some(1e-3), ..Request::default() });
+    let told = |text: &str| read(text).unwrap_err().to_string();
+    let attributes: String =
+        (0..150_000).flat_map(|index| [" a".to_owned(), index.to_string(), "=\"\"".to_owned()]).collect();
+    assert_eq!(
+        told(&format!("<svg>\n<rect{attributes}/></svg>")),
+        "line 2: there are more than 256 attributes of an element"
+    );
+    // A `>` within a value does not end the tag.
+    assert!(told(&format!("<svg><rect x='>'{attributes}/></svg>")).contains("attributes of an element"));
+    let nested: String =
+        (0..40_000).flat_map(|index| ["<g xmlns:n".to_owned(), index.to_string(), "='u'>".to_owned()]).collect();
+    assert_eq!(told(&format!("<svg>{nested}</svg>")), "there are more than 1000 declarations of namespaces");
+    let document = |entity: &str, text: &str| format!("<!DOCTYPE svg [\n<!ENTITY e {entity}>]><svg>{text}</svg>");
+    let references = "&e;".repeat(10_000);
+    assert!(told(&document("'<g a=\"\"/>'", &references)).starts_with("line 2: an entity that holds elements"));
+    assert!(told(&document("'&f;&f;'", &references)).contains("other entities"));
+    let long = document(&format!("'{}'", "x".repeat(10_000)), &references);
+    assert_eq!(told(&long), "there are more than 16777216 bytes that entities stand for");
+    // As drawing programs have it.
+    let circle = "<circle r='5' cx='&e;'/>";
+    assert!(read(&document("\"7\"", circle)).is_ok());
+}

@@ -32,3 +32,51 @@ fn the_page_shows_an_object_that_can_be_read() {
     let scene = scene(&format!("name: page\n{}\n{rest}", lines.join("\n")));
     assert_eq!(scene.solids.len(), 1);
 }
+
+/// A box as a mesh, from one corner (mm) to the opposite one.
+fn mesh(from: [f64; 3], to: [f64; 3]) -> String {
+    let corner = |index: usize| (0..3).map(move |axis| if index >> axis & 1 == 0 { from[axis] } else { to[axis] });
+    let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let mut text = "solid box\n".to_owned();
+    for [a, b, c, d] in sides {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for index in triangle {
+                let place: Vec<String> = corner(index).map(|value| value.to_string()).collect();
+                text += "vertex ";
+                text += &place.join(" ");
+                text += "\n";
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    text + "endsolid box\n"
+}
+
+#[test]
+fn meshes_that_touch_or_overlap_are_one_object() {
+    // The handle ends where the head begins, but for the rounding of its file; the plug is in the head.
+    let files = |path: &str| match path {
+        "head.stl" => Ok(mesh([0.0, 0.0, 0.0], [333.3, 100.1, 20.0]).into_bytes()),
+        "handle.stl" => Ok(mesh([333.300_02, 30.0, 0.0], [600.0, 70.0, 20.0]).into_bytes()),
+        "plug.svg" => Ok(
+            b"<svg><rect x='20' y='-130' width='50' height='60'/><rect x='40' y='-140' width='9' height='20'/></svg>"
+                .to_vec(),
+        ),
+        other => Err(format!("there is no {other}")),
+    };
+    let objects =
+        "[{outline: {file: head.stl, unit: 1 mm, height: 10 mm}}, {circle: {centre: [0.2 m, 2 m], radius: 10 cm}},
+                    {outline: {file: handle.stl, unit: 1 mm, height: 10 mm}}, {outline: {file: plug.svg, unit: 1 mm}}]";
+    let rest = "start: {position: [-1 m, 72 mm], heading: 90 deg}\nstop: {time: 1 s}";
+    let text = format!("name: meshes\nobjects: {objects}\n{rest}\n");
+    let scene = Scene::from_yaml_with(&Source::new("meshes.yaml", text), &mut |path| files(path)).unwrap();
+    let [whole, disk] = scene.solids.as_slice() else { panic!("{} solids", scene.solids.len()) };
+    let outline = whole.outline();
+    // Head and handle side by side, what stands out of the plug, and what stands out of that.
+    let area = 0.3333 * 0.1001 + 0.2667 * 0.04 + 0.05 * (0.13 - 0.1001) + 0.009 * 0.01;
+    assert!((outline.area() - area).abs() < 1e-7, "{} m² for {area} m²", outline.area());
+    assert_eq!(outline.corners().len(), 16);
+    assert!((disk.outline().area() - 0.01 * std::f64::consts::PI).abs() < 1e-9);
+    assert_eq!(scene.truth.reference.contours().count(), 2);
+}

@@ -1,0 +1,299 @@
+//! Outlines cut where they meet, and what of them is the outline of all together.
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::simple::{MOST_PAIRS, crossings, grown};
+use super::union::TOUCHING;
+use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment};
+
+/// The most places in which outlines may meet.
+const MOST_CUTS: usize = 20_000;
+
+/// Two places on a piece are one within this (m).
+const SAME: f64 = 2.0 * TOUCHING;
+
+/// How far apart (m) an end and the start of what goes on there may be.
+const JOINT: f64 = 4.0 * TOUCHING;
+
+/// A part of a piece between two cuts, by arc lengths (m) from the piece's start.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Part {
+    member: usize,
+    index: usize,
+    piece: Piece,
+    from: f64,
+    to: f64,
+}
+
+/// All parts of closed outlines, in the order of travel, one outline after the other.
+pub(super) struct Arrangement {
+    parts: Vec<Part>,
+    /// Whether a part belongs to the outline of all together.
+    is_outer: Vec<bool>,
+    /// The part behind each on the outline that it is of.
+    next: Vec<usize>,
+}
+
+/// Parts that come back to where they started, at least one.
+pub(super) struct Loop {
+    pub(super) parts: Vec<Part>,
+    /// The members that they are of, each once, in order.
+    pub(super) members: Vec<usize>,
+}
+
+impl Arrangement {
+    /// The arrangement of `members`; the most cuts that there may be, if there are more.
+    pub(super) fn of(members: &[&Contour]) -> Result<Self, usize> {
+        let near = Near::of(members);
+        let (mut parts, mut next, mut cuts, mut work) = (Vec::new(), Vec::new(), 0, 0);
+        for (member, contour) in members.iter().enumerate() {
+            let first = parts.len();
+            for (index, piece) in contour.pieces().iter().enumerate() {
+                let length = piece.length();
+                let mut ends = near.cuts(member, piece, MOST_CUTS - cuts, &mut work).ok_or(MOST_CUTS)?;
+                cuts += ends.len();
+                ends.retain(|&end| end > SAME && end < length - SAME);
+                ends.sort_by(f64::total_cmp);
+                ends.dedup_by(|later, earlier| *later - *earlier < SAME);
+                ends.push(length);
+                let mut from = 0.0;
+                for to in ends {
+                    parts.push(Part { member, index, piece: *piece, from, to });
+                    from = to;
+                }
+            }
+            next.extend(first + 1..parts.len());
+            next.push(first);
+        }
+        let is_outer = parts.iter().map(|part| near.is_outer(part, &mut work).ok_or(MOST_CUTS));
+        let is_outer = is_outer.collect::<Result<_, _>>()?;
+        Ok(Self { parts, is_outer, next })
+    }
+
+    /// The closed outlines that the outer parts make; `None` if one does not come back to where it started.
+    pub(super) fn loops(&self) -> Option<Vec<Loop>> {
+        let outer = || (0..self.parts.len()).filter(|&part| self.is_outer[part]);
+        let starts = outer().map(|part| GeomWithData::new(self.parts[part].start().into(), part));
+        let starts: RTree<GeomWithData<[f64; 2], usize>> = RTree::bulk_load(starts.collect());
+        let mut is_left = self.is_outer.clone();
+        let mut loops = Vec::new();
+        for first in outer() {
+            if !is_left[first] {
+                continue;
+            }
+            let (mut parts, mut part) = (Vec::new(), first);
+            loop {
+                is_left[part] = false;
+                parts.push(self.parts[part]);
+                part = self.following(part, &starts, |next| next == first || is_left[next])?;
+                if part == first {
+                    break;
+                }
+            }
+            let mut members: Vec<usize> = parts.iter().map(|part| part.member).collect();
+            members.sort_unstable();
+            members.dedup();
+            loops.push(Loop { parts, members });
+        }
+        Some(loops)
+    }
+
+    /// The part that goes on where one ends. Where outlines only touch, both go on by themselves.
+    fn following(
+        &self,
+        part: usize,
+        starts: &RTree<GeomWithData<[f64; 2], usize>>,
+        is_free: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
+        let own = self.next[part];
+        if self.is_outer[own] && is_free(own) {
+            return Some(own);
+        }
+        let end = self.parts[part].end();
+        let near = starts.locate_within_distance(end.into(), JOINT * JOINT).map(|start| start.data);
+        let apart = |&next: &usize| (self.parts[next].start() - end).norm();
+        near.filter(|&next| is_free(next)).min_by(|a, b| apart(a).total_cmp(&apart(b)))
+    }
+}
+
+/// Members, found by where they are.
+pub(super) struct Near<'m> {
+    members: &'m [&'m Contour],
+    /// The boxes of members.
+    frames: RTree<Boxed<usize>>,
+    /// The boxes of their pieces, each with its member and its index there.
+    pieces: RTree<Boxed<(usize, usize)>>,
+}
+
+/// Something in a box that has room for all that touches it.
+type Boxed<T> = GeomWithData<Rectangle<[f64; 2]>, T>;
+
+fn boxed<T>(bounds: &BoundingBox, data: T) -> Boxed<T> {
+    let frame = grown(bounds, TOUCHING);
+    GeomWithData::new(Rectangle::from_corners(frame.lower(), frame.upper()), data)
+}
+
+impl<'m> Near<'m> {
+    pub(super) fn of(members: &'m [&'m Contour]) -> Self {
+        let frames = members.iter().enumerate().map(|(member, contour)| boxed(&contour.bounding_box(), member));
+        let pieces = members.iter().enumerate().flat_map(|(member, contour)| {
+            let pieces = contour.pieces().iter().enumerate();
+            pieces.map(move |(index, piece)| boxed(&piece.bounding_box(), (member, index)))
+        });
+        Self { members, frames: RTree::bulk_load(frames.collect()), pieces: RTree::bulk_load(pieces.collect()) }
+    }
+
+    /// The places (m) on a member's piece where other members cross it, touch it or end on it; `None` if there are more than `most`.
+    fn cuts(&self, member: usize, piece: &Piece, most: usize, work: &mut usize) -> Option<Vec<f64>> {
+        let mut cuts = Vec::new();
+        for near in self.pieces.locate_in_envelope_intersecting(grown(&piece.bounding_box(), 0.0)) {
+            *work += 1;
+            let (other, index) = near.data;
+            if other == member {
+                continue;
+            }
+            let met = &self.members[other].pieces()[index];
+            let places =
+                [Some(met.start()), Some(met.end())].into_iter().chain(crossings(piece, met, TOUCHING)).flatten();
+            let is_met = |place: &Point2| piece.distance(*place) <= TOUCHING && met.distance(*place) <= TOUCHING;
+            cuts.extend(places.filter(is_met).map(|place| piece.nearest(place)));
+            if cuts.len() > most || *work > MOST_PAIRS {
+                return None;
+            }
+        }
+        Some(cuts)
+    }
+
+    /// The least signed distance (m) of a point from members whose boxes come within a `reach` (m) of it; infinite if none does.
+    pub(super) fn signed_distance(&self, point: Point2, reach: f64) -> f64 {
+        let near = self.frames.locate_in_envelope_intersecting(grown(&BoundingBox::around(point, point), reach));
+        near.map(|frame| self.members[frame.data].signed_distance(point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a part belongs to the outline of all members together: it is inside of none of the others, and not on a side that lies
+    /// against another. Of sides that lie on each other that of the first member counts.
+    fn is_outer(&self, part: &Part, work: &mut usize) -> Option<bool> {
+        let along = 0.5 * (part.from + part.to);
+        let (place, tangent) = (part.piece.point_at(along), part.piece.tangent_at(along));
+        let near = self.frames.locate_in_envelope_intersecting(AABB::from_point(place.into())).map(|frame| frame.data);
+        for index in near.filter(|&other| other != part.member) {
+            *work += 1;
+            if *work > MOST_PAIRS {
+                return None;
+            }
+            let other = self.members[index];
+            let distance = other.signed_distance(place);
+            let keeps_out = if distance.abs() > TOUCHING {
+                distance > 0.0
+            } else {
+                part.member < index && other.nearest(place).tangent.dot(&tangent) > 0.0
+            };
+            if !keeps_out {
+                return Some(false);
+            }
+        }
+        Some(true)
+    }
+}
+
+impl Part {
+    pub(super) fn start(&self) -> Point2 {
+        self.piece.point_at(self.from)
+    }
+
+    fn end(&self) -> Point2 {
+        self.piece.point_at(self.to)
+    }
+
+    /// The part as a piece of its own.
+    fn piece(&self) -> Piece {
+        let length = self.piece.length();
+        if self.from <= 0.0 && self.to >= length {
+            return self.piece;
+        }
+        match self.piece {
+            Piece::Segment(_) => Piece::segment(self.start(), self.end()),
+            Piece::Arc(arc) => {
+                let (from, to) = (self.from / length, self.to / length);
+                let start_angle = arc.start_angle + from * arc.sweep;
+                Piece::Arc(Arc { start_angle, sweep: (to - from) * arc.sweep, ..arc })
+            }
+        }
+    }
+}
+
+/// The outline that the parts of a loop are, the member itself if they are all of that; `None` if what they enclose is on their right.
+///
+/// # Errors
+/// The pieces do not make a contour.
+pub(super) fn outline(parts: &[Part], members: &[&Contour]) -> Result<Option<Contour>, ContourError> {
+    let parts = whole_parts(parts);
+    let pieces: Vec<Piece> = parts.iter().map(Part::piece).collect();
+    let Some(origin) = parts.first().map(Part::start) else { return Err(ContourError::Empty) };
+    if pieces.iter().map(|piece| piece.swept_area(origin)).sum::<f64>() < 0.0 {
+        return Ok(None);
+    }
+    let member = parts[0].member;
+    let is_whole = |part: &Part| part.member == member && part.from <= 0.0 && part.to >= part.piece.length();
+    if parts.len() == members[member].pieces().len() && parts.iter().all(is_whole) {
+        return Ok(Some(members[member].clone()));
+    }
+    Contour::closed(straightened(joined(&pieces))).map(Some)
+}
+
+/// The parts, those that were cut where nothing ends joined again.
+fn whole_parts(cut: &[Part]) -> Vec<Part> {
+    let goes_on = |last: &Part, next: &Part| {
+        (last.member, last.index) == (next.member, next.index) && last.to.to_bits() == next.from.to_bits()
+    };
+    let mut parts: Vec<Part> = Vec::with_capacity(cut.len());
+    for part in cut {
+        match parts.last_mut() {
+            Some(last) if goes_on(last, part) => last.to = part.to,
+            _ => parts.push(*part),
+        }
+    }
+    if let ([first, .., last], Some(end)) = (parts.as_mut_slice(), cut.last())
+        && goes_on(end, first)
+    {
+        first.from = last.from;
+        parts.pop();
+    }
+    parts
+}
+
+/// The pieces so that each ends where the next one starts: ends that only touch are moved together.
+fn joined(pieces: &[Piece]) -> Vec<Piece> {
+    let starts = pieces.iter().cycle().skip(1).map(Piece::start);
+    let join = |(piece, start): (&Piece, Point2)| {
+        let is_there = (start - piece.end()).norm() <= 0.5 * JOIN_TOLERANCE;
+        if is_there { vec![*piece] } else { piece.ending_at(start) }
+    };
+    pieces.iter().zip(starts).flat_map(join).collect()
+}
+
+/// The pieces of a closed contour with one straight piece for several that go on straight ahead.
+fn straightened(pieces: Vec<Piece>) -> Vec<Piece> {
+    let goes_on = |last: &Piece, next: &Piece| match (last, next) {
+        (Piece::Segment(last), Piece::Segment(next)) => {
+            let whole = Segment { start: last.start, end: next.end };
+            last.tangent().dot(&next.tangent()) > 0.0 && whole.distance(last.end) <= JOIN_TOLERANCE
+        }
+        _ => false,
+    };
+    let mut straight: Vec<Piece> = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        match straight.last_mut() {
+            Some(last) if goes_on(last, &piece) => *last = Piece::segment(last.start(), piece.end()),
+            _ => straight.push(piece),
+        }
+    }
+    if let [first, .., last] = straight.as_mut_slice()
+        && goes_on(last, first)
+    {
+        *first = Piece::segment(last.start(), first.end());
+        straight.pop();
+    }
+    straight
+}

@@ -1,0 +1,67 @@
+//! What is refused before the parser sees it, because parsing it would take too long or too much memory.
+//!
+//! The parser compares each attribute of an element with all others, copies the namespaces of an element into those in it, and
+//! replaces each reference to an entity by its text.
+
+use super::super::{OutlineError, OutlineFault, SIZE_LIMIT};
+
+/// The most attributes of an element. Drawings have a few dozen.
+const MOST_ATTRIBUTES: usize = 256;
+
+/// The most declarations of namespaces in a document. Drawings have a dozen, most of them in their first element.
+const MOST_NAMESPACES: usize = 1000;
+
+/// Checks that a document can be parsed in a time and with memory proportional to its text.
+///
+/// Neither a value of an attribute nor a name holds a `<`, so that each part between two of these has one element's tag at most.
+pub(super) fn check(text: &str) -> Result<(), OutlineError> {
+    if text.matches("xmlns").count() > MOST_NAMESPACES {
+        return Err(OutlineFault::TooLarge { what: "declarations of namespaces", limit: MOST_NAMESPACES }.into());
+    }
+    let (mut line, mut declared) = (1, 0_usize);
+    for part in text.split('<') {
+        if part.starts_with("!ENTITY") {
+            declared += part.len();
+            if Tag::of(part).is_open || part.contains('&') {
+                let what = "an entity that holds elements or other entities".to_owned();
+                let advice = "write its text where it is referred to, and take it out";
+                return Err(OutlineFault::Unsupported { what, advice }.at(Some(line)));
+            }
+        } else if !part.starts_with(['!', '?']) && Tag::of(part).attributes > MOST_ATTRIBUTES {
+            return Err(
+                OutlineFault::TooLarge { what: "attributes of an element", limit: MOST_ATTRIBUTES }.at(Some(line))
+            );
+        }
+        line += part.matches('\n').count();
+    }
+    if declared.saturating_mul(text.matches('&').count()) > SIZE_LIMIT {
+        return Err(OutlineFault::TooLarge { what: "bytes that entities stand for", limit: SIZE_LIMIT }.into());
+    }
+    Ok(())
+}
+
+/// A tag, from behind its `<`.
+struct Tag {
+    /// How many values in quotes it has.
+    attributes: usize,
+    /// Whether there is no end of it.
+    is_open: bool,
+}
+
+impl Tag {
+    fn of(part: &str) -> Self {
+        let (mut attributes, mut quote) = (0, None);
+        for byte in part.bytes() {
+            match (quote, byte) {
+                (Some(open), byte) if byte == open => quote = None,
+                (None, b'"' | b'\'') => {
+                    attributes += 1;
+                    quote = Some(byte);
+                }
+                (None, b'>') => return Self { attributes, is_open: false },
+                _ => {}
+            }
+        }
+        Self { attributes, is_open: true }
+    }
+}
