@@ -49,6 +49,9 @@ pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) 
     Some(pieces)
 }
 
+/// How much more a curve may turn between the places than at them: sharp turns of steep waves are met by few places.
+const BETWEEN_PLACES: f64 = 1.2;
+
 /// At most how many arcs [`fit`] makes of a curve, a few times too many: from its first three derivatives, taken in so many places.
 ///
 /// Over a length 2 h whose curvature changes evenly, by k' along it, a pair of arcs that shares ends and directions with the curve is
@@ -68,7 +71,7 @@ pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to
         clippy::cast_sign_loss,
         reason = "a positive count; a cast of more gives the greatest"
     )]
-    let arcs = (2.0 * pairs).ceil() as usize;
+    let arcs = (2.0 * BETWEEN_PLACES * pairs).ceil() as usize;
     arcs.saturating_add(2 * LEAST_PARTS as usize)
 }
 

@@ -14,7 +14,7 @@ fn scenarios() -> Vec<Scene> {
 #[test]
 fn the_rig_that_is_written_out_is_the_reference_rig() {
     let scenarios = scenarios();
-    assert_eq!(scenarios.len(), 3);
+    assert_eq!(scenarios.len(), 4);
     // A tunnel wants shorter steps.
     for scenario in scenarios.iter().filter(|scenario| scenario.name != "tunnel") {
         assert_eq!(scenario.rig, Rig::default(), "{}", scenario.name);
