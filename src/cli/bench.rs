@@ -43,7 +43,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     }
     let page = report.map(|report| report.write(&rows, &pictures)).transpose()?;
     if arguments.json {
-        output::json(&rows)?;
+        output::json_list(&rows)?;
     } else {
         output::result(bench_table(&rows))?;
         output::result(pooled_tips(&rows))?;
@@ -157,7 +157,7 @@ impl Report {
         for (file, picture) in self.pictures.into_iter().zip(pictures) {
             file.write(picture)?;
         }
-        self.results.write(serde_json::to_string_pretty(rows)? + "\n")?;
+        self.results.write(output::list(rows)? + "\n")?;
         let page = self.page.path().to_owned();
         self.page.write(bench_page(rows, pictures))?;
         Ok(page)

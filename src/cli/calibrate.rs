@@ -1,5 +1,6 @@
 //! `vibrissa calibrate`
 
+use crate::report::Document;
 use std::path::Path;
 
 use serde::Serialize;
@@ -17,11 +18,16 @@ use super::{input, output};
 
 /// What is printed as JSON.
 #[derive(Serialize)]
-struct Printed<'f> {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Printed<'f> {
     whisker: &'f str,
     sets: usize,
     tip_sets: usize,
     held_out: &'f [HeldOut],
+}
+
+impl Document for Printed<'_> {
+    const FORMAT: &'static str = "calibration";
 }
 
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {

@@ -1,5 +1,6 @@
 //! `vibrissa check`
 
+use crate::report::Document;
 use std::path::Path;
 
 use serde::Serialize;
@@ -17,7 +18,8 @@ use super::{input, output};
 
 /// What is known of one policy.
 #[derive(Debug, Serialize)]
-struct Checked {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Checked {
     file: String,
     /// Why the file cannot be read; `null` if it can.
     error: Option<String>,
@@ -30,7 +32,12 @@ struct Checked {
     diagnostics: Vec<Record>,
 }
 
+impl Document for Checked {
+    const FORMAT: &'static str = "check";
+}
+
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Summary {
     name: String,
     whiskers: Vec<String>,
@@ -45,6 +52,7 @@ struct Summary {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct LibrarySummary {
     name: String,
     laws: Vec<String>,
@@ -52,6 +60,7 @@ struct LibrarySummary {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Compiled {
     file: String,
     text_sha256: String,
@@ -60,6 +69,7 @@ struct Compiled {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct ParameterSummary {
     name: String,
     value: String,
@@ -69,6 +79,7 @@ struct ParameterSummary {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct StateSummary {
     name: String,
     /// Where it is in the policy's text.
@@ -101,7 +112,7 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     });
     let checked = checked.collect::<Result<Vec<_>, _>>()?;
     if arguments.json {
-        output::json(&checked)?;
+        output::json_list(&checked)?;
     }
     let is_refused = |file: &Checked| {
         (file.machine.is_none() && file.library.is_none()) || (arguments.deny_warnings && !file.diagnostics.is_empty())

@@ -33,7 +33,7 @@ pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
     progress.finish();
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
     if arguments.json {
-        output::json(&rows)?;
+        output::json_list(&rows)?;
     } else {
         output::result(estimators_table(&rows))?;
     }

@@ -56,7 +56,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
         report.write(&runs, pictures)?;
     }
     if arguments.json {
-        output::json(&runs)?;
+        output::json_list(&runs)?;
     } else {
         output::result(families_table(&tallies(&runs)))?;
     }
@@ -122,8 +122,7 @@ impl Report {
         }
         let mut lines = String::new();
         for run in runs {
-            lines += &serde_json::to_string(run)?;
-            lines.push('\n');
+            lines += &output::json_line(run)?;
         }
         Ok(self.results.write(lines)?)
     }

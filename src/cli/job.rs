@@ -1,5 +1,6 @@
 //! A run, from its files to its report.
 
+use crate::report::Document;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -166,7 +167,7 @@ impl Job {
         result: &RunResult,
     ) -> Result<(), Failure> {
         to.picture.write(picture(&self.scene, &result.policy, run, score))?;
-        to.result.write(serde_json::to_string_pretty(result)? + "\n")?;
+        to.result.write(serde_json::to_string_pretty(&result.versioned())? + "\n")?;
         Ok(())
     }
 }

@@ -24,6 +24,8 @@ mod pareto;
 mod plan;
 mod progress;
 mod run;
+#[cfg(test)]
+mod schema;
 mod settings;
 mod stress;
 mod sweep;

@@ -3,9 +3,8 @@
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 
-use serde::Serialize;
-
 use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
+use crate::report::Document;
 
 use super::exit::Failure;
 
@@ -27,9 +26,24 @@ fn written(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a result as JSON.
-pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
-    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(value)?)))
+/// Prints a document as JSON.
+pub(super) fn json(document: &impl Document) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(&document.versioned())?)))
+}
+
+/// Prints documents as a list in JSON.
+pub(super) fn json_list(documents: &[impl Document]) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&list(documents)?)))
+}
+
+/// Documents as a list in JSON.
+pub(super) fn list(documents: &[impl Document]) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(&documents.iter().map(Document::versioned).collect::<Vec<_>>())
+}
+
+/// A document as a line of JSON, with its end.
+pub(super) fn json_line(document: &impl Document) -> serde_json::Result<String> {
+    Ok(serde_json::to_string(&document.versioned())? + "\n")
 }
 
 /// Prints a message.

@@ -1,5 +1,6 @@
 //! `vibrissa pareto`
 
+use crate::report::Document;
 use std::sync::Arc;
 
 use crate::file::{CommandFiles, OutputError};
@@ -48,7 +49,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         output::message(format_args!("{}: {reason}", row.setting));
     }
     if let Some([results, picture]) = report {
-        results.write(serde_json::to_string_pretty(&pareto)? + "\n")?;
+        results.write(serde_json::to_string_pretty(&pareto.versioned())? + "\n")?;
         picture.write(pareto_picture(&pareto))?;
     }
     if arguments.json {

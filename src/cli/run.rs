@@ -25,8 +25,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         if tick_file.is_some() {
             for line in tick_lines(&result.scenario, &run.trace) {
-                ticks.push_str(&serde_json::to_string(&line)?);
-                ticks.push('\n');
+                ticks += &output::json_line(&line)?;
             }
         }
         results.push(result);
@@ -35,7 +34,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         file.write(ticks)?;
     }
     if arguments.json {
-        output::json(&results)?;
+        output::json_list(&results)?;
     } else {
         show(&results, arguments.out.as_deref())?;
     }

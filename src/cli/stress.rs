@@ -45,7 +45,7 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     rows.sort_by_key(|(index, _)| *index);
     let rows: Vec<StressRow> = rows.into_iter().map(|(_, row)| row).collect();
     if arguments.json {
-        output::json(&rows)?;
+        output::json_list(&rows)?;
     } else {
         output::result(stress_table(&rows))?;
     }

@@ -80,7 +80,7 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
     Ok(match (answer?, sweep.run(index)) {
         (Answer::Crash(reason), Some(run)) => {
             output::message(format_args!("{}: crashed: {reason}", run.key()));
-            serde_json::to_string(&SweepLine::crashed(&run, reason))?
+            output::json_line(&SweepLine::crashed(&run, reason))?
         }
         (Answer::Line(line) | Answer::Crash(line), _) => line,
     })

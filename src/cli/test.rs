@@ -1,5 +1,6 @@
 //! `vibrissa test`
 
+use crate::report::Document;
 use std::path::Path;
 
 use serde::Serialize;
@@ -23,13 +24,18 @@ use super::{job, output, run};
 
 /// What came of one test.
 #[derive(Debug, Serialize)]
-struct Tested {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Tested {
     file: String,
     title: String,
     passed: bool,
     /// What was not as expected.
     diagnostics: Vec<Record>,
     result: RunResult,
+}
+
+impl Document for Tested {
+    const FORMAT: &'static str = "test";
 }
 
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
@@ -84,7 +90,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     }
     let failed = tested.iter().filter(|tested| !tested.passed).count();
     if arguments.json {
-        output::json(&tested)?;
+        output::json_list(&tested)?;
     } else {
         output::result(format_args!("{count} test{}, {failed} failed", if count == 1 { "" } else { "s" }))?;
     }

@@ -42,7 +42,7 @@ pub(super) fn tiers(arguments: &BenchArguments) -> Result<Exit, Failure> {
         }
     }
     if arguments.json {
-        output::json(&rows)?;
+        output::json_list(&rows)?;
     } else {
         output::result(tiers_table(&rows))?;
     }

@@ -26,7 +26,7 @@ pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: usize, json: bool) -> 
     };
     let rows: Vec<TimingRow> = jobs.iter().zip(&times).filter_map(row).collect();
     if json {
-        output::json(&rows)?;
+        output::json_list(&rows)?;
     } else {
         output::result(timing_table(&rows))?;
     }

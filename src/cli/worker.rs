@@ -1,5 +1,6 @@
 //! `vibrissa worker`: the process in which runs of a sweep happen, or hard cases.
 
+use crate::report::Document;
 use std::io::stdin;
 use std::sync::mpsc::channel;
 
@@ -28,7 +29,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
     };
     let plan = Plan::read(file, !arguments.pruning.no_prune, &mut CommandFiles::new())?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
-        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run)))
+        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run).versioned()))
     })
 }
 

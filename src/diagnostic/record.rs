@@ -5,6 +5,7 @@ use serde::Serialize;
 
 /// A diagnostic with its places as lines and columns, to be serialised.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Record {
     /// How bad it is.
     pub severity: Severity,
@@ -23,6 +24,7 @@ pub struct Record {
 
 /// A note at a place, in lines and columns from 1; columns count characters.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RecordLabel {
     /// The name of the source, or of the part of it.
     pub file: String,

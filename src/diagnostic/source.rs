@@ -34,6 +34,7 @@ impl From<Range<usize>> for Span {
 
 /// A place in a text as a person counts: from 1, columns in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Position {
     /// The line, from 1.
     pub line: usize,

@@ -1,6 +1,7 @@
 //! What people and programs get to see of a run: the result, a table, a picture; and of a policy: its statechart.
 
 mod chart;
+mod document;
 mod number;
 mod outline;
 mod picture;
@@ -11,6 +12,7 @@ mod table;
 mod tick_line;
 
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
+pub use document::{Document, Versioned};
 pub use picture::{picture, profile_picture};
 pub use result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,

@@ -1,5 +1,6 @@
 //! The result of a run, as programs read it.
 
+use super::Document;
 use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
@@ -11,6 +12,7 @@ use crate::score::{CornerFigures, CornerSpread, RetrievalFigures, Score, Spread,
 /// Every key is always there, with `null` for a figure that the run does not have. Numbers keep their full precision, so
 /// that results can be compared bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RunResult {
     /// Name of the scenario.
     pub scenario: String,
@@ -56,6 +58,7 @@ pub struct RunResult {
     pub corners: Option<Corners>,
     /// Share of the time in each state that was active, 0 to 1; of nested states the innermost counts.
     #[serde(serialize_with = "shares")]
+    #[cfg_attr(test, schemars(with = "std::collections::BTreeMap<String, f64>"))]
     pub states: Vec<StateShare>,
     /// Length of the path of the platform's centre of mass.
     pub path_m: f64,
@@ -67,6 +70,10 @@ pub struct RunResult {
     pub tick_us: TickUs,
     /// What the run depends on.
     pub hash: Hashes,
+}
+
+impl Document for RunResult {
+    const FORMAT: &'static str = "run";
 }
 
 /// Which run a result is of.
@@ -86,6 +93,7 @@ pub struct Identity {
 
 /// Hashes of all that a run depends on: two runs with the same hashes and seed are the same run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Hashes {
     /// Of the scenario.
     pub scenario: String,
@@ -97,6 +105,7 @@ pub struct Hashes {
 
 /// Distance of the tip estimates from the nearest surface (mm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ErrorMm {
     /// Mean.
     pub mean: Option<f64>,
@@ -116,6 +125,7 @@ pub struct ErrorMm {
 
 /// Distance of the tip estimates from the true tips (mm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TipErrorMm {
     /// Along the outline.
     pub along: MeanP95Max,
@@ -125,6 +135,7 @@ pub struct TipErrorMm {
 
 /// How the platform went through a tunnel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Passage {
     /// Share of the tunnel's length that the platform's centre of mass went through between the walls, 0 to 1.
     pub share: f64,
@@ -140,6 +151,7 @@ pub struct Passage {
 
 /// Mean, 95th percentile and maximum, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MeanP95Max {
     /// Mean.
     pub mean: f64,
@@ -151,6 +163,7 @@ pub struct MeanP95Max {
 
 /// States that were left by their failsafe.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Failsafes {
     /// How many times one was.
     pub count: usize,
@@ -164,6 +177,7 @@ pub struct Failsafes {
 
 /// Retrievals of whiskers that had lost the object, by the thesis's definitions (section 5.2).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Retrieval {
     /// How many there were.
     pub count: usize,
@@ -177,6 +191,7 @@ pub struct Retrieval {
 
 /// Sharp corners, which turn by more than 20°: how well they were found, and what they cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Corners {
     /// How many there are.
     pub count: usize,
@@ -196,6 +211,7 @@ pub struct Corners {
 
 /// Contacts of the platform's body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Collisions {
     /// How many separate ones.
     pub count: usize,
@@ -205,6 +221,7 @@ pub struct Collisions {
 
 /// Mean, sample standard deviation and maximum, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MeanStdMax {
     /// Mean.
     pub mean: Option<f64>,
@@ -216,6 +233,7 @@ pub struct MeanStdMax {
 
 /// Mean and sample standard deviation, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MeanStd {
     /// Mean.
     pub mean: Option<f64>,
@@ -225,6 +243,7 @@ pub struct MeanStd {
 
 /// Wall time of a control tick (µs).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TickUs {
     /// Mean.
     pub mean: Option<f64>,

@@ -1,5 +1,6 @@
 //! What every tick of a run perceived and commanded, as programs read it.
 
+use super::Document;
 use serde::Serialize;
 
 use crate::run::{TickRecord, Trace};
@@ -8,6 +9,7 @@ use crate::run::{TickRecord, Trace};
 ///
 /// Places and directions are in the world frame. Every key is always there, with `null` for what the tick does not have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TickLine<'a> {
     /// Name of the scenario.
     pub scenario: &'a str,
@@ -29,8 +31,13 @@ pub struct TickLine<'a> {
     pub whiskers: Vec<WhiskerLine<'a>>,
 }
 
+impl Document for TickLine<'_> {
+    const FORMAT: &'static str = "tick";
+}
+
 /// One whisker in a tick.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WhiskerLine<'a> {
     /// Its name.
     pub whisker: &'a str,

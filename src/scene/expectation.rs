@@ -5,6 +5,7 @@ use std::fmt;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename_all = "lowercase"))]
 pub enum Outcome {
     /// As it should: the loop closed, or the time of a scenario without a loop was up.
     Completed,

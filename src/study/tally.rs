@@ -7,6 +7,7 @@ use crate::scene::Outcome;
 
 /// How a run of many ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Ending {
     /// As it should.
@@ -125,6 +126,7 @@ impl Figures {
 
 /// What became of some runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Tally {
     /// How many runs there were.
     pub runs: usize,

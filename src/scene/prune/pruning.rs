@@ -12,6 +12,7 @@ use super::reach::{Reach, may_be_rigid};
 
 /// What becomes of something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// It is left out, and the run is the same without it.
@@ -24,6 +25,7 @@ pub enum Verdict {
 
 /// A decision about a part of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Decision {
     /// What becomes of it.
     pub verdict: Verdict,
@@ -37,6 +39,7 @@ pub struct Decision {
 
 /// What is left out of a run and what stays, decided from the scenario and what the policy reads.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Pruning {
     /// The decisions.
     pub decisions: Vec<Decision>,

@@ -8,6 +8,7 @@ use crate::scene::Scene;
 
 /// What makes a run of the bench harder than the thesis's scenes are: friction, and the estimated noise of the real sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Conditions {
     /// Coefficient of sliding friction of whatever is touched. The tip model knows it, as one knows it that was calibrated on
     /// such a surface.

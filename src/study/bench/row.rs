@@ -1,5 +1,6 @@
 //! One run of the bench, against the thesis.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::report::{MeanStd, RunResult};
@@ -10,6 +11,7 @@ use super::thesis::{Reported, ThesisFigures, thesis_figures};
 
 /// How a figure compares with the thesis's, by their means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// At most the thesis's.
@@ -21,6 +23,7 @@ pub enum Verdict {
 /// The verdicts on the figures that the thesis reports of a scene; `None` on what it does not report, and on all of a run that did
 /// not complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Verdicts {
     /// On the mean error.
     pub error_mm: Option<Verdict>,
@@ -32,6 +35,7 @@ pub struct Verdicts {
 
 /// One run of the bench, beside what the thesis reports of its scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BenchRow {
     /// The run.
     #[serde(flatten)]
@@ -45,6 +49,10 @@ pub struct BenchRow {
     /// Whether the run completed, no figure is worse than the thesis's, and what the scenario expects holds; whether it completed,
     /// if conditions make it harder.
     pub passed: bool,
+}
+
+impl Document for BenchRow {
+    const FORMAT: &'static str = "bench";
 }
 
 impl BenchRow {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// A mean and a sample standard deviation (mm), as far as the thesis gives them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Reported {
     /// Mean.
     pub mean: f64,
@@ -13,6 +14,7 @@ pub struct Reported {
 
 /// What the thesis reports of a scene (sections 5.1 to 5.3).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ThesisFigures {
     /// Name of the scenario.
     #[serde(skip)]

@@ -1,5 +1,6 @@
 //! How fast the runs of the bench are.
 
+use crate::report::Document;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -52,6 +53,7 @@ impl Timing {
 
 /// How fast a scene is under a policy: medians over several runs of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TimingRow {
     /// The scenario, with what makes it harder.
     pub scenario: String,
@@ -77,8 +79,13 @@ pub struct TimingRow {
     pub tick_us: TickTimes,
 }
 
+impl Document for TimingRow {
+    const FORMAT: &'static str = "timing";
+}
+
 /// Time of a control tick (µs): perception, policy, and steering.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TickTimes {
     /// The median of the runs' means.
     pub mean: Option<f64>,

@@ -22,6 +22,7 @@ pub struct Fitted {
 
 /// How far a fit is off for sets that it has not seen: every fifth place is held out, with all its sets, five times.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct HeldOut {
     /// What was fitted, and what it is for.
     pub model: &'static str,

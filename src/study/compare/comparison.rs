@@ -1,5 +1,6 @@
 //! All figures of several policies over the same runs.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::report::RunResult;
@@ -10,6 +11,7 @@ use super::figure::FIGURES;
 
 /// Policies over the same runs: every scenario from every start, with the same noise.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Comparison {
     /// The policies, in the order given; the first is what the others are compared with.
     pub policies: Vec<PolicyRuns>,
@@ -17,8 +19,13 @@ pub struct Comparison {
     pub figures: Vec<FigureComparison>,
 }
 
+impl Document for Comparison {
+    const FORMAT: &'static str = "comparison";
+}
+
 /// The runs of one policy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct PolicyRuns {
     /// The policy's file.
     pub policy: String,
@@ -30,6 +37,7 @@ pub struct PolicyRuns {
 
 /// A run that did not complete.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Incomplete {
     /// Name of the scenario.
     pub scenario: String,

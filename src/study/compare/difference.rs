@@ -12,6 +12,7 @@ const CONFIDENCE: f64 = 0.95;
 
 /// What can be said of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Outlook {
     /// The interval has only differences in which the policy is better than the first.
@@ -26,6 +27,7 @@ pub enum Outlook {
 
 /// The mean difference of a policy from the first, with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Difference {
     /// The mean of this policy less that of the first.
     pub mean: f64,
@@ -38,6 +40,7 @@ pub struct Difference {
 
 /// One figure of one policy against the first, over the pairs in which both have it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FigureComparison {
     /// Name of the figure, with its unit.
     pub figure: &'static str,

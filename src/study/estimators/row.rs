@@ -1,5 +1,6 @@
 //! How one tip model did.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::machine::TipModelKind;
@@ -8,6 +9,7 @@ use crate::study::TipShares;
 
 /// How one tip model did on the samples of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct EstimatorRow {
     /// The scene.
     pub scenario: String,
@@ -31,6 +33,10 @@ pub struct EstimatorRow {
     pub on_shaft: f64,
     /// Mean time that perception takes a tick (µs), all whiskers together.
     pub tick_us: f64,
+}
+
+impl Document for EstimatorRow {
+    const FORMAT: &'static str = "estimators";
 }
 
 /// A table with a line for every scene and noise, and figures of all scenes below: of every tip model the mean and the 95th percentile

@@ -1,11 +1,13 @@
 //! One run in a scene of a family.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::report::RunResult;
 
 /// A run in one scene of a family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FamilyRun {
     /// The family.
     pub family: &'static str,
@@ -20,4 +22,8 @@ pub struct FamilyRun {
     /// What came of it.
     #[serde(flatten)]
     pub result: RunResult,
+}
+
+impl Document for FamilyRun {
+    const FORMAT: &'static str = "family-run";
 }

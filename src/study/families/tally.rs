@@ -8,6 +8,7 @@ use super::run::FamilyRun;
 
 /// What became of the runs of one family, or of those at one speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FamilyTally {
     /// The family.
     pub family: &'static str,

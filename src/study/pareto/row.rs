@@ -1,5 +1,6 @@
 //! What one setting costs, and what it is worth.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::rig::Rig;
@@ -12,6 +13,7 @@ use super::setting::Setting;
 
 /// What a scene's settings cost, and what they are worth.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Pareto {
     /// The scenario.
     pub scenario: String,
@@ -28,8 +30,13 @@ pub struct Pareto {
     pub settings: Vec<ParetoRow>,
 }
 
+impl Document for Pareto {
+    const FORMAT: &'static str = "pareto";
+}
+
 /// What one setting costs, and what it is worth.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ParetoRow {
     /// What is not as in the scenario.
     pub setting: String,
@@ -73,6 +80,7 @@ pub struct ParetoRow {
 
 /// Whether a setting is on the fronts of time against error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Front {
     /// Against the exact contour.
     pub exact: bool,

@@ -1,5 +1,6 @@
 //! What becomes of a case.
 
+use crate::report::Document;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -19,6 +20,7 @@ use super::stability::StabilityCase;
 
 /// What became of a case, or of the search for a largest stable step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum StressRow {
     /// Of a case.
@@ -49,6 +51,10 @@ pub enum StressRow {
         /// Why there is no answer, if there is none.
         reason: Option<String>,
     },
+}
+
+impl Document for StressRow {
+    const FORMAT: &'static str = "stress";
 }
 
 impl StressRow {

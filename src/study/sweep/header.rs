@@ -1,5 +1,6 @@
 //! What results of a sweep are results of.
 
+use crate::report::Document;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -9,6 +10,7 @@ use super::shard::Shard;
 
 /// The first line of a file of results: everything that the results depend on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Header {
     /// The name of the sweep.
     pub sweep: String,
@@ -18,6 +20,10 @@ pub struct Header {
     pub text: String,
     /// What it refers to, and the program, each with its version or the hash of what it holds.
     pub inputs: BTreeMap<String, String>,
+}
+
+impl Document for Header {
+    const FORMAT: &'static str = "sweep";
 }
 
 impl Header {

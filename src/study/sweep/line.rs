@@ -1,5 +1,6 @@
 //! The result of a run of a sweep, as a line.
 
+use crate::report::Document;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -11,6 +12,7 @@ use crate::study::{Ending, Figures, TipShares};
 
 /// The result of a run of a sweep; serialised, a line of its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepLine {
     /// The hash of its key, in hexadecimal digits.
     run: String,
@@ -28,8 +30,13 @@ pub struct SweepLine {
     end: End,
 }
 
+impl Document for SweepLine {
+    const FORMAT: &'static str = "sweep-run";
+}
+
 /// What came of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 enum End {
     Result {

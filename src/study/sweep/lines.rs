@@ -4,6 +4,10 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use serde::Deserialize;
+
+use crate::report::Document;
+
 use super::header::Header;
 use super::results::ResultsError;
 
@@ -12,7 +16,13 @@ use super::results::ResultsError;
 pub(super) const LINE_LIMIT: usize = 16 << 20;
 
 /// How every file of results begins.
-const BEGINNING: &[u8] = br#"{"sweep":""#;
+const BEGINNING: &[u8] = br#"{"format":"sweep""#;
+
+/// What a first line says before it is known to be of this version.
+#[derive(Deserialize)]
+struct Preamble {
+    version: Option<u32>,
+}
 
 /// A reader of results, from the first line on.
 pub(super) struct Lines<'f> {
@@ -36,6 +46,14 @@ impl<'f> Lines<'f> {
         let text = self.read()?;
         let is_whole = text.ends_with(b"\n");
         if is_whole {
+            let preamble: Preamble = serde_json::from_slice(&text).map_err(|cause| no_results(cause.to_string()))?;
+            if preamble.version != Some(Header::VERSION) {
+                let version = preamble.version.map_or("no version".to_owned(), |version| format!("version {version}"));
+                let this = Header::VERSION;
+                return Err(no_results(format!(
+                    "it has {version} of the format, and this program reads version {this}"
+                )));
+            }
             let header = serde_json::from_slice(&text);
             return header.map(Some).map_err(|cause| no_results(cause.to_string()));
         }

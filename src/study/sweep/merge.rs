@@ -1,5 +1,6 @@
 //! The results of a sweep's shards as one.
 
+use crate::report::Document;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -107,7 +108,7 @@ impl Merged {
     /// # Errors
     /// The header cannot be written as JSON, which would be a fault of the program.
     pub fn text(&self) -> serde_json::Result<String> {
-        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE))?;
+        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned())?;
         for line in self.lines.values() {
             text.push('\n');
             text += line;

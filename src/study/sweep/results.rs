@@ -1,5 +1,6 @@
 //! A file of results that grows line by line, and that is gone on with after a kill.
 
+use crate::report::Document;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::{File, TryLockError};
 use std::io::{self, Write};
@@ -125,7 +126,7 @@ impl Results {
         file.set_len(whole).map_err(&failed)?;
         let mut results = Self { path: path.to_owned(), file };
         if found.is_none() {
-            let header = serde_json::to_string(header).map_err(io::Error::from).map_err(&failed)?;
+            let header = serde_json::to_string(&header.versioned()).map_err(io::Error::from).map_err(&failed)?;
             results.add(&header)?;
             file::sync_name(path).map_err(&failed)?;
         }

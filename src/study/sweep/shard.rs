@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 /// One of several parts of a sweep. Which part a run belongs to depends on its key alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
     /// Which part, from 1.

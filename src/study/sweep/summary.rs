@@ -1,5 +1,6 @@
 //! What became of a sweep.
 
+use crate::report::Document;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -10,6 +11,7 @@ use crate::study::{Figures, Tally};
 
 /// What became of a sweep, or of a part of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepSummary {
     /// The name of the sweep.
     pub sweep: String,
@@ -19,8 +21,13 @@ pub struct SweepSummary {
     pub groups: Vec<SweepGroup>,
 }
 
+impl Document for SweepSummary {
+    const FORMAT: &'static str = "sweep-summary";
+}
+
 /// The runs of one family or scenario under one policy, with one value of everything that varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepGroup {
     /// The family or the scenario.
     pub scenes: String,

@@ -1,5 +1,6 @@
 //! How far a tier is from another.
 
+use crate::report::Document;
 use serde::Serialize;
 
 use crate::report::{NONE, ruled};
@@ -8,6 +9,7 @@ use crate::study::Ending;
 
 /// How far a tier is from another, the reference, in one scene under one policy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TierRow {
     /// The scenario.
     pub scenario: String,
@@ -39,8 +41,13 @@ pub struct TierRow {
     pub contour_mm: Option<f64>,
 }
 
+impl Document for TierRow {
+    const FORMAT: &'static str = "worlds";
+}
+
 /// Differences, by their sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Apart {
     /// Their mean.
     pub mean: f64,

@@ -92,6 +92,19 @@ mod with_simulation {
         let mut found = Vec::new();
         keys(result, "", &mut found);
         let mut expected = [
+            "object_coverage",
+            "passage",
+            "tip_error_mm",
+            "tip_error_mm.across",
+            "tip_error_mm.across.max",
+            "tip_error_mm.across.mean",
+            "tip_error_mm.across.p95",
+            "tip_error_mm.along",
+            "tip_error_mm.along.max",
+            "tip_error_mm.along.mean",
+            "tip_error_mm.along.p95",
+            "format",
+            "version",
             "scenario",
             "policy",
             "world",
@@ -109,6 +122,7 @@ mod with_simulation {
             "error_mm.p95",
             "error_mm.max",
             "error_mm.n",
+            "error_mm.outliers",
             "error_mm.within_band",
             "coverage",
             "hausdorff_mm",
