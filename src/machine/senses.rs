@@ -11,7 +11,7 @@ pub trait Senses {
     /// Time since the start of the run (s).
     fn time(&self) -> f64;
 
-    /// A number that belongs to the body.
+    /// A number that belongs to the body; truths are 1 and 0.
     fn body(&self, quantity: BodyScalar) -> f64;
 
     /// Position of the platform's centre of mass in the world frame (m).
@@ -59,11 +59,15 @@ impl Mark {
     }
 }
 
-/// Numbers that belong to the body.
+/// Numbers and truths that belong to the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyScalar {
     /// Heading in the world frame (rad).
     Yaw,
+    /// Whether something other than its whiskers keeps the body from following its commands.
+    Blocked,
+    /// The speed that the body lacks against what its commands ask for (m/s), at the corner that lacks most.
+    Shortfall,
 }
 
 /// Numbers and truths that belong to a whisker.

@@ -30,6 +30,11 @@ impl PiController {
         output.clamp(-self.limit, self.limit)
     }
 
+    /// Begins with an output that is given while there is no error.
+    pub fn begin_at(&mut self, output: f64) {
+        self.accumulated = output.clamp(-self.limit, self.limit);
+    }
+
     /// Forgets the past.
     pub fn reset(&mut self) {
         self.accumulated = 0.0;

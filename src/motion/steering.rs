@@ -6,6 +6,7 @@ use crate::rig::Rig;
 use crate::signal::Command;
 
 use super::pi_controller::PiController;
+use super::pose_hold::PoseHold;
 
 /// Turns actions into commands for one rig (the thesis's algorithms 1 and 2).
 #[derive(Debug, Clone)]
@@ -13,6 +14,9 @@ pub struct Steering {
     /// Where every whisker that the policy binds has its base, in the body frame (m).
     bases_body: Vec<Vector2>,
     yaw_controller: PiController,
+    pose_hold: PoseHold,
+    /// Whether the last action was to stop.
+    is_stopped: bool,
     speed_limit: f64,
     yaw_rate_limit: f64,
     period: f64,
@@ -33,6 +37,8 @@ impl Steering {
                 .map(|index| index.map_or_else(Vector2::zeros, |index| rig.whiskers[index].base_body.coords))
                 .collect(),
             yaw_controller: PiController::new(yaw.proportional, yaw.integral, yaw.limit),
+            pose_hold: PoseHold::new(rig),
+            is_stopped: false,
             speed_limit: rig.platform.speed_limit,
             yaw_rate_limit: rig.platform.yaw_rate_limit,
             period: 1.0 / rig.sensing.control_rate,
@@ -42,6 +48,8 @@ impl Steering {
 
     /// The command for `action` with the platform at `body`.
     ///
+    /// To stop is to stand still, and then to hold that pose. To hold is to keep to the last command, or on stopping.
+    ///
     /// The body always moves at the speed asked for. Turning swings a whisker's base about the body; the body's direction, but
     /// not its speed, makes up for that. To make up for all of it, the body would have to be fastest just when a contour is
     /// least known and the platform turns most; swiping then loses its object within a second.
@@ -50,10 +58,15 @@ impl Steering {
     /// it would not be, as when the pose is not a number, the platform stands still.
     pub fn command(&mut self, action: &Action, body: Pose) -> Command {
         match *action {
+            Action::Hold if self.is_stopped => self.last = self.pose_hold.command(body),
             Action::Hold => {}
             Action::Stop => {
-                self.yaw_controller.reset();
-                self.last = Command::STOP;
+                if !self.is_stopped {
+                    self.yaw_controller.reset();
+                    self.pose_hold.reset();
+                }
+                self.is_stopped = true;
+                self.last = self.pose_hold.command(body);
             }
             Action::Steer { mover, along_world, speed, turn } => {
                 let speed = speed.clamp(-self.speed_limit, self.speed_limit);
@@ -75,6 +88,7 @@ impl Steering {
                     }
                 };
                 let command = Command { velocity_world, yaw_rate };
+                self.is_stopped = false;
                 self.last = if command.is_finite() { command } else { Command::STOP };
             }
         }

@@ -2,6 +2,7 @@
 
 mod base_angle;
 mod deflection;
+mod disturbance;
 mod local_contour;
 mod low_pass;
 mod moment_and_shear;

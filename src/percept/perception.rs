@@ -5,8 +5,9 @@ use std::sync::Arc;
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::machine::{BodyScalar, ContourVector, Mark, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
 use crate::rig::{Rig, Whisker};
-use crate::signal::Sample;
+use crate::signal::{Command, Sample};
 
+use super::disturbance::Disturbance;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
 use super::one_channel::OneChannel;
@@ -26,6 +27,7 @@ pub struct Perception {
     whiskers: Vec<PerceivedWhisker>,
     /// For each of them, its index in the rig and so in samples, if the rig has it.
     in_sample: Vec<Option<usize>>,
+    disturbance: Disturbance,
 }
 
 /// Why a rig cannot be perceived.
@@ -112,7 +114,13 @@ impl Perception {
             Ok(PerceivedWhisker::new(&whisker, filter, curve, model, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
-        Ok(Self { time: 0.0, body: Pose::default(), whiskers: perceived, in_sample: whiskers.to_vec() })
+        Ok(Self {
+            time: 0.0,
+            body: Pose::default(),
+            whiskers: perceived,
+            in_sample: whiskers.to_vec(),
+            disturbance: Disturbance::new(rig),
+        })
     }
 
     /// Begins a tick with the samples since the last one, oldest first.
@@ -139,6 +147,13 @@ impl Perception {
         for whisker in &mut self.whiskers {
             whisker.place(self.body);
         }
+        self.disturbance.update(samples, self.time, self.body);
+    }
+
+    /// Takes the command that the platform is given until the next tick: whether the body is blocked is judged by it. Without any it is
+    /// told to stand still.
+    pub fn command(&mut self, command: Command) {
+        self.disturbance.command(command);
     }
 
     /// Those of the policy's whiskers that the rig has, each with its index there.
@@ -200,6 +215,8 @@ impl Senses for Perception {
     fn body(&self, quantity: BodyScalar) -> f64 {
         match quantity {
             BodyScalar::Yaw => self.body.heading,
+            BodyScalar::Blocked => f64::from(u8::from(self.disturbance.is_blocked())),
+            BodyScalar::Shortfall => self.disturbance.shortfall(),
         }
     }
 

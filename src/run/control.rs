@@ -46,7 +46,9 @@ impl Control {
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = self.machine.tick(&mut self.perception);
-        (self.steering.command(&tick.action, self.perception.pose()), tick)
+        let command = self.steering.command(&tick.action, self.perception.pose());
+        self.perception.command(command);
+        (command, tick)
     }
 
     /// What it perceives.

@@ -6,7 +6,7 @@ use crate::geometry::{Arc, Piece, Point2, Segment};
 ///
 /// It lies at an end of one of the two, where they cross, or where both are square to the way across: on the line through
 /// the centre of an arc. So a few candidates on `line` and the ends of `piece` give it.
-pub(super) fn gap(line: &Segment, piece: &Piece) -> f64 {
+pub(crate) fn gap(line: &Segment, piece: &Piece) -> f64 {
     let inner = match piece {
         Piece::Segment(segment) => [crossing(line, segment); 2],
         Piece::Arc(arc) => crossings_or_foot(line, arc),

@@ -27,6 +27,7 @@ mod yaml;
 pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub use file_reference::FileReference;
+pub(crate) use gap::gap;
 pub use jitter::Jitter;
 pub use mjcf::{mjcf, mjcf_within, part_names};
 pub use part::Part;

@@ -65,6 +65,8 @@ impl Senses for Script {
     fn body(&self, quantity: BodyScalar) -> f64 {
         match quantity {
             BodyScalar::Yaw => 0.5,
+            BodyScalar::Blocked => f64::from(u8::from(self.now % 2 == 1)),
+            BodyScalar::Shortfall => 0.01,
         }
     }
 

@@ -162,8 +162,12 @@ impl Senses for Told {
         self.0.get("time").copied().unwrap_or(0.0)
     }
 
-    fn body(&self, _: BodyScalar) -> f64 {
-        self.get("body.yaw")
+    fn body(&self, quantity: BodyScalar) -> f64 {
+        self.get(match quantity {
+            BodyScalar::Yaw => "body.yaw",
+            BodyScalar::Blocked => "body.blocked",
+            BodyScalar::Shortfall => "body.shortfall",
+        })
     }
 
     fn body_position(&self) -> Vector2 {

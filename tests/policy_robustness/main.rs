@@ -27,7 +27,7 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 96] = [
+const TOKENS: [&str; 97] = [
     "var",
     "set",
     "entry",
@@ -98,6 +98,7 @@ const TOKENS: [&str; 96] = [
     "tip_at",
     "touching",
     "yaw",
+    "blocked",
     "1",
     "0.5",
     "3 mm",

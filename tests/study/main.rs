@@ -8,6 +8,7 @@ mod common;
 mod compare;
 mod corners;
 mod estimators;
+mod hostile;
 mod pareto;
 mod passage;
 #[cfg(feature = "sim")]

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
+mod blocked;
 #[cfg(feature = "sim")]
 mod cable;
 mod calibration;
@@ -14,6 +15,7 @@ mod friction;
 mod gaps;
 mod moment_and_shear;
 mod perception;
+mod pose_hold;
 mod quasi_static;
 mod sliding;
 #[cfg(feature = "sim")]

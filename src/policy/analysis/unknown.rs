@@ -61,6 +61,9 @@ impl Domain {
             Unknown::Register(_) => Self::Range(Interval::ANYTHING),
             Unknown::Time => range(0.0, 1e9),
             Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-WHIRL, WHIRL),
+            // The plainest body follows its commands.
+            Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
+            Unknown::Body(BodyScalar::Shortfall) => range(0.0, FAR),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a turn, and what a filter adds.
             Unknown::Deflection(_) => range(-TAU, TAU),

@@ -154,9 +154,21 @@ const CONTOUR: [Member; 6] = [
     ),
 ];
 
-const BODY: [Member; 2] = [
+const BODY: [Member; 4] = [
     member("yaw", Type::ANGLE, MemberSource::Body(BodyScalar::Yaw), "its heading; it counts whole turns"),
     member("position", Type::PLACE, MemberSource::BodyPosition, "its centre of mass"),
+    member(
+        "blocked",
+        Type::Truth,
+        MemberSource::Body(BodyScalar::Blocked),
+        "whether something other than the whiskers keeps it from following its commands",
+    ),
+    member(
+        "shortfall",
+        Type::SPEED,
+        MemberSource::Body(BodyScalar::Shortfall),
+        "the speed that it lacks against its commands, averaged over 0.2 s, at the corner that lacks most",
+    ),
 ];
 
 const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'static str) -> Member {

@@ -53,7 +53,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
     for place in ["let x = w.contour.\u{a7}", "steer body along r0.contour.\u{a7} at speed"] {
         assert_eq!(labels(&writing(place)), ["ready", "tangent", "normal", "end", "point", "curvature"], "{place}");
     }
-    assert_eq!(labels(&writing("let x = body.\u{a7}")), ["yaw", "position"]);
+    assert_eq!(labels(&writing("let x = body.\u{a7}")), ["yaw", "position", "blocked", "shortfall"]);
     for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}", "let x = w.tip.\u{a7}"] {
         assert_eq!(labels(&writing(place)), [""; 0], "{place}");
     }

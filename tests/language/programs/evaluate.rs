@@ -87,6 +87,8 @@ impl Interpreter<'_> {
                 }
             }
             Expression::Body("yaw") => Value::Number(self.senses.body(BodyScalar::Yaw)),
+            Expression::Body("blocked") => Value::Truth(self.senses.body(BodyScalar::Blocked) > 0.5),
+            Expression::Body("shortfall") => Value::Number(self.senses.body(BodyScalar::Shortfall)),
             Expression::Body(_) => Value::Vector(self.senses.body_position()),
             Expression::Member(owner, member, values) => {
                 let whisker = self.value(owner, place).whisker();

@@ -167,12 +167,14 @@ impl<'g> Grower<'g> {
             Type::Angle => self.of_whisker(&["deflection", "yaw"]),
             Type::Time => self.call("time", Vec::new()),
             Type::Truth if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "ready"),
+            Type::Truth if self.pick(3) == 0 => Expression::Body("blocked"),
+            Type::Speed => Expression::Body("shortfall"),
             Type::Truth => self.of_whisker(&["touching"]),
             Type::Vector => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
             Type::Place if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "end"),
             Type::Place => self.of_whisker(&["tip", "tip_base", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
-            Type::Whisker | Type::Speed | Type::Rate | Type::Frequency => self.simple(r#type),
+            Type::Whisker | Type::Rate | Type::Frequency => self.simple(r#type),
         }
     }
 

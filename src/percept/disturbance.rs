@@ -1,0 +1,150 @@
+//! What keeps the body from following its commands.
+
+use nalgebra::Vector3;
+
+use crate::geometry::{Point2, Pose, perpendicular, turn_between};
+use crate::rig::Rig;
+use crate::signal::{Command, MAX_WHISKERS, Sample};
+
+/// Time constant (s) with which motions that were asked for and motions that were made are averaged.
+const AVERAGED: f64 = 0.2;
+/// The body is blocked when it lacks more than this share of the speed asked for, beyond what its whiskers and [`NOISE`] explain.
+const SHARE: f64 = 0.5;
+/// Shortfall (m/s) that errors of measured poses explain.
+const NOISE: f64 = 2e-3;
+/// A whisker is taken to be touched at this share of its length, where the force for the same base angle is that much larger than
+/// at the tip.
+const TOUCHED_AT: f64 = 1.0 / 3.0;
+
+/// Compares the poses that the body takes with those that its servos should give it under the commands.
+///
+/// A servo of the time constant `T` (s) follows a command `u` by `T v' = u - v`. What the poses lack of that is a disturbance: a
+/// force `F` takes `F T / m` from the speed. The whiskers' own forces are known from their base angles, within a factor.
+#[derive(Debug, Clone)]
+pub(super) struct Disturbance {
+    /// The corners of the body, in its frame (m).
+    corners_body: [Point2; 4],
+    /// Time constant of the servos (s).
+    servo: f64,
+    /// The speed (m/s) of the body's fastest corner by which each whisker may push the body, for a base angle of 1 rad.
+    pushes: [f64; MAX_WHISKERS],
+    /// The newest base angle of each whisker (rad).
+    base_angles: [f64; MAX_WHISKERS],
+    command: Command,
+    /// The speed that the servos should have reached.
+    speed: Motion,
+    /// Time of the last tick (s).
+    time: f64,
+    /// The last pose that was known.
+    pose: Pose,
+    /// The motion that should have been made since then, and the time that it took (s).
+    expected: Motion,
+    elapsed: f64,
+    /// Averages: speed that is missing, speed of the fastest corner that was asked for (m/s), speed that whiskers explain (m/s).
+    missing: Motion,
+    asked: f64,
+    pushed: f64,
+}
+
+/// A motion of the body, or its speed: x and y of the centre of mass (m, world frame), and the turn (rad).
+type Motion = Vector3<f64>;
+
+impl Disturbance {
+    pub(super) fn new(rig: &Rig) -> Self {
+        let platform = &rig.platform;
+        let corners_body = platform.outline_body();
+        let reach = corners_body.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max);
+        let mut pushes = [0.0; MAX_WHISKERS];
+        for (push, whisker) in pushes.iter_mut().zip(&rig.whiskers) {
+            let (whisker, arm) = (whisker.perceived(), whisker.base_body.coords.norm() + whisker.shaft.length);
+            let force = whisker.hinge.stiffness / (TOUCHED_AT * whisker.shaft.length);
+            *push = force * platform.servo * (1.0 / platform.mass + reach * arm / platform.inertia);
+        }
+        Self {
+            corners_body,
+            servo: platform.servo,
+            pushes,
+            base_angles: [0.0; MAX_WHISKERS],
+            command: Command::STOP,
+            speed: Motion::default(),
+            time: 0.0,
+            pose: Pose::UNKNOWN,
+            expected: Motion::default(),
+            elapsed: 0.0,
+            missing: Motion::default(),
+            asked: 0.0,
+            pushed: 0.0,
+        }
+    }
+
+    /// Takes the command that holds until the next tick.
+    pub(super) fn command(&mut self, command: Command) {
+        self.command = command;
+    }
+
+    /// Takes the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown.
+    pub(super) fn update(&mut self, samples: &[Sample], time: f64, pose: Pose) {
+        for sample in samples {
+            for (base_angle, reading) in self.base_angles.iter_mut().zip(&sample.whiskers) {
+                if reading.base_angle.is_finite() {
+                    *base_angle = reading.base_angle;
+                }
+            }
+        }
+        let period = time - std::mem::replace(&mut self.time, time);
+        if period > 0.0 {
+            self.expect(period);
+        }
+        if pose.is_finite() {
+            let before = std::mem::replace(&mut self.pose, pose);
+            if before.is_finite() && self.elapsed > 0.0 {
+                self.compare(before, pose);
+            }
+            (self.expected, self.elapsed) = (Motion::default(), 0.0);
+        }
+    }
+
+    /// Adds the motion that a servo makes in `period` (s).
+    fn expect(&mut self, period: f64) {
+        let aim = self.command.velocity_world.push(self.command.yaw_rate);
+        let left = (-period / self.servo).exp();
+        // For how long it would have to go at the difference to its aim.
+        let behind = self.servo * (1.0 - left);
+        self.expected += self.speed * behind + aim * (period - behind);
+        self.speed = self.speed * left + aim * (1.0 - left);
+        self.elapsed += period;
+    }
+
+    /// Averages what is missing of the expected motion.
+    fn compare(&mut self, before: Pose, pose: Pose) {
+        let mut missing = self.expected - (pose.position - before.position).push(pose.heading - before.heading);
+        // A heading may be given within one turn.
+        missing.z = turn_between(0.0, missing.z);
+        let asked = self.fastest(self.expected) / self.elapsed;
+        let bends = self.base_angles.iter().zip(&self.pushes);
+        let pushed: f64 = bends.map(|(base_angle, push)| base_angle.abs() * push).sum();
+        let left = (-self.elapsed / AVERAGED).exp();
+        self.missing = self.missing * left + missing * ((1.0 - left) / self.elapsed);
+        self.asked = self.asked * left + asked * (1.0 - left);
+        self.pushed = self.pushed * left + pushed * (1.0 - left);
+    }
+
+    /// The largest motion (m) of a corner of the body.
+    fn fastest(&self, motion: Motion) -> f64 {
+        let of_corner = |corner: &Point2| {
+            let arm = self.pose.vector_to_world(corner.coords);
+            (motion.xy() + motion.z * perpendicular(arm)).norm()
+        };
+        self.corners_body.iter().map(of_corner).fold(0.0, f64::max)
+    }
+
+    /// The speed (m/s) that the corner of the body lacks which lacks most, averaged; 0 before there are two poses.
+    pub(super) fn shortfall(&self) -> f64 {
+        if self.pose.is_finite() { self.fastest(self.missing) } else { 0.0 }
+    }
+
+    /// Whether something other than the whiskers keeps the body from following its commands.
+    pub(super) fn is_blocked(&self) -> bool {
+        self.shortfall() > SHARE * self.asked + self.pushed + NOISE
+    }
+}

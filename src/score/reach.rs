@@ -1,0 +1,239 @@
+//! What of an outline the rig cannot get to.
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::Estimate;
+use super::coverage::traced;
+use crate::geometry::{Contour, Point2, Segment, Vector2, perpendicular, rotate};
+use crate::rig::Rig;
+use crate::scene::{Truth, gap};
+
+/// Side of the squares (m) to whose corners the search for a whisker's base and its shaft goes. Slits narrower than that count as closed.
+const CELL: f64 = 5e-3;
+/// Headings in which the platform is tried.
+const HEADINGS: u32 = 120;
+/// Distance (m) between the points of an outline that are tried.
+const SPACING: f64 = 4e-3;
+/// The most by which a way along sides and diagonals of squares is longer than the straight one.
+const DETOUR: f64 = 1.0824;
+/// How far (m) off an outline its points are tried, on the outside.
+const OFF: f64 = 1e-5;
+
+/// The length (m) of the reference that was not traced, and that the rig certainly cannot touch with a tip, wherever it stands.
+///
+/// A tip can touch a point only if the platform has a pose in which its footprint is clear of all solids, and if from a
+/// whisker's base there the shortest way through free space to the point is no longer than the whisker. Bent shafts go along no shorter
+/// ways. Whether the platform can get into that pose, how far a shaft may be bent, and where the other whiskers are, is left out. So what is
+/// told to be out of reach is, and some of the rest may be, too.
+///
+/// Poses are tried on a grid, and footprints are smaller by what lies between two poses of it, some 7 mm for the reference rig. Where the
+/// platform gets stuck by its taper, that lets it in some 3 cm deeper. Points are tried every 4 mm.
+#[must_use]
+pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
+    let mut search = Search::new(rig, truth);
+    let of_contour = |contour: &Contour| -> f64 {
+        untraced(&traced(estimate, contour), contour.length())
+            .map(|stretch| search.out_of_reach(contour, &stretch))
+            .sum()
+    };
+    // Not `sum`, whose nothing is negative zero.
+    truth.reference.contours().map(of_contour).fold(0.0, |sum, length| sum + length)
+}
+
+/// The stretches of `0..length` between others.
+fn untraced(traced: &[Range<f64>], length: f64) -> impl Iterator<Item = Range<f64>> {
+    let starts = std::iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
+    let ends = traced.iter().map(|stretch| stretch.start).chain([length]);
+    starts.zip(ends).map(|(start, end)| start..end).filter(|stretch| stretch.end > stretch.start)
+}
+
+/// A corner of the squares, by its column and row.
+type Node = (i64, i64);
+
+/// A search through the free space of one scene. What it found out about nodes is kept.
+struct Search<'s> {
+    truth: &'s Truth,
+    /// Of every whisker: its base in the body frame (m), and the corners of the footprint from there, smaller by what lies between poses.
+    mounts: Vec<[Vector2; 4]>,
+    /// The longest whisker (m).
+    length: f64,
+    is_free: HashMap<Node, bool>,
+    has_base: HashMap<Node, bool>,
+}
+
+impl<'s> Search<'s> {
+    fn new(rig: &Rig, truth: &'s Truth) -> Self {
+        let corners_body = rig.platform.outline_body();
+        let mounts = rig.whiskers.iter().map(|whisker| {
+            let from_base = corners_body.map(|corner| corner - whisker.base_body);
+            let arm = from_base.iter().map(|corner| corner.norm()).fold(0.0, f64::max);
+            // Half of a square's diagonal, and half of the turn between two headings.
+            let margin = CELL * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
+            shrunk(from_base, margin)
+        });
+        Self {
+            truth,
+            mounts: mounts.collect(),
+            length: rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, f64::max),
+            is_free: HashMap::new(),
+            has_base: HashMap::new(),
+        }
+    }
+
+    /// The length (m) of a stretch of a contour that no tip can touch.
+    fn out_of_reach(&mut self, contour: &Contour, stretch: &Range<f64>) -> f64 {
+        let width = stretch.end - stretch.start;
+        let pieces = (width / SPACING).ceil().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pieces")]
+        let unreached = (0..pieces as usize).filter(|&index| {
+            let s = stretch.start + (index as f64 + 0.5) / pieces * width;
+            // The outside is on the right; what can be touched of an open contour may be on either side.
+            let outwards = -OFF * perpendicular(contour.tangent_at(s));
+            let at = contour.point_at(s);
+            let can_touch = |search: &mut Self, from: Point2| search.is_outside(from) && search.reaches(from);
+            !can_touch(self, at + outwards) && (contour.is_closed() || !can_touch(self, at - outwards))
+        });
+        unreached.count() as f64 * width / pieces
+    }
+
+    /// Whether the shortest way through free space from a point to a base of a whisker is no longer than the longest whisker.
+    fn reaches(&mut self, point: Point2) -> bool {
+        let most = DETOUR * self.length + 2.0 * CELL;
+        let mut open = BinaryHeap::new();
+        let mut nearest: HashMap<Node, f64> = HashMap::new();
+        let (column, row) = node_at(point);
+        for node in (-1..=2).flat_map(|x| (-1..=2).map(move |y| (column + x, row + y))) {
+            let length = (place(node) - point).norm();
+            if length <= 2.0 * CELL && self.is_free(node) && self.is_open(point, place(node)) {
+                nearest.insert(node, length);
+                open.push(Way { length, node });
+            }
+        }
+        while let Some(Way { length, node }) = open.pop() {
+            if length > most {
+                return false;
+            }
+            if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
+                continue;
+            }
+            if self.has_base(node) {
+                return true;
+            }
+            for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                let next = (node.0 + step.0, node.1 + step.1);
+                let length = length + (place(next) - place(node)).norm();
+                let is_shorter = nearest.get(&next).is_none_or(|&known| length < known);
+                if is_shorter && self.is_free(next) && self.is_open(place(node), place(next)) {
+                    nearest.insert(next, length);
+                    open.push(Way { length, node: next });
+                }
+            }
+        }
+        false
+    }
+
+    fn is_free(&mut self, node: Node) -> bool {
+        let truth = self.truth;
+        *self.is_free.entry(node).or_insert_with(|| is_outside(truth, place(node)))
+    }
+
+    fn is_outside(&self, point: Point2) -> bool {
+        is_outside(self.truth, point)
+    }
+
+    /// Whether nothing is between two points.
+    fn is_open(&self, start: Point2, end: Point2) -> bool {
+        let line = Segment { start, end };
+        let mut surfaces = self.truth.surfaces.contours();
+        surfaces.all(|contour| contour.distance(start) > (end - start).norm() || crosses_nothing(contour, &line))
+    }
+
+    /// Whether the platform has a pose that is clear of everything, with the base of a whisker at most half a square's diagonal off.
+    fn has_base(&mut self, node: Node) -> bool {
+        if let Some(&known) = self.has_base.get(&node) {
+            return known;
+        }
+        let base = place(node);
+        let headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
+        let found = headings
+            .flat_map(|heading| self.mounts.iter().map(move |corners| (heading, corners)))
+            .any(|(heading, corners)| is_clear(self.truth, &corners.map(|corner| base + rotate(corner, heading))));
+        self.has_base.insert(node, found);
+        found
+    }
+}
+
+fn is_outside(truth: &Truth, point: Point2) -> bool {
+    truth.surfaces.contours().all(|contour| !contour.contains(point))
+}
+
+/// Whether a convex polygon, given counter-clockwise, is clear of all solids.
+fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
+    let middle = Point2::from(corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords / 4.0));
+    let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
+    truth.surfaces.contours().all(|contour| {
+        let distance = contour.distance(middle);
+        if distance > radius {
+            return !contour.contains(middle);
+        }
+        let sides = (0..4).map(|side| Segment { start: corners[side], end: corners[(side + 1) % 4] });
+        let mut sides = sides.map(|side| crosses_nothing(contour, &side));
+        !contour.contains(middle) && sides.all(|clear| clear) && !is_within(corners, contour.point_at(0.0))
+    })
+}
+
+fn crosses_nothing(contour: &Contour, line: &Segment) -> bool {
+    contour.pieces().iter().all(|piece| gap(line, piece) > 0.0)
+}
+
+fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
+    (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
+}
+
+/// A convex polygon, given counter-clockwise, with all sides moved inwards by `margin` (m); one that is thinner than that becomes a point.
+fn shrunk(corners: [Vector2; 4], margin: f64) -> [Vector2; 4] {
+    let middle = corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner / 4.0);
+    let inwards = |side: usize| perpendicular((corners[(side + 1) % 4] - corners[side]).normalize());
+    let widest = (0..4).map(|side| inwards(side).dot(&(middle - corners[side]))).fold(f64::INFINITY, f64::min);
+    if widest <= margin {
+        return [middle; 4];
+    }
+    [0, 1, 2, 3].map(|corner| {
+        let (before, after) = (inwards((corner + 3) % 4), inwards(corner));
+        // Where both moved sides meet.
+        corners[corner] + margin / (1.0 + before.dot(&after)) * (before + after)
+    })
+}
+
+fn place((column, row): Node) -> Point2 {
+    Point2::new(column as f64 * CELL, row as f64 * CELL)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a scene is some metres wide")]
+fn node_at(point: Point2) -> Node {
+    ((point.x / CELL).floor() as i64, (point.y / CELL).floor() as i64)
+}
+
+/// The way to a node; the shortest one is the greatest.
+#[derive(PartialEq)]
+struct Way {
+    length: f64,
+    node: Node,
+}
+
+impl Eq for Way {}
+
+impl Ord for Way {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.length.total_cmp(&self.length)
+    }
+}
+
+impl PartialOrd for Way {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
