@@ -13,6 +13,7 @@ mod pareto;
 mod passage;
 #[cfg(feature = "sim")]
 mod pruning;
+mod reach;
 mod report;
 mod retrieval;
 mod runs;

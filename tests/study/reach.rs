@@ -1,0 +1,80 @@
+//! What the rig cannot get to, in scenes where geometry tells that.
+
+use proptest::prelude::*;
+use vibrissa::geometry::{Contour, Point2, circle, polygon};
+use vibrissa::rig::Rig;
+use vibrissa::scene::Truth;
+use vibrissa::score::{Estimate, out_of_reach};
+
+use crate::runs::run_with;
+
+/// The length (m) that is out of reach of a rig that has recorded these tips.
+fn unreached(contour: Contour, rig: &Rig, tips: Vec<Option<Point2>>) -> f64 {
+    out_of_reach(&Estimate::new(&run_with(&[tips]).trace), &Truth::from(contour), rig)
+}
+
+/// A hook with walls of 3 cm, open at its top, that is so wide and so deep (m) inside.
+fn hook(width: f64, depth: f64) -> Contour {
+    let (wall, right, top) = (0.03, 0.03 + width, 0.03 + depth);
+    let corners = [
+        (0.0, 0.0),
+        (right + wall, 0.0),
+        (right + wall, top),
+        (right, top),
+        (right, wall),
+        (wall, wall),
+        (wall, top + 0.2),
+        (0.0, top + 0.2),
+    ];
+    polygon(&corners.map(|(x, y)| Point2::new(x, y))).unwrap()
+}
+
+#[test]
+fn all_of_a_convex_object_is_in_reach() {
+    let disk = circle(Point2::new(0.4, 0.4), 0.1).unwrap();
+    let plate = polygon(&[(0.0, 0.0), (0.3, 0.0), (0.3, 0.002), (0.0, 0.002)].map(|(x, y)| Point2::new(x, y))).unwrap();
+    for outline in [disk, plate] {
+        assert!(unreached(outline, &Rig::default(), Vec::new()) < 1e-12);
+    }
+}
+
+#[test]
+fn the_end_of_a_deep_hook_is_out_of_reach() {
+    // The nose comes in as far as the body is narrower than the hook, and a whisker reaches on from its base.
+    let platform = Rig::default().platform;
+    for (width, depth) in [(0.06, 0.2), (0.08, 0.2), (0.1, 0.3)] {
+        let taper = (platform.tail_width - platform.nose_width) / platform.length;
+        let (nose, base) = ((width - platform.nose_width) / taper, 0.055);
+        let deepest = nose - base + Rig::default().whiskers[0].shaft.length;
+        let found = unreached(hook(width, depth), &Rig::default(), Vec::new());
+        let exact = 2.0 * (depth - deepest) + width;
+        assert!(found <= exact && found >= exact - 0.12, "{width} m: {found} m of {exact} m");
+    }
+}
+
+#[test]
+fn all_of_a_wide_hook_is_in_reach() {
+    assert!(unreached(hook(0.3, 0.2), &Rig::default(), Vec::new()) < 1e-12);
+}
+
+#[test]
+fn what_was_traced_is_in_reach() {
+    let outline = hook(0.08, 0.2);
+    let count = 1500;
+    let tips = (0..=count).map(|index| outline.point_at(f64::from(index) / f64::from(count) * outline.length()));
+    let tips: Vec<_> = tips.map(Some).collect();
+    assert!(unreached(outline, &Rig::default(), tips) < 1e-12);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    #[test]
+    fn longer_whiskers_reach_no_less(width in 0.04..0.1_f64, longer in 1.1..2.0_f64) {
+        let rig = Rig::default();
+        let mut long = rig.clone();
+        long.whiskers.iter_mut().for_each(|whisker| whisker.shaft.length *= longer);
+        let [short, long] = [&rig, &long].map(|rig| unreached(hook(width, 0.25), rig, Vec::new()));
+        prop_assert!(long <= short, "{long} m of {short} m");
+    }
+}
