@@ -44,6 +44,10 @@ pub struct RunResult {
     pub coverage: f64,
     /// Share of the outline of the object whose loop closed that was traced, 0 to 1.
     pub object_coverage: f64,
+    /// Share of the reference that was not traced and that the rig certainly cannot reach, 0 to 1.
+    pub out_of_reach: f64,
+    /// Share of the rest of the reference that was traced, 0 to 1.
+    pub coverage_in_reach: f64,
     /// How the platform went through a tunnel; `None` outside of one.
     pub passage: Option<Passage>,
     /// Symmetric Hausdorff distance between the estimated contour and the reference.
@@ -294,6 +298,8 @@ impl RunResult {
             }),
             coverage: score.coverage,
             object_coverage: score.object_coverage,
+            out_of_reach: score.out_of_reach,
+            coverage_in_reach: score.coverage_in_reach(),
             passage: score.passage.map(|passage| Passage {
                 share: passage.share,
                 left_coverage: passage.left_coverage,

@@ -14,11 +14,8 @@ mod excursion;
 mod hausdorff;
 mod latency;
 mod lipschitz;
-<<<<<<< HEAD
 mod passage;
-=======
 mod reach;
->>>>>>> 45fc7f1 (Sense whether the body follows its commands, hold the pose of a stop)
 mod retrieval;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the room's name")]
 mod score;
@@ -36,11 +33,8 @@ pub use estimate::{Estimate, LONGEST_BREAK, LONGEST_STEP};
 pub use excursion::{Excursion, excursions};
 pub use hausdorff::{HAUSDORFF_TOLERANCE, hausdorff};
 pub use latency::Latency;
-<<<<<<< HEAD
 pub use passage::Passage;
-=======
 pub use reach::out_of_reach;
->>>>>>> 45fc7f1 (Sense whether the body follows its commands, hold the pose of a stop)
 pub use retrieval::{MarkPlace, Retrieval, RetrievalFigures, Spread, mark_places, retrievals};
 pub use score::Score;
 pub use state_share::{StateShare, state_shares};

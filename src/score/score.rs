@@ -2,7 +2,7 @@
 
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Passage, RetrievalFigures, Spread, StateShare,
-    axis_error, body_path, coverage, hausdorff, object_coverage, state_shares, tips,
+    axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach, state_shares, tips,
 };
 use crate::rig::Rig;
 use crate::run::Run;
@@ -17,6 +17,8 @@ pub struct Score {
     pub coverage: f64,
     /// The share of the [object whose loop closed](object_coverage) that was traced, 0 to 1.
     pub object_coverage: f64,
+    /// The share of the reference that was not traced and that the rig certainly [cannot reach](out_of_reach), 0 to 1.
+    pub out_of_reach: f64,
     /// How the platform went through a tunnel; `None` without one.
     pub passage: Option<Passage>,
     /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference; `None` if no tip
@@ -52,6 +54,7 @@ impl Score {
             error: ErrorFigures::of(&tips),
             coverage: coverage(&estimate, &truth.reference),
             object_coverage: object_coverage(&estimate, last_tip, &truth.reference),
+            out_of_reach: out_of_reach(&estimate, truth, rig) / truth.reference.length(),
             passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
@@ -63,6 +66,12 @@ impl Score {
             collisions: Collisions::of(&run.trace),
             latency: Latency::of(&run.tick_times),
         }
+    }
+
+    /// The share of what is not [out of reach](Self::out_of_reach) that was traced, 0 to 1.
+    #[must_use]
+    pub fn coverage_in_reach(&self) -> f64 {
+        (self.coverage / (1.0 - self.out_of_reach)).min(1.0)
     }
 
     /// The figures of corners if all were traced: one that was never found is worse than the worst of the others.
