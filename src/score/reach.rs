@@ -12,13 +12,15 @@ use crate::rig::Rig;
 use crate::scene::{Truth, gap};
 
 /// Side of the squares (m) to whose corners the search for a whisker's base and its shaft goes. Slits narrower than that count as closed.
-const CELL: f64 = 5e-3;
+const CELL: f64 = 2.5e-3;
 /// Headings in which the platform is tried.
-const HEADINGS: u32 = 120;
+const HEADINGS: u32 = 240;
 /// Distance (m) between the points of an outline that are tried.
 const SPACING: f64 = 4e-3;
 /// The most by which a way along sides and diagonals of squares is longer than the straight one.
 const DETOUR: f64 = 1.0824;
+/// A gap (m) up to which two lines cross: where they do, it is zero up to rounding.
+const ROUNDING: f64 = 1e-9;
 /// How far (m) off an outline its points are tried, on the outside.
 const OFF: f64 = 1e-5;
 
@@ -29,8 +31,8 @@ const OFF: f64 = 1e-5;
 /// ways. Whether the platform can get into that pose, how far a shaft may be bent, and where the other whiskers are, is left out. So what is
 /// told to be out of reach is, and some of the rest may be, too.
 ///
-/// Poses are tried on a grid, and footprints are smaller by what lies between two poses of it, some 7 mm for the reference rig. Where the
-/// platform gets stuck by its taper, that lets it in some 3 cm deeper. Points are tried every 4 mm.
+/// Poses are tried on a grid, and footprints are smaller by what lies between two poses of it, some 4 mm for the reference rig. Where the
+/// platform gets stuck by its taper, that lets it in some 15 mm deeper. Points are tried every 4 mm.
 #[must_use]
 pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
     let mut search = Search::new(rig, truth);
@@ -158,9 +160,13 @@ impl<'s> Search<'s> {
         }
         let base = place(node);
         let headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
-        let found = headings
-            .flat_map(|heading| self.mounts.iter().map(move |corners| (heading, corners)))
-            .any(|(heading, corners)| is_clear(self.truth, &corners.map(|corner| base + rotate(corner, heading))));
+        let found = headings.flat_map(|heading| self.mounts.iter().map(move |corners| (heading, corners))).any(
+            |(heading, corners)| {
+                let corners = corners.map(|corner| base + rotate(corner, heading));
+                // The smaller footprint leaves the base outside, where a thin wall could be between the two.
+                is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
+            },
+        );
         self.has_base.insert(node, found);
         found
     }
@@ -172,7 +178,7 @@ fn is_outside(truth: &Truth, point: Point2) -> bool {
 
 /// Whether a convex polygon, given counter-clockwise, is clear of all solids.
 fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
-    let middle = Point2::from(corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords / 4.0));
+    let middle = middle_of(corners);
     let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
     truth.surfaces.contours().all(|contour| {
         let distance = contour.distance(middle);
@@ -185,8 +191,12 @@ fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
     })
 }
 
+fn middle_of(corners: &[Point2; 4]) -> Point2 {
+    Point2::from(corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords / 4.0))
+}
+
 fn crosses_nothing(contour: &Contour, line: &Segment) -> bool {
-    contour.pieces().iter().all(|piece| gap(line, piece) > 0.0)
+    contour.pieces().iter().all(|piece| gap(line, piece) > ROUNDING)
 }
 
 fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
