@@ -71,7 +71,7 @@ impl<'s> Search<'s> {
         let corners_body = rig.platform.outline_body();
         let mounts = rig.whiskers.iter().map(|whisker| {
             let from_base = corners_body.map(|corner| corner - whisker.base_body);
-            let arm = from_base.iter().map(|corner| corner.norm()).fold(0.0, f64::max);
+            let arm = from_base.iter().map(Vector2::norm).fold(0.0, f64::max);
             // Half of a square's diagonal, and half of the turn between two headings.
             let margin = CELL * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
             shrunk(from_base, margin)

@@ -22,7 +22,7 @@ fn text(path: &str) -> Result<String, String> {
 
 fn program(policy: &str) -> Program {
     let path = format!("policies/{policy}.fsm");
-    let source = Source::new(&path, &text(&path).unwrap());
+    let source = Source::new(&path, text(&path).unwrap());
     compile(&gather(&source, &mut |path| text(path))).unwrap()
 }
 
@@ -155,7 +155,7 @@ proptest! {
         ends in prop::collection::vec(prop::option::weighted(0.3, 0.0..=1.0_f64), 64), good in 1_usize..8,
     ) {
         // Objects that overlap, and starts within one, are another matter.
-        let scene = Scene::from_yaml(&Source::new("hostile.yaml", &scenario(&objects, &rig)));
+        let scene = Scene::from_yaml(&Source::new("hostile.yaml", scenario(&objects, &rig)));
         prop_assume!(scene.is_ok());
         let scene = scene.unwrap();
         let mut program = program(policy);
@@ -179,7 +179,7 @@ proptest! {
 #[test]
 fn no_shipped_policy_does_so_with_the_peers_cables() {
     let path = "scenarios/box.yaml";
-    let mut scene = Scene::from_yaml(&Source::new(path, &text(path).unwrap())).unwrap();
+    let mut scene = Scene::from_yaml(&Source::new(path, text(path).unwrap())).unwrap();
     vibrissa::rig::Preset::PeerCable.apply(&mut scene.rig);
     for policy in ["thesis", "vibrissa"] {
         let mut world = vibrissa::world::MujocoWorld::pruned(&scene.rig, &scene.solids, scene.start, 0).unwrap();
