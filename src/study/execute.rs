@@ -102,10 +102,9 @@ pub fn engine_version() -> String {
 /// The version of MuJoCo, if this build has it and its library can be loaded.
 fn simulator() -> &'static str {
     #[cfg(feature = "sim")]
-    let version = crate::world::engine_version().ok();
+    return crate::world::engine_version().unwrap_or("none");
     #[cfg(not(feature = "sim"))]
-    let version = None;
-    version.unwrap_or("none")
+    return "none";
 }
 
 /// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and

@@ -21,6 +21,7 @@ fn plate(height: f64) -> Solid {
 
 /// The rig before these solids in every world that there is.
 fn worlds(rig: &Rig, solids: &[Solid], start: Pose) -> Vec<Box<dyn World>> {
+    #[cfg_attr(not(feature = "sim"), expect(unused_mut, reason = "there is one world only"))]
     let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(rig, solids, start, 0).unwrap())];
     #[cfg(feature = "sim")]
     worlds.push(Box::new(vibrissa::world::MujocoWorld::new(rig, solids, start, 0).unwrap()));
@@ -74,7 +75,11 @@ impl Loop {
     /// Ticks for so long (s).
     fn drive(&mut self, command: Command, time: f64) -> Vec<Felt> {
         let ticks = (time / self.period).round();
-        (0..).map(f64::from).take_while(|&tick| tick < ticks).map(|_| self.tick(command)).collect()
+        let mut felt = Vec::new();
+        while (felt.len() as f64) < ticks {
+            felt.push(self.tick(command));
+        }
+        felt
     }
 }
 

@@ -16,6 +16,7 @@ const START: Pose = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 }
 fn worlds(rig: &Rig) -> Vec<Box<dyn World>> {
     let corners = [(0.13, -1.0), (0.18, -1.0), (0.18, 1.0), (0.13, 1.0)].map(|(x, y)| Point2::new(x, y));
     let solids = [Solid::inside(polygon(&corners).unwrap()).unwrap()];
+    #[cfg_attr(not(feature = "sim"), expect(unused_mut, reason = "there is one world only"))]
     let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(rig, &solids, START, 0).unwrap())];
     #[cfg(feature = "sim")]
     worlds.push(Box::new(vibrissa::world::MujocoWorld::new(rig, &solids, START, 0).unwrap()));
@@ -24,7 +25,9 @@ fn worlds(rig: &Rig) -> Vec<Box<dyn World>> {
 
 fn drive(world: &mut dyn World, command: &Command, time: f64) -> Sample {
     let mut last = None;
-    for _ in 0..(time * 30.0).round() as usize {
+    let mut elapsed = 0.5 / 30.0;
+    while elapsed < time {
+        elapsed += 1.0 / 30.0;
         last = world.advance(command).unwrap().last().copied();
     }
     last.unwrap()
@@ -35,11 +38,12 @@ fn drive(world: &mut dyn World, command: &Command, time: f64) -> Sample {
 fn stop(world: &mut dyn World, steering: &mut Steering, mut last: Sample, time: f64, since: f64) -> (Sample, f64, f64) {
     let first = last.body;
     let (mut off, mut turned) = (0.0_f64, 0.0_f64);
-    for tick in 0..(time * 30.0).round() as usize {
+    let ticks = (0_u32..).map(|tick| f64::from(tick) / 30.0).take_while(|elapsed| *elapsed < time - 0.5 / 30.0);
+    for elapsed in ticks {
         let command = steering.command(&Action::Stop, last.body);
         assert!(command.is_finite() && command.velocity_world.norm() < 0.021 && command.yaw_rate.abs() < 0.21);
         last = *world.advance(&command).unwrap().last().unwrap();
-        if tick as f64 / 30.0 > since {
+        if elapsed > since {
             off = off.max((last.body.position - first.position).norm());
             turned = turned.max((last.body.heading - first.heading).abs());
         }
