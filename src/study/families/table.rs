@@ -5,7 +5,7 @@ use crate::study::Tally;
 
 use super::tally::FamilyTally;
 
-/// A table, one line a tally. Errors are means over the runs that completed; clean are those without a contact of the body.
+/// A table, one line a tally. Errors are means over the runs that completed; outliers and intervals are shares of the tips of all runs.
 #[must_use]
 pub fn families_table(tallies: &[FamilyTally]) -> String {
     let headings = ["family", "cm/s"].into_iter().chain(Tally::HEADINGS);
