@@ -93,6 +93,8 @@ mod with_simulation {
         keys(result, "", &mut found);
         let mut expected = [
             "object_coverage",
+            "out_of_reach",
+            "coverage_in_reach",
             "passage",
             "tip_error_mm",
             "tip_error_mm.across",
