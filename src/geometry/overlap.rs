@@ -4,7 +4,7 @@ use rstar::AABB;
 
 use super::distance::Leaf;
 use super::simple::{grown, meeting};
-use super::{Contour, JOIN_TOLERANCE};
+use super::{Contour, JOIN_TOLERANCE, Piece, Segment};
 
 impl Contour {
     /// Whether two contours cross or touch, or one lies inside the other.
@@ -44,6 +44,11 @@ impl Contour {
             }
         }
         Some(self.contains(other.point_at(0.0)) || other.contains(self.point_at(0.0)))
+    }
+
+    /// The pieces that may come near a line: their boxes meet its box, grown by [`JOIN_TOLERANCE`].
+    pub(crate) fn pieces_near(&self, line: &Segment) -> impl Iterator<Item = &Piece> {
+        self.near(grown(&line.bounding_box(), JOIN_TOLERANCE)).map(|leaf| &leaf.piece)
     }
 
     /// The pieces whose boxes meet a box.

@@ -15,6 +15,9 @@ use crate::scene::{Truth, gap};
 const CELL: f64 = 2.5e-3;
 /// Headings in which the platform is tried.
 const HEADINGS: u32 = 240;
+/// Lengths of a straight whisker, as shares of the longest one, and how many headings, that are tried before any search.
+const STRAIGHT_REACHES: [f64; 3] = [0.8, 0.4, 0.15];
+const STRAIGHT_HEADINGS: u32 = 24;
 /// Distance (m) between the points of an outline that are tried.
 const SPACING: f64 = 4e-3;
 /// The most by which a way along sides and diagonals of squares is longer than the straight one.
@@ -95,10 +98,28 @@ impl<'s> Search<'s> {
             // The outside is on the right; what can be touched of an open contour may be on either side.
             let outwards = -OFF * perpendicular(contour.tangent_at(s));
             let at = contour.point_at(s);
-            let can_touch = |search: &mut Self, from: Point2| search.is_outside(from) && search.reaches(from);
-            !can_touch(self, at + outwards) && (contour.is_closed() || !can_touch(self, at - outwards))
+            !self.can_touch(at, outwards) && (contour.is_closed() || !self.can_touch(at, -outwards))
         });
         unreached.count() as f64 * width / pieces
+    }
+
+    /// Whether a tip may touch an outline at a point, from the side to which `outwards` leads.
+    fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
+        let from = at + outwards;
+        // Nearly all that can be touched has a pose straight in front of it; the search would take a thousand times as long.
+        self.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
+    }
+
+    /// Whether the platform has a pose that is clear of everything, with a straight whisker along the outline's normal to a point.
+    fn is_in_front(&self, point: Point2, normal: Vector2) -> bool {
+        STRAIGHT_REACHES.iter().any(|reach| {
+            let base = point + reach * self.length * normal;
+            self.is_open(point, base)
+                && (0..STRAIGHT_HEADINGS).any(|index| {
+                    let heading = TAU * f64::from(index) / f64::from(STRAIGHT_HEADINGS);
+                    self.has_pose(base, heading + normal.y.atan2(normal.x))
+                })
+        })
     }
 
     /// Whether the shortest way through free space from a point to a base of a whisker is no longer than the longest whisker.
@@ -159,16 +180,19 @@ impl<'s> Search<'s> {
             return known;
         }
         let base = place(node);
-        let headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
-        let found = headings.flat_map(|heading| self.mounts.iter().map(move |corners| (heading, corners))).any(
-            |(heading, corners)| {
-                let corners = corners.map(|corner| base + rotate(corner, heading));
-                // The smaller footprint leaves the base outside, where a thin wall could be between the two.
-                is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
-            },
-        );
+        let mut headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
+        let found = headings.any(|heading| self.has_pose(base, heading));
         self.has_base.insert(node, found);
         found
+    }
+
+    /// Whether the platform, turned by `heading` (rad), is clear of everything with the base of one of its whiskers here.
+    fn has_pose(&self, base: Point2, heading: f64) -> bool {
+        self.mounts.iter().any(|corners| {
+            let corners = corners.map(|corner| base + rotate(corner, heading));
+            // The smaller footprint leaves the base outside, where a thin wall could be between the two.
+            is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
+        })
     }
 }
 
@@ -196,7 +220,7 @@ fn middle_of(corners: &[Point2; 4]) -> Point2 {
 }
 
 fn crosses_nothing(contour: &Contour, line: &Segment) -> bool {
-    contour.pieces().iter().all(|piece| gap(line, piece) > ROUNDING)
+    contour.pieces_near(line).all(|piece| gap(line, piece) > ROUNDING)
 }
 
 fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
