@@ -8,6 +8,7 @@ mod extrapolation;
 mod follow;
 mod locate;
 mod newton;
+mod pivot;
 mod shot;
 mod touch;
 
@@ -16,3 +17,4 @@ pub(crate) use chain::Sought;
 pub use chain::{Equilibrium, ShaftChain};
 pub use elastica::Elastica;
 pub use locate::LocateError;
+pub use pivot::Pivot;

@@ -10,6 +10,7 @@ mod one_channel;
 mod perception;
 mod recent_line;
 mod recursive;
+mod shaft_rest;
 mod sliding;
 mod tip_curve;
 mod tip_model;

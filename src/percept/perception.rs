@@ -189,7 +189,7 @@ impl Perception {
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
-        (whisker.recorded && whisker.is_felt()).then(|| whisker.tip_world())
+        (whisker.recorded && whisker.is_felt() && whisker.is_sure()).then(|| whisker.tip_world())
     }
 
     /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).

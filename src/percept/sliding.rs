@@ -10,6 +10,7 @@ use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
+use super::shaft_rest::ShaftRest;
 use super::tip_model::{CONTACT_SPREAD, TipModel, Touch};
 use super::tip_table::{TipPlace, TipTable};
 
@@ -39,6 +40,7 @@ pub(super) struct Sliding {
     /// For how many samples it has been.
     calm_for: usize,
     state: State,
+    rest: ShaftRest,
     /// Where the base was (m, world frame), and the undeflected shaft's direction (rad), one sample before.
     base_before: Option<(Point2, f64)>,
 }
@@ -102,13 +104,15 @@ impl Sliding {
     pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
+        let angle = BaseAngle::new(whisker, sensing);
         Self {
             table,
+            rest: ShaftRest::new(whisker, angle.spread),
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
             usual_normal: whisker.usual_normal(),
             friction_angle: sensing.friction.atan(),
-            angle: BaseAngle::new(whisker, sensing),
+            angle,
             contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
@@ -237,6 +241,7 @@ impl TipModel for Sliding {
         self.base_before = Some((base.position, base.heading));
         if angle.abs() < self.contact_threshold {
             self.state = State::Free;
+            self.rest.interrupt();
             return;
         }
         self.state = match self.state {
@@ -251,6 +256,10 @@ impl TipModel for Sliding {
             }
             _ => State::Unsettled { left: None, bend },
         };
+        match self.state {
+            State::Settled(contact) => self.rest.take(angle, base, way, contact.centre),
+            _ => self.rest.interrupt(),
+        }
     }
 
     fn interrupt(&mut self) {
@@ -258,6 +267,7 @@ impl TipModel for Sliding {
         self.calm_for = 0;
         self.base_before = None;
         self.state = State::Free;
+        self.rest.interrupt();
     }
 
     fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
@@ -266,6 +276,7 @@ impl TipModel for Sliding {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(),
+            doubt: self.rest.doubt(),
             contact_length: self.length,
         })
     }

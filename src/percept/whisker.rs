@@ -135,6 +135,11 @@ impl PerceivedWhisker {
         touched.unwrap_or_else(|| self.curve.contact_base(deflection))
     }
 
+    /// Whether the place that is touched may be taken for one of the surface.
+    pub(super) fn is_sure(&self) -> bool {
+        self.touch.is_some_and(|touch| touch.doubt < MOST_DOUBT)
+    }
+
     /// Whether the whisker touches where that can be told.
     pub(super) fn is_felt(&self) -> bool {
         self.touches() && self.touch.is_some()
@@ -151,7 +156,7 @@ impl PerceivedWhisker {
     /// How far off the tip may be (m): a standard deviation.
     pub(super) fn tip_spread(&self) -> f64 {
         match &self.touch {
-            Some(touch) => touch.spread,
+            Some(touch) => touch.spread.hypot(touch.doubt),
             None => self.curve.spread(self.deflection(), self.deflection_spread),
         }
     }
@@ -192,6 +197,9 @@ impl PerceivedWhisker {
         }
     }
 }
+
+/// The greatest doubt (m) in a place that is recorded.
+const MOST_DOUBT: f64 = 0.3e-3;
 
 /// Standard deviation of a deflection (rad).
 pub(super) fn deflection_spread(sensing: &Sensing) -> f64 {

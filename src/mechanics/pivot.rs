@@ -1,0 +1,135 @@
+//! A shaft that rests on a fixed point, in closed form.
+
+use nalgebra::Vector2;
+
+use crate::rig::Whisker;
+
+/// A whisker's shaft under a force square to it, as a corner without friction makes it, in a closed form that takes some ten
+/// nanoseconds where [`Elastica`](super::Elastica) takes microseconds.
+///
+/// With the bend `δ` of a uniform shaft between its base and the force, the curvature `κ` at the base and the length `c` to the force,
+/// `c κ = √(sin δ) ∫ dθ / √(sin θ)`. Along the shaft's direction at the force the base is `2 sin δ / κ` away, and across it
+/// `√(sin δ) ∫ √(sin θ) dθ / κ`, with integrals from 0 to `δ`. They are taken as series, exact to 0.1 % up to `δ = π/2`. A shaft that
+/// tapers bends as a uniform one of a stiffness that is less by the ratio of its radii at the force and at the base: exactly so where
+/// it bends little.
+#[derive(Debug, Clone, Copy)]
+pub struct Pivot {
+    /// Length of the shaft (m).
+    length: f64,
+    /// The base angle (rad) that a curvature of 1/m at the base makes.
+    hinge_compliance: f64,
+    /// Radius at the tip over that at the base.
+    taper: f64,
+}
+
+/// The greatest bend (rad) of the series.
+const MOST_BEND: f64 = std::f64::consts::FRAC_PI_2;
+/// Newton steps; three of them settle to 1e-9 rad for every place within the series.
+const STEPS: usize = 3;
+
+impl Pivot {
+    /// The shaft of `whisker`.
+    #[must_use]
+    pub fn new(whisker: &Whisker) -> Self {
+        let shaft = &whisker.shaft;
+        Self {
+            length: shaft.length,
+            hinge_compliance: shaft.bending_stiffness() / whisker.hinge.stiffness,
+            taper: shaft.taper(),
+        }
+    }
+
+    /// The place (m, frame of the base) at which a shaft that rests on it at the length `contact_length` (m) has the base angle
+    /// `base_angle` (rad). `None` if it bends farther than the closed form goes.
+    #[must_use]
+    pub fn place(&self, base_angle: f64, contact_length: f64) -> Option<Vector2<f64>> {
+        let curvature = base_angle.abs() / self.softened_compliance(contact_length);
+        let twice = contact_length * curvature;
+        // From `c κ = 2 δ (1 − δ²/15)`.
+        let mut bend = 0.5 * twice;
+        for _ in 0..STEPS {
+            bend -= (2.0 * bend * (1.0 - bend * bend / 15.0) - twice) / (2.0 - 0.4 * bend * bend);
+        }
+        if !(bend <= MOST_BEND) {
+            return None;
+        }
+        let (along, across) = lever(bend);
+        // A straight shaft has no curvature to divide by.
+        let scale = if bend > 0.0 { contact_length / (2.0 * bend * (1.0 - bend * bend / 15.0)) } else { 0.0 };
+        let (sin, cos) = (base_angle.abs() + bend).sin_cos();
+        let place = if bend > 0.0 {
+            scale * Vector2::new(along * cos + across * sin, along * sin - across * cos)
+        } else {
+            contact_length * Vector2::new(cos, sin)
+        };
+        Some(Vector2::new(place.x, base_angle.signum() * place.y))
+    }
+
+    /// The base angle (rad) of a shaft that rests on a place (m, frame of the base). `None` if the place is beyond its reach, or asks
+    /// for a bend farther than the closed form goes.
+    #[must_use]
+    pub fn base_angle(&self, place: Vector2<f64>) -> Option<f64> {
+        let (distance, direction) = (place.norm(), place.y.abs().atan2(place.x));
+        if !(distance > 0.0 && distance <= self.length) {
+            return None;
+        }
+        let compliance = self.softened_compliance(distance) / distance;
+        let angle = |bend: f64| {
+            let (along, across) = lever(bend);
+            (compliance * along.hypot(across), bend - across.atan2(along))
+        };
+        // The direction from the base is that of the hinge and two thirds of the bend, to the first order.
+        let mut bend = direction / (2.0 / 3.0 + 2.0 * compliance);
+        for _ in 0..STEPS {
+            let (hinge, turned) = angle(bend);
+            bend -= (hinge + turned - direction) / (2.0 / 3.0 + 2.0 * compliance);
+        }
+        (bend <= MOST_BEND).then(|| angle(bend).0 * place.y.signum())
+    }
+
+    /// The base angle (rad) that a curvature of 1/m at the base makes, of the uniform shaft that stands for this one under a force at
+    /// the length `contact_length` (m).
+    fn softened_compliance(&self, contact_length: f64) -> f64 {
+        self.hinge_compliance * (1.0 - (1.0 - self.taper) * contact_length / self.length)
+    }
+}
+
+/// Where the force is, seen from the base in the direction that the shaft has at the force, times the curvature at the base: along
+/// that direction, and to its right.
+fn lever(bend: f64) -> (f64, f64) {
+    let sin = bend.sin();
+    let square = bend * bend;
+    (2.0 * sin, sin.max(0.0).sqrt() * bend.max(0.0).sqrt() * bend * (2.0 / 3.0) * (1.0 - square / 28.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mechanics::Elastica;
+    use crate::rig::Rig;
+
+    proptest! {
+        #[test]
+        fn a_force_square_to_the_shaft_bends_it_as_the_elastica_has_it(
+            share in 0.1..1.0_f64,
+            force in 0.01..2.2_f64,
+            taper in prop_oneof![Just(1.0), 0.6..1.0_f64],
+            is_left in any::<bool>(),
+        ) {
+            let mut whisker = Rig::default().whiskers.remove(0);
+            whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
+            let (shaft, side) = (&whisker.shaft, if is_left { 1.0 } else { -1.0 });
+            let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / (share * shaft.length).powi(2));
+            let bend = Elastica::new(&whisker).under(contact, side * MOST_BEND, force * unit).unwrap();
+            let pivot = Pivot::new(&whisker);
+            // A taper is exact to the first order of the bend only.
+            let tolerance = if taper < 1.0 { 0.05 } else { 1e-3 };
+            let angle = pivot.base_angle(bend.contact_base).unwrap();
+            prop_assert!((angle / bend.base_angle - 1.0).abs() < tolerance, "{angle} {}", bend.base_angle);
+            let place = pivot.place(bend.base_angle, contact).unwrap();
+            prop_assert!((place - bend.contact_base).norm() < 0.3 * tolerance * contact, "{place} {}", bend.contact_base);
+        }
+    }
+}
