@@ -65,15 +65,15 @@ impl Pivot {
         Some(Vector2::new(place.x, base_angle.signum() * place.y))
     }
 
-    /// The base angle (rad) of a shaft that rests on a place (m, frame of the base). `None` if the place is beyond its reach, or asks
-    /// for a bend farther than the closed form goes.
+    /// The base angle (rad) of a shaft, long enough, that rests on a place (m, frame of the base). `None` if that bends it farther than
+    /// the closed form goes.
     #[must_use]
     pub fn base_angle(&self, place: Vector2<f64>) -> Option<f64> {
         let (distance, direction) = (place.norm(), place.y.abs().atan2(place.x));
-        if !(distance > 0.0 && distance <= self.length) {
+        if !(distance > 0.0) {
             return None;
         }
-        let compliance = self.softened_compliance(distance) / distance;
+        let compliance = self.softened_compliance(distance.min(self.length)) / distance;
         let angle = |bend: f64| {
             let (along, across) = lever(bend);
             (compliance * along.hypot(across), bend - across.atan2(along))

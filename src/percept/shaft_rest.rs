@@ -24,12 +24,14 @@ pub(super) struct ShaftRest {
     way: f64,
     /// The tip (m, world frame) at the last sample.
     tip: Option<Point2>,
-    /// How far off the tip may be (m); `None` while that is not known yet.
-    doubt: Option<f64>,
-    /// The tip (m, world frame) where a fixed place was last compared with it, and how far apart (m) the two were.
-    anchor: Option<(Point2, f64)>,
-    /// Whether the fixed place went along with the tip since then.
-    goes_along: bool,
+    /// How far off the tip may be (m) by the rests before.
+    doubt: f64,
+    /// The fixed place (m, world frame), how far it is from the tip (m), and how many readings in a row it has explained.
+    place: Option<Point2>,
+    apart: f64,
+    rested_for: usize,
+    /// Whether the contact is too new to tell.
+    is_new: bool,
 }
 
 /// A base angle, and how the base stood.
@@ -55,12 +57,12 @@ const LEAST_SHARE: f64 = 0.15;
 const PLACES: i32 = 16;
 /// Steps of the search for a place between two of them.
 const REFINEMENTS: usize = 4;
+/// Readings in a row behind which a rest leaves a doubt.
+const LASTING: usize = 3;
 /// Way of the tip (m) on which a doubt falls by a factor e.
 const FADING: f64 = 11e-3;
-/// Way of the tip (m) on which a fixed place is compared with it, and the share of that by which the distance between the two changes
-/// at least if the place is a corner.
-const COMPARED: f64 = 1.5e-3;
-const KEPT: f64 = 0.3;
+/// How far a fixed place may seem to move (m) from reading to reading.
+const DRIFT: f64 = 1.5e-3;
 
 impl ShaftRest {
     pub(super) fn new(whisker: &Whisker, angle_spread: f64) -> Self {
@@ -72,28 +74,36 @@ impl ShaftRest {
             count: 0,
             way: 0.0,
             tip: None,
-            doubt: None,
-            anchor: None,
-            goes_along: false,
+            doubt: 0.0,
+            place: None,
+            apart: 0.0,
+            rested_for: 0,
+            is_new: true,
         }
     }
 
     /// How far off the tip may be (m), as a standard deviation: up to all of the whisker while nothing is known.
     pub(super) fn doubt(&self) -> f64 {
-        self.doubt.unwrap_or(self.length)
+        if self.is_new { self.length } else { self.doubt.max(self.apart) }
+    }
+
+    /// Forgets the readings at a gap in the contact. What was in doubt before stays so.
+    pub(super) fn interrupt(&mut self) {
+        (self.count, self.way, self.tip, self.is_new) = (0, 0.0, None, true);
+        (self.place, self.apart, self.rested_for) = (None, 0.0, 0);
     }
 
     /// Forgets the contact.
-    pub(super) fn interrupt(&mut self) {
-        (self.count, self.way, self.tip, self.doubt) = (0, 0.0, None, None);
-        (self.anchor, self.goes_along) = (None, false);
+    pub(super) fn end(&mut self) {
+        self.interrupt();
+        self.doubt = 0.0;
     }
 
     /// Takes a base angle (rad) with the base at `base`, `way` (m) after the last one, and the tip (m, world frame) as it is estimated.
     pub(super) fn take(&mut self, angle: f64, base: Pose, way: f64, tip: Point2) {
         let slid = self.tip.map_or(0.0, |before| (tip - before).norm());
         self.tip = Some(tip);
-        self.doubt = self.doubt.map(|doubt| doubt * (-slid / FADING).exp());
+        self.doubt *= (-slid / FADING).exp();
         self.way += way;
         if self.count > 0 && self.way < SPACING {
             return;
@@ -108,28 +118,25 @@ impl ShaftRest {
     }
 
     fn judge(&mut self, tip: Point2) {
-        let apart = self.fixed_place(tip);
-        self.compare(tip, apart);
-        let apart = apart.filter(|_| !self.goes_along);
-        self.doubt = Some(self.doubt.unwrap_or(0.0).max(apart.unwrap_or(0.0)));
-    }
-
-    /// Notes whether the fixed place, so far apart (m) from the tip, goes along with it, as one on a wall that bends seems to.
-    fn compare(&mut self, tip: Point2, apart: Option<f64>) {
-        let Some(apart) = apart else {
-            (self.anchor, self.goes_along) = (None, false);
+        let place = self.fixed_place(tip);
+        self.is_new = false;
+        let Some(place) = place else {
+            (self.place, self.apart, self.rested_for) = (None, 0.0, 0);
             return;
         };
-        let (tip_then, apart_then) = *self.anchor.get_or_insert((tip, apart));
-        let slid = (tip - tip_then).norm();
-        if slid > COMPARED {
-            self.goes_along = (apart - apart_then).abs() < KEPT * slid;
-            self.anchor = Some((tip, apart));
+        if self.place.is_none_or(|before| (place - before).norm() > DRIFT) {
+            (self.place, self.rested_for) = (Some(place), 0);
         }
+        self.rested_for += 1;
+        self.apart = (place - tip).norm();
+        if self.rested_for >= LASTING {
+            self.doubt = self.doubt.max(self.apart);
+        }
+        if std::env::var_os("DBGREST").is_some() { eprintln!("REST {:.4} {:.4} angle {:.1} apart {:.2} for {} doubt {:.2}", tip.x, tip.y, 1e6*self.readings[REMEMBERED-1].angle, self.apart*1e3, self.rested_for, self.doubt*1e3); }
     }
 
     /// How far (m) the farthest fixed place that explains the readings is from the tip.
-    fn fixed_place(&self, tip: Point2) -> Option<f64> {
+    fn fixed_place(&self, tip: Point2) -> Option<Point2> {
         let (newest, oldest) = (&self.readings[REMEMBERED - 1], &self.readings[0]);
         // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
         let tried = |share: f64| {
@@ -147,9 +154,10 @@ impl ShaftRest {
             if let Some((from, from_misfit)) = before.replace((share, misfit))
                 && from_misfit * misfit <= 0.0
                 && let Some(place) = self.refined(&tried, (from, from_misfit), (share, misfit))
+                && { if std::env::var_os("DBGREST").is_some() { eprintln!("ROOT {share:.3} {:.4} {:.4} tip {:.2} misfits {:?}", place.x, place.y, 1e3*(place-tip).norm(), self.readings.iter().map(|r| self.misfit(r, place).map(|m| (1e8*m).round()/1e2)).collect::<Vec<_>>()); } true }
                 && self.explains(place)
             {
-                return Some((place - tip).norm());
+                return Some(place);
             }
         }
         None

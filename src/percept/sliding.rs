@@ -241,7 +241,7 @@ impl TipModel for Sliding {
         self.base_before = Some((base.position, base.heading));
         if angle.abs() < self.contact_threshold {
             self.state = State::Free;
-            self.rest.interrupt();
+            self.rest.end();
             return;
         }
         self.state = match self.state {
@@ -267,7 +267,7 @@ impl TipModel for Sliding {
         self.calm_for = 0;
         self.base_before = None;
         self.state = State::Free;
-        self.rest.interrupt();
+        self.rest.end();
     }
 
     fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
