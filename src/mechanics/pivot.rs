@@ -1,5 +1,7 @@
 //! A shaft that rests on a fixed point, in closed form.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::Vector2;
 
 use crate::rig::Whisker;
@@ -23,9 +25,11 @@ pub struct Pivot {
 }
 
 /// The greatest bend (rad) of the series.
-const MOST_BEND: f64 = std::f64::consts::FRAC_PI_2;
-/// Newton steps; three of them settle to 1e-9 rad for every place within the series.
-const STEPS: usize = 3;
+const MOST_BEND: f64 = FRAC_PI_2;
+/// Newton steps, which settle for every bend within the series.
+const NEWTON_STEPS: usize = 3;
+/// A shaft that is within this angle (rad) of a surface is taken to lie along it.
+const NEARLY_FLAT: f64 = 0.03;
 
 impl Pivot {
     /// The shaft of `whisker`.
@@ -43,26 +47,30 @@ impl Pivot {
     /// `base_angle` (rad). `None` if it bends farther than the closed form goes.
     #[must_use]
     pub fn place(&self, base_angle: f64, contact_length: f64) -> Option<Vector2<f64>> {
-        let curvature = base_angle.abs() / self.softened_compliance(contact_length);
-        let twice = contact_length * curvature;
-        // From `c κ = 2 δ (1 − δ²/15)`.
-        let mut bend = 0.5 * twice;
-        for _ in 0..STEPS {
-            bend -= (2.0 * bend * (1.0 - bend * bend / 15.0) - twice) / (2.0 - 0.4 * bend * bend);
-        }
-        if !(bend <= MOST_BEND) {
-            return None;
-        }
+        let bend = self.bend(base_angle, contact_length)?;
         let (along, across) = lever(bend);
-        // A straight shaft has no curvature to divide by.
-        let scale = if bend > 0.0 { contact_length / (2.0 * bend * (1.0 - bend * bend / 15.0)) } else { 0.0 };
+        let scale = contact_length / along_the_shaft(bend);
         let (sin, cos) = (base_angle.abs() + bend).sin_cos();
-        let place = if bend > 0.0 {
-            scale * Vector2::new(along * cos + across * sin, along * sin - across * cos)
-        } else {
-            contact_length * Vector2::new(cos, sin)
-        };
+        let place = scale * Vector2::new(along * cos + across * sin, along * sin - across * cos);
         Some(Vector2::new(place.x, base_angle.signum() * place.y))
+    }
+
+    /// Whether a shaft with the base angle `base_angle` (rad) lies along a surface, rather than touch it with its tip alone. The
+    /// surface's normal has the direction `normal` (rad, frame of the base), for a bend to the left.
+    #[must_use]
+    pub fn lies_flat(&self, base_angle: f64, normal: f64) -> bool {
+        let square = self.bend(base_angle, self.length).map(|bend| base_angle.abs() + bend + FRAC_PI_2);
+        square.is_none_or(|square| normal < square + NEARLY_FLAT)
+    }
+
+    /// The bend (rad, not 0) of a shaft with a base angle (rad) between its base and a force at the length `contact_length` (m).
+    fn bend(&self, base_angle: f64, contact_length: f64) -> Option<f64> {
+        let turn = contact_length * base_angle.abs() / self.softened_compliance(contact_length);
+        let mut bend = (0.5 * turn).max(f64::EPSILON);
+        for _ in 0..NEWTON_STEPS {
+            bend -= (along_the_shaft(bend) - turn) / (2.0 - 0.4 * bend * bend);
+        }
+        (bend <= MOST_BEND).then_some(bend.max(f64::EPSILON))
     }
 
     /// The base angle (rad) of a shaft, long enough, that rests on a place (m, frame of the base). `None` if that bends it farther than
@@ -80,7 +88,7 @@ impl Pivot {
         };
         // The direction from the base is that of the hinge and two thirds of the bend, to the first order.
         let mut bend = direction / (2.0 / 3.0 + 2.0 * compliance);
-        for _ in 0..STEPS {
+        for _ in 0..NEWTON_STEPS {
             let (hinge, turned) = angle(bend);
             bend -= (hinge + turned - direction) / (2.0 / 3.0 + 2.0 * compliance);
         }
@@ -92,6 +100,11 @@ impl Pivot {
     fn softened_compliance(&self, contact_length: f64) -> f64 {
         self.hinge_compliance * (1.0 - (1.0 - self.taper) * contact_length / self.length)
     }
+}
+
+/// The length of the shaft from the base to the force, times the curvature at the base: `c κ = 2 δ (1 − δ²/15)`.
+fn along_the_shaft(bend: f64) -> f64 {
+    2.0 * bend * (1.0 - bend * bend / 15.0)
 }
 
 /// Where the force is, seen from the base in the direction that the shaft has at the force, times the curvature at the base: along

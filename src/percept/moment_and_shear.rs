@@ -111,7 +111,7 @@ impl TipModel for MomentAndShear {
             point_world: base.position + rotate(self.surface(&bend), base.heading),
             covariance_world: turned(&covariance, base.heading),
             spread: (normal.transpose() * covariance * normal).x.sqrt(),
-            doubt: 0.0,
+            is_sure: true,
             contact_length: bend.contact_length,
         })
     }

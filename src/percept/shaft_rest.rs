@@ -1,15 +1,15 @@
-//! Whether it may be the shaft that touches, resting on a corner, where the tip is taken to touch.
+//! Whether the shaft may rest on a corner where the tip is taken to touch.
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit};
 use crate::mechanics::Pivot;
 use crate::rig::Whisker;
 
-/// Tells how far off a tip may be because the shaft rests on a corner instead.
+/// Tells how far off a tip may be because the shaft touches instead.
 ///
-/// One base angle fits a touch of the tip and touches of the shaft alike. But a corner stays where it is while the base moves: if one
-/// fixed place in the world explains the newest readings, the shaft may rest there, and the tip is in doubt by the distance
-/// between the two. A place that goes along with the tip is no corner. Behind a rest the doubt fades as the errors of
-/// [`Sliding`](super::sliding::Sliding) do. A contact that is too new to tell is in doubt altogether.
+/// One base angle fits a touch of the tip and touches of the shaft alike. But a corner stays where it is while the base moves. If one
+/// fixed place in the world explains the newest readings, the shaft may rest there. The tip is then in doubt by the distance
+/// between the two. Behind a rest the doubt fades on the way on which the errors of [`Sliding`](super::sliding::Sliding) fade. A place that
+/// turns out to move was no corner, and leaves no doubt.
 #[derive(Debug, Clone)]
 pub(super) struct ShaftRest {
     pivot: Pivot,
@@ -24,14 +24,23 @@ pub(super) struct ShaftRest {
     way: f64,
     /// The tip (m, world frame) at the last sample.
     tip: Option<Point2>,
-    /// How far off the tip may be (m) by the rests before.
-    doubt: f64,
-    /// The fixed place (m, world frame), how far it is from the tip (m), and how many readings in a row it has explained.
-    place: Option<Point2>,
+    /// How far the fixed place is from the tip (m); 0 without one.
     apart: f64,
-    rested_for: usize,
-    /// Whether the contact is too new to tell.
-    is_new: bool,
+    /// How far off the tip may be (m) by what was before.
+    doubt: f64,
+    rest: Option<Rest>,
+}
+
+/// A place on which the shaft seems to rest.
+#[derive(Debug, Clone, Copy)]
+struct Rest {
+    /// m, world frame.
+    place: Point2,
+    /// Judgements in a row, up to now, by which it explains the readings, and the most of them.
+    lasted: usize,
+    longest: usize,
+    /// The doubt (m) without it.
+    doubt_before: f64,
 }
 
 /// A base angle, and how the base stood.
@@ -52,17 +61,20 @@ const SPACING: f64 = 0.75e-3;
 /// How far the mechanics may be off, as a share of the base angle, and the misfit in standard deviations that is still explained.
 const MODEL_SHARE: f64 = 3e-3;
 const MISFIT: f64 = 1.5;
-/// The least share of the shaft at which a corner is looked for, and the places that are tried.
+/// The least share of the shaft at which a corner is looked for, and the steps from there to the tip.
 const LEAST_SHARE: f64 = 0.15;
-const PLACES: i32 = 16;
-/// Steps of the search for a place between two of them.
+const STEPS: i32 = 16;
+/// Steps of the search for a place between two of these.
 const REFINEMENTS: usize = 4;
-/// Readings in a row behind which a rest leaves a doubt.
-const LASTING: usize = 3;
-/// Way of the tip (m) on which a doubt falls by a factor e.
-const FADING: f64 = 11e-3;
-/// How far a fixed place may seem to move (m) from reading to reading.
+/// How far a place may seem to move (m) if it is fixed: so far off it may be found.
 const DRIFT: f64 = 1.5e-3;
+/// Judgements in a row behind which a rest leaves a doubt, and behind which no later place speaks against it.
+const LASTING: usize = 3;
+const PROVEN: usize = 8;
+/// Way of the tip (m) on which a doubt falls by a factor e.
+const FADING: f64 = 12e-3;
+/// How far off a tip may be (m) whose shaft lies along the surface.
+const FLAT: f64 = 5e-3;
 
 impl ShaftRest {
     pub(super) fn new(whisker: &Whisker, angle_spread: f64) -> Self {
@@ -74,23 +86,20 @@ impl ShaftRest {
             count: 0,
             way: 0.0,
             tip: None,
-            doubt: 0.0,
-            place: None,
             apart: 0.0,
-            rested_for: 0,
-            is_new: true,
+            doubt: 0.0,
+            rest: None,
         }
     }
 
-    /// How far off the tip may be (m), as a standard deviation: up to all of the whisker while nothing is known.
+    /// How far off the tip may be (m), as a standard deviation, because it may not be what touches.
     pub(super) fn doubt(&self) -> f64 {
-        if self.is_new { self.length } else { self.doubt.max(self.apart) }
+        self.doubt.max(self.apart)
     }
 
     /// Forgets the readings at a gap in the contact. What was in doubt before stays so.
     pub(super) fn interrupt(&mut self) {
-        (self.count, self.way, self.tip, self.is_new) = (0, 0.0, None, true);
-        (self.place, self.apart, self.rested_for) = (None, 0.0, 0);
+        (self.count, self.way, self.tip, self.apart, self.rest) = (0, 0.0, None, 0.0, None);
     }
 
     /// Forgets the contact.
@@ -99,11 +108,19 @@ impl ShaftRest {
         self.doubt = 0.0;
     }
 
-    /// Takes a base angle (rad) with the base at `base`, `way` (m) after the last one, and the tip (m, world frame) as it is estimated.
-    pub(super) fn take(&mut self, angle: f64, base: Pose, way: f64, tip: Point2) {
-        let slid = self.tip.map_or(0.0, |before| (tip - before).norm());
-        self.tip = Some(tip);
-        self.doubt *= (-slid / FADING).exp();
+    /// Takes a base angle (rad) with the base at `base`, `way` (m) after the last one. By the estimate the tip is at `tip` (m, world
+    /// frame), on a surface whose normal has the direction `normal` (rad) from the undeflected shaft, for a bend to the left.
+    pub(super) fn take(&mut self, angle: f64, base: Pose, way: f64, tip: Point2, normal: f64) {
+        // An estimate that goes wrong may run ahead of the whisker.
+        let slid = self.tip.replace(tip).map_or(0.0, |before| (tip - before).norm().min(way));
+        let fading = (-slid / FADING).exp();
+        self.doubt *= fading;
+        if let Some(rest) = &mut self.rest {
+            rest.doubt_before *= fading;
+        }
+        if self.pivot.lies_flat(angle, normal) {
+            self.doubt = self.doubt.max(FLAT);
+        }
         self.way += way;
         if self.count > 0 && self.way < SPACING {
             return;
@@ -118,43 +135,44 @@ impl ShaftRest {
     }
 
     fn judge(&mut self, tip: Point2) {
-        let place = self.fixed_place(tip);
-        self.is_new = false;
-        let Some(place) = place else {
-            (self.place, self.apart, self.rested_for) = (None, 0.0, 0);
+        let Some(place) = self.fixed_place() else {
+            self.apart = 0.0;
+            if let Some(rest) = &mut self.rest {
+                rest.lasted = 0;
+            }
             return;
         };
-        if self.place.is_none_or(|before| (place - before).norm() > DRIFT) {
-            (self.place, self.rested_for) = (Some(place), 0);
+        if let Some(moved) = self.rest.take_if(|rest| (place - rest.place).norm() > DRIFT)
+            && moved.longest < PROVEN
+        {
+            self.doubt = moved.doubt_before;
         }
-        self.rested_for += 1;
+        let begun = Rest { place, lasted: 0, longest: 0, doubt_before: self.doubt };
+        let rest = self.rest.get_or_insert(begun);
+        rest.lasted += 1;
+        rest.longest = rest.longest.max(rest.lasted);
         self.apart = (place - tip).norm();
-        if self.rested_for >= LASTING {
+        if rest.lasted >= LASTING {
             self.doubt = self.doubt.max(self.apart);
         }
-        if std::env::var_os("DBGREST").is_some() { eprintln!("REST {:.4} {:.4} angle {:.1} apart {:.2} for {} doubt {:.2}", tip.x, tip.y, 1e6*self.readings[REMEMBERED-1].angle, self.apart*1e3, self.rested_for, self.doubt*1e3); }
     }
 
-    /// How far (m) the farthest fixed place that explains the readings is from the tip.
-    fn fixed_place(&self, tip: Point2) -> Option<Point2> {
-        let (newest, oldest) = (&self.readings[REMEMBERED - 1], &self.readings[0]);
+    /// The place (m, world frame) nearest to the base on which a shaft that rests has all the base angles.
+    fn fixed_place(&self) -> Option<Point2> {
+        let (oldest, newest) = (&self.readings[0], &self.readings[REMEMBERED - 1]);
         // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
         let tried = |share: f64| {
             let place = newest.to_world(self.pivot.place(newest.angle, share * self.length)?);
             Some((place, self.misfit(oldest, place)?))
         };
-        let step = (1.0 - LEAST_SHARE) / f64::from(PLACES);
+        let shares = (0..=STEPS).map(|step| LEAST_SHARE + (1.0 - LEAST_SHARE) * f64::from(step) / f64::from(STEPS));
         let mut before: Option<(f64, f64)> = None;
-        for index in 0..=PLACES {
-            let share = LEAST_SHARE + step * f64::from(index);
-            let Some((_, misfit)) = tried(share) else {
-                before = None;
-                continue;
-            };
-            if let Some((from, from_misfit)) = before.replace((share, misfit))
-                && from_misfit * misfit <= 0.0
-                && let Some(place) = self.refined(&tried, (from, from_misfit), (share, misfit))
-                && { if std::env::var_os("DBGREST").is_some() { eprintln!("ROOT {share:.3} {:.4} {:.4} tip {:.2} misfits {:?}", place.x, place.y, 1e3*(place-tip).norm(), self.readings.iter().map(|r| self.misfit(r, place).map(|m| (1e8*m).round()/1e2)).collect::<Vec<_>>()); } true }
+        for share in shares {
+            let last = before;
+            before = tried(share).map(|(_, misfit)| (share, misfit));
+            if let (Some(below), Some(above)) = (last, before)
+                && below.1 * above.1 <= 0.0
+                && let Some(place) = refined(tried, below, above)
                 && self.explains(place)
             {
                 return Some(place);
@@ -163,26 +181,9 @@ impl ShaftRest {
         None
     }
 
-    /// The place without a misfit between two shares of the shaft.
-    fn refined(
-        &self,
-        tried: impl Fn(f64) -> Option<(Point2, f64)>,
-        mut below: (f64, f64),
-        mut above: (f64, f64),
-    ) -> Option<Point2> {
-        let mut place = None;
-        for _ in 0..REFINEMENTS {
-            let share = below.0 + (above.0 - below.0) * below.1 / (below.1 - above.1);
-            let (found, misfit) = tried(share)?;
-            place = Some(found);
-            if misfit * below.1 > 0.0 { below = (share, misfit) } else { above = (share, misfit) }
-        }
-        place
-    }
-
     /// Whether a shaft that rests on a place (m, world frame) has all the base angles.
     fn explains(&self, place: Point2) -> bool {
-        self.readings.iter().rev().all(|reading| {
+        self.readings.iter().all(|reading| {
             let spread = self.angle_spread.hypot(MODEL_SHARE * reading.angle);
             self.misfit(reading, place).is_some_and(|misfit| misfit.abs() <= MISFIT * spread)
         })
@@ -192,6 +193,22 @@ impl ShaftRest {
     fn misfit(&self, reading: &Posed, place: Point2) -> Option<f64> {
         Some(self.pivot.base_angle(reading.to_base(place))? - reading.angle)
     }
+}
+
+/// The place without a misfit between two shares of the shaft, each with its misfit.
+fn refined(
+    tried: impl Fn(f64) -> Option<(Point2, f64)>,
+    mut below: (f64, f64),
+    mut above: (f64, f64),
+) -> Option<Point2> {
+    let mut place = None;
+    for _ in 0..REFINEMENTS {
+        let share = below.0 + (above.0 - below.0) * below.1 / (below.1 - above.1);
+        let (found, misfit) = tried(share)?;
+        place = Some(found);
+        if misfit * below.1 > 0.0 { below = (share, misfit) } else { above = (share, misfit) }
+    }
+    place
 }
 
 impl Posed {

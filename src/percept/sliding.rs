@@ -81,6 +81,9 @@ struct Contact {
 const BENDING: f64 = 1.0;
 /// The same for every sample (rad²): what keeps the filter from being sure for ever.
 const UNREST: f64 = 1e-9;
+/// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
+/// drags the other way. While a tip slides back its errors grow as they fade otherwise.
+const GIVING: f64 = 1e-6;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -92,6 +95,8 @@ const FIRST_PLACE: f64 = 2e-5;
 const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
 /// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
+/// The greatest standard deviation of a place that is told (m).
+const MOST_SPREAD: f64 = 0.25e-3;
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
 /// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
@@ -106,8 +111,8 @@ impl Sliding {
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
         let angle = BaseAngle::new(whisker, sensing);
         Self {
-            table,
             rest: ShaftRest::new(whisker, angle.spread),
+            table,
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
             usual_normal: whisker.usual_normal(),
@@ -167,6 +172,7 @@ impl Sliding {
         let transition = Matrix2::new(1.0, 0.0, -slid, 1.0);
         let mut covariance = transition * last.covariance * transition.transpose();
         covariance.m11 += BENDING * way + UNREST;
+        covariance.m22 += GIVING * way;
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
@@ -257,7 +263,10 @@ impl TipModel for Sliding {
             _ => State::Unsettled { left: None, bend },
         };
         match self.state {
-            State::Settled(contact) => self.rest.take(angle, base, way, contact.centre),
+            State::Settled(contact) => {
+                let normal = (contact.bend * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
+                self.rest.take(angle, base, way, contact.centre, normal);
+            }
             _ => self.rest.interrupt(),
         }
     }
@@ -276,7 +285,7 @@ impl TipModel for Sliding {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(),
-            doubt: self.rest.doubt(),
+            is_sure: self.rest.doubt().hypot(contact.place_spread()) < MOST_SPREAD,
             contact_length: self.length,
         })
     }

@@ -16,8 +16,8 @@ pub struct Touch {
     pub covariance_world: Matrix2<f64>,
     /// How far off the place may be (m), as a standard deviation: along the surface's normal if the model knows it, else either way.
     pub spread: f64,
-    /// How far off the place may be besides (m), as a standard deviation, because it may not be the tip that touches.
-    pub doubt: f64,
+    /// Whether the place may be recorded. It may not while something else than the tip may touch.
+    pub is_sure: bool,
     /// Length of the shaft from its base to what touches (m): all of it for a tip.
     pub contact_length: f64,
 }
@@ -30,7 +30,7 @@ impl Touch {
             point_world: base.position + rotate(place, base.heading),
             covariance_world: turned(covariance, base.heading),
             spread: covariance.trace().sqrt(),
-            doubt: 0.0,
+            is_sure: true,
             contact_length: length,
         }
     }

@@ -137,7 +137,7 @@ impl PerceivedWhisker {
 
     /// Whether the place that is touched may be taken for one of the surface.
     pub(super) fn is_sure(&self) -> bool {
-        self.touch.is_some_and(|touch| touch.doubt < MOST_DOUBT)
+        self.touch.is_some_and(|touch| touch.is_sure)
     }
 
     /// Whether the whisker touches where that can be told.
@@ -156,7 +156,7 @@ impl PerceivedWhisker {
     /// How far off the tip may be (m): a standard deviation.
     pub(super) fn tip_spread(&self) -> f64 {
         match &self.touch {
-            Some(touch) => touch.spread.hypot(touch.doubt),
+            Some(touch) => touch.spread,
             None => self.curve.spread(self.deflection(), self.deflection_spread),
         }
     }
@@ -197,9 +197,6 @@ impl PerceivedWhisker {
         }
     }
 }
-
-/// The greatest doubt (m) in a place that is recorded.
-const MOST_DOUBT: f64 = 0.3e-3;
 
 /// Standard deviation of a deflection (rad).
 pub(super) fn deflection_spread(sensing: &Sensing) -> f64 {

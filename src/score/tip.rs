@@ -60,9 +60,7 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
             let record = &trace.ticks[tick];
             let (error, spread) = (surfaces.distance(tip_world), record.tip_spreads[whisker]);
             let offset = record.tip_ends[whisker].and_then(|end| offset(tip_world, end, radii[whisker], surfaces));
-            let tip = Tip { tick, whisker, tip_world, error, spread, offset };
-            if std::env::var_os("DBGTIPS").is_some() { eprintln!("TIP {} {} {} {} {} {} {} {}", tick, whisker, error, spread, tip.is_outlier(), offset.map_or(-1.0, |o| o.along.hypot(o.across)), tip_world.x, tip_world.y); }
-            tip
+            Tip { tick, whisker, tip_world, error, spread, offset }
         })
         .collect()
 }
