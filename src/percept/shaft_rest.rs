@@ -69,7 +69,7 @@ const REFINEMENTS: usize = 4;
 /// How far a place may seem to move (m) if it is fixed: so far off it may be found.
 const DRIFT: f64 = 1.5e-3;
 /// Judgements in a row behind which a rest leaves a doubt, and behind which no later place speaks against it.
-const LASTING: usize = 3;
+const LASTING: usize = 4;
 const PROVEN: usize = 8;
 /// Way of the tip (m) on which a doubt falls by a factor e.
 const FADING: f64 = 12e-3;
@@ -219,5 +219,73 @@ impl Posed {
     fn to_base(self, place: Point2) -> Vector2 {
         let offset = place - self.base;
         Vector2::new(self.axis.dot(&offset), perpendicular(self.axis).dot(&offset))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mechanics::Elastica;
+    use crate::rig::Rig;
+
+    /// A normal that no shaft lies along.
+    const HEAD_ON: f64 = PI;
+
+    fn rest() -> (ShaftRest, Whisker) {
+        let whisker = Rig::default().whiskers.remove(0);
+        (ShaftRest::new(&whisker, 4.5e-7), whisker)
+    }
+
+    /// Takes the base angle of a shaft that rests on a corner at `place` (m, world frame) with a share of its length, by the exact theory.
+    /// The force is in units of `EI / L²`.
+    fn take_on_corner(rest: &mut ShaftRest, whisker: &Whisker, place: Point2, (share, force): (f64, f64)) {
+        let elastica = Elastica::new(whisker);
+        let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
+        let bend = elastica.under(share * whisker.shaft.length, FRAC_PI_2, force * force_unit).unwrap();
+        let base = Pose { position: place - bend.contact_base, heading: 0.0 };
+        let tip = base.position + bend.tip_base;
+        rest.take(bend.base_angle, base, SPACING, tip, HEAD_ON);
+    }
+
+    proptest! {
+        #[test]
+        fn a_shaft_that_rests_on_a_corner_puts_its_tip_in_doubt(share in 0.4..0.85_f64, force in 1.0..3.0_f64, slide in 3e-3..8e-3_f64) {
+            let (mut rest, whisker) = rest();
+            for step in 0..10 {
+                take_on_corner(&mut rest, &whisker, Point2::new(0.3, -0.2), (share + slide * f64::from(step), force));
+            }
+            let beyond = (1.0 - share - 10.0 * slide) * whisker.shaft.length;
+            prop_assert!(rest.doubt() > beyond, "{} m, {beyond} m beyond the corner", rest.doubt());
+        }
+
+        #[test]
+        fn a_tip_that_slides_along_a_wall_is_not_in_doubt(lean in 0.4..1.0_f64, force in 0.5..1.5_f64) {
+            let (mut rest, whisker) = rest();
+            let elastica = Elastica::new(&whisker);
+            let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
+            let bend = elastica.under(whisker.shaft.length, FRAC_PI_2 + lean, force * force_unit).unwrap();
+            // The wall is square to the force.
+            let along = perpendicular(unit(bend.force_direction));
+            for step in 0..40 {
+                let base = Pose { position: Point2::origin() + SPACING * f64::from(step) * along, heading: 0.0 };
+                rest.take(bend.base_angle, base, SPACING, base.position + bend.tip_base, bend.force_direction);
+                prop_assert!(rest.doubt() < 1e-4, "{} m", rest.doubt());
+            }
+        }
+    }
+
+    #[test]
+    fn a_shaft_that_lies_along_a_surface_puts_its_tip_in_doubt() {
+        let (mut rest, _) = rest();
+        rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), FRAC_PI_2);
+        assert!(rest.doubt() >= FLAT);
+        rest.end();
+        assert!(rest.doubt() < f64::EPSILON);
     }
 }
