@@ -68,6 +68,8 @@ struct Contact {
     normal: f64,
     /// Of the normal's direction (rad) and the centre's place along the normal (m).
     covariance: Matrix2<f64>,
+    /// The same with what the filter's gain does not regard: that contacts give more or less.
+    considered: Matrix2<f64>,
     /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
     tip: TipPlace,
     /// Where it came to touch (m, world frame), how far it has been from there since (m), and the variance of the place (m²) by which it
@@ -172,7 +174,9 @@ impl Sliding {
         let transition = Matrix2::new(1.0, 0.0, -slid, 1.0);
         let mut covariance = transition * last.covariance * transition.transpose();
         covariance.m11 += BENDING * way + UNREST;
-        covariance.m22 += GIVING * way;
+        let mut considered = transition * last.considered * transition.transpose();
+        considered.m11 += BENDING * way + UNREST;
+        considered.m22 += GIVING * way;
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
@@ -184,11 +188,13 @@ impl Sliding {
         }
         let gain = covariance * measured.transpose() / variance;
         let centre = along - gain.y * innovation * normal;
+        let left = Matrix2::identity() - gain * measured;
         State::Settled(Contact {
             centre,
             before: [last.before[1], last.before[2], last.centre],
             normal: direction - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
+            considered: left * considered * left.transpose() + noise * gain * gain.transpose(),
             tip,
             farthest: last.farthest.max((centre - last.first).norm()),
             ..*last
@@ -324,13 +330,24 @@ impl Contact {
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
             + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
         let before = [centre; 3];
-        Self { bend, centre, before, normal, covariance, tip: *tip, first: centre, farthest: 0.0, first_variance: 0.0 }
+        Self {
+            bend,
+            centre,
+            before,
+            normal,
+            covariance,
+            considered: covariance,
+            tip: *tip,
+            first: centre,
+            farthest: 0.0,
+            first_variance: 0.0,
+        }
     }
 
     /// Standard deviation of the place along the normal (m).
     fn place_spread(&self) -> f64 {
         let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
-        (self.covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
+        (self.considered.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
     }
 
     /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
