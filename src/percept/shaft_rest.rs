@@ -1,6 +1,6 @@
 //! Whether the shaft may rest on a corner where the tip is taken to touch.
 
-use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit};
+use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit, wrap};
 use crate::mechanics::Pivot;
 use crate::rig::Whisker;
 
@@ -52,6 +52,8 @@ struct Posed {
     axis: Vector2,
     /// rad.
     angle: f64,
+    /// Direction of the surface's normal by the estimate (rad, world frame).
+    normal: f64,
 }
 
 /// Readings that one fixed place has to explain.
@@ -61,6 +63,10 @@ const SPACING: f64 = 0.75e-3;
 /// How far the mechanics may be off, as a share of the base angle, and the misfit in standard deviations that is still explained.
 const MODEL_SHARE: f64 = 3e-3;
 const MISFIT: f64 = 1.5;
+/// The greatest standard deviation, as a share of the base angle, of readings that tell a rest: others fit many places.
+const MOST_NOISE: f64 = 0.01;
+/// By how much the surface seems to turn (rad) from the oldest to the newest of the readings, at least, if the shaft rests.
+const LEAST_TURN: f64 = 0.03;
 /// The least share of the shaft at which a corner is looked for, and the steps from there to the tip.
 const LEAST_SHARE: f64 = 0.15;
 const STEPS: i32 = 16;
@@ -127,7 +133,12 @@ impl ShaftRest {
         }
         self.way = 0.0;
         self.readings.rotate_left(1);
-        self.readings[REMEMBERED - 1] = Posed { base: base.position, axis: unit(base.heading), angle };
+        self.readings[REMEMBERED - 1] = Posed {
+            base: base.position,
+            axis: unit(base.heading),
+            angle,
+            normal: base.heading + angle.signum() * normal,
+        };
         self.count = (self.count + 1).min(REMEMBERED);
         if self.count == REMEMBERED {
             self.judge(tip);
@@ -160,6 +171,10 @@ impl ShaftRest {
     /// The place (m, world frame) nearest to the base on which a shaft that rests has all the base angles.
     fn fixed_place(&self) -> Option<Point2> {
         let (oldest, newest) = (&self.readings[0], &self.readings[REMEMBERED - 1]);
+        let turned = wrap(newest.normal - oldest.normal).abs();
+        if self.angle_spread > MOST_NOISE * newest.angle.abs() || turned < LEAST_TURN {
+            return None;
+        }
         // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
         let tried = |share: f64| {
             let place = newest.to_world(self.pivot.place(newest.angle, share * self.length)?);

@@ -85,7 +85,7 @@ const BENDING: f64 = 1.0;
 const UNREST: f64 = 1e-9;
 /// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
 /// drags the other way. While a tip slides back its errors grow as they fade otherwise.
-const GIVING: f64 = 1e-6;
+const GIVING: f64 = 8e-8;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -97,8 +97,8 @@ const FIRST_PLACE: f64 = 2e-5;
 const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
 /// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
-/// The greatest standard deviation of a place that is told (m).
-const MOST_SPREAD: f64 = 0.25e-3;
+/// The greatest doubt about the tip (m) with which its place is recorded.
+const MOST_DOUBT: f64 = 0.2e-3;
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
 /// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
@@ -291,7 +291,7 @@ impl TipModel for Sliding {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(),
-            is_sure: self.rest.doubt().hypot(contact.place_spread()) < MOST_SPREAD,
+            is_sure: self.rest.doubt() < MOST_DOUBT,
             contact_length: self.length,
         })
     }
