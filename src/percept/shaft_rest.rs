@@ -249,23 +249,20 @@ mod tests {
     use crate::mechanics::Elastica;
     use crate::rig::Rig;
 
-    /// A normal that no shaft lies along.
-    const HEAD_ON: f64 = PI;
-
     fn rest() -> (ShaftRest, Whisker) {
         let whisker = Rig::default().whiskers.remove(0);
         (ShaftRest::new(&whisker, 4.5e-7), whisker)
     }
 
     /// Takes the base angle of a shaft that rests on a corner at `place` (m, world frame) with a share of its length, by the exact theory.
-    /// The force is in units of `EI / L²`.
-    fn take_on_corner(rest: &mut ShaftRest, whisker: &Whisker, place: Point2, (share, force): (f64, f64)) {
+    /// The force is in units of `EI / L²`. What is taken for a surface turns by `turned` (rad).
+    fn take_on_corner(rest: &mut ShaftRest, whisker: &Whisker, place: Point2, (share, force): (f64, f64), turned: f64) {
         let elastica = Elastica::new(whisker);
         let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
         let bend = elastica.under(share * whisker.shaft.length, FRAC_PI_2, force * force_unit).unwrap();
         let base = Pose { position: place - bend.contact_base, heading: 0.0 };
         let tip = base.position + bend.tip_base;
-        rest.take(bend.base_angle, base, SPACING, tip, HEAD_ON);
+        rest.take(bend.base_angle, base, SPACING, tip, PI + turned);
     }
 
     proptest! {
@@ -273,7 +270,7 @@ mod tests {
         fn a_shaft_that_rests_on_a_corner_puts_its_tip_in_doubt(share in 0.4..0.85_f64, force in 1.0..3.0_f64, slide in 3e-3..8e-3_f64) {
             let (mut rest, whisker) = rest();
             for step in 0..10 {
-                take_on_corner(&mut rest, &whisker, Point2::new(0.3, -0.2), (share + slide * f64::from(step), force));
+                take_on_corner(&mut rest, &whisker, Point2::new(0.3, -0.2), (share + slide * f64::from(step), force), 0.02 * f64::from(step));
             }
             let beyond = (1.0 - share - 10.0 * slide) * whisker.shaft.length;
             prop_assert!(rest.doubt() > beyond, "{} m, {beyond} m beyond the corner", rest.doubt());
