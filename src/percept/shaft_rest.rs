@@ -124,9 +124,6 @@ impl ShaftRest {
         if let Some(rest) = &mut self.rest {
             rest.doubt_before *= fading;
         }
-        if self.pivot.lies_flat(angle, normal) {
-            self.doubt = self.doubt.max(FLAT);
-        }
         self.way += way;
         if self.count > 0 && self.way < SPACING {
             return;
@@ -142,6 +139,9 @@ impl ShaftRest {
         self.count = (self.count + 1).min(REMEMBERED);
         if self.count == REMEMBERED {
             self.judge(tip);
+            if self.seems_to_turn() && self.pivot.lies_flat(angle, normal) {
+                self.doubt = self.doubt.max(FLAT);
+            }
         }
     }
 
@@ -171,8 +171,7 @@ impl ShaftRest {
     /// The place (m, world frame) nearest to the base on which a shaft that rests has all the base angles.
     fn fixed_place(&self) -> Option<Point2> {
         let (oldest, newest) = (&self.readings[0], &self.readings[REMEMBERED - 1]);
-        let turned = wrap(newest.normal - oldest.normal).abs();
-        if self.angle_spread > MOST_NOISE * newest.angle.abs() || turned < LEAST_TURN {
+        if self.angle_spread > MOST_NOISE * newest.angle.abs() || !self.seems_to_turn() {
             return None;
         }
         // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
@@ -194,6 +193,12 @@ impl ShaftRest {
             }
         }
         None
+    }
+
+    /// Whether the surface seems to turn from the oldest to the newest reading. A tip that slides along a straight wall explains readings
+    /// in which it does not.
+    fn seems_to_turn(&self) -> bool {
+        wrap(self.readings[REMEMBERED - 1].normal - self.readings[0].normal).abs() > LEAST_TURN
     }
 
     /// Whether a shaft that rests on a place (m, world frame) has all the base angles.
@@ -293,9 +298,12 @@ mod tests {
     }
 
     #[test]
-    fn a_shaft_that_lies_along_a_surface_puts_its_tip_in_doubt() {
+    fn a_shaft_that_lies_along_a_surface_that_seems_to_turn_puts_its_tip_in_doubt() {
         let (mut rest, _) = rest();
-        rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), FRAC_PI_2);
+        for step in 0..4 {
+            let normal = FRAC_PI_2 - 0.02 * f64::from(step);
+            rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), normal);
+        }
         assert!(rest.doubt() >= FLAT);
         rest.end();
         assert!(rest.doubt() < f64::EPSILON);
