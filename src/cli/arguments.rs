@@ -96,6 +96,8 @@ pub(super) struct RunArguments {
     /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
     /// Run again whenever a scenario or policy is saved; print a line for every simulated second
     #[arg(long, conflicts_with = "json")]
     pub(super) watch: bool,
@@ -140,6 +142,8 @@ pub(super) struct BenchArguments {
     /// Print only JSON: an array of results, each with what the thesis reports
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
     /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
     #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
@@ -172,6 +176,8 @@ pub(super) struct CalibrateArguments {
     /// Print only JSON
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
 }
 
 const COMPARE_STATUS: &str =
@@ -202,6 +208,8 @@ pub(super) struct CompareArguments {
     /// Print only JSON: the runs that did not complete, and the figures with their intervals
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
     /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
     #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
@@ -228,6 +236,8 @@ pub(super) struct ParetoArguments {
     /// Print only JSON
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
 }
 
 const FAMILIES_STATUS: &str = "Exit status: 0 all runs completed without a contact of the body; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -266,6 +276,8 @@ pub(super) struct FamiliesArguments {
     /// Print only JSON: an array of results
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
     /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
     #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
@@ -294,6 +306,8 @@ pub(super) struct SweepArguments {
     /// Print only JSON: how many runs ended how, by scenes, settings and policy
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
 }
 
 const MERGE_STATUS: &str = "Exit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error.";
@@ -310,6 +324,8 @@ pub(super) struct MergeArguments {
     /// Print only JSON: how many runs ended how, by scenes, settings and policy
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
 }
 
 #[derive(Debug, Args)]
@@ -330,6 +346,8 @@ pub(super) struct StressArguments {
     /// Print only JSON: an array of cases and settings
     #[arg(long)]
     pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) columns: Columns,
     /// How many cases to run at a time, at most 32 for each processor; as many as there are processors unless given
     #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
@@ -359,6 +377,14 @@ pub(super) struct MjcfArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
     pub(super) scenario: PathBuf,
+}
+
+/// How tables are printed.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct Columns {
+    /// Print every column of tables; without this, tables are at most 100 characters wide
+    #[arg(long, conflicts_with = "json")]
+    pub(super) wide: bool,
 }
 
 /// How much is simulated.

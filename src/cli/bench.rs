@@ -28,7 +28,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let jobs = jobs(&policies(arguments, &mut files)?, &conditions, arguments)?;
     if let Some(repeats) = arguments.timing {
-        return timing::timing(&jobs, repeats, arguments.json);
+        return timing::timing(&jobs, repeats, arguments.json, arguments.columns);
     }
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &jobs, &mut files)).transpose()?;
@@ -45,7 +45,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&rows)?;
     } else {
-        output::result(bench_table(&rows))?;
+        output::tables(&[bench_table(&rows)], arguments.columns.wide)?;
         output::result(pooled_tips(&rows))?;
         if let Some(page) = page {
             output::result(format_args!("report: {}", page.display()))?;

@@ -67,7 +67,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
         let held_out = &fitted.held_out;
         output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
     } else {
-        output::result(held_out_table(&fitted.held_out))?;
+        output::tables(&[held_out_table(&fitted.held_out)], arguments.columns.wide)?;
         output::result(format_args!("{} sets, {} of them by the tip", sets.len(), tip_sets))?;
         if let Some(directory) = &arguments.out {
             output::result(format_args!("calibration: {}", directory.join(FILE).display()))?;

@@ -1,6 +1,5 @@
 //! `vibrissa check`
 
-use crate::report::Document;
 use std::path::Path;
 
 use serde::Serialize;
@@ -9,6 +8,7 @@ use crate::diagnostic::{Position, Record, records};
 use crate::file::CommandFiles;
 use crate::machine::{Artifact, FORMAT, Program, State, Target};
 use crate::policy::{self, Checked as Found};
+use crate::report::{Document, Table};
 use crate::units::format_si;
 
 use super::exit::{Exit, Failure};
@@ -219,19 +219,20 @@ fn name(program: &Program, target: &Target) -> String {
 fn describe(file: &str, machine: &Summary) -> String {
     let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
     let headings = ["state", "transitions", "operations in a tick that stays"];
-    let mut states = table(headings.into_iter().chain(has_failsafe.then_some("failsafe")));
-    for state in &machine.states {
+    let headings = headings.into_iter().chain(has_failsafe.then_some("failsafe"));
+    let states = machine.states.iter().map(|state| {
         let initial = if state.initial { " (initial)" } else { "" };
         let name = format!("{:indent$}{}{initial}", "", state.name, indent = 2 * state.depth);
         let cells = [name, state.transitions.to_string(), state.operations.to_string()];
         let failsafe = state.failsafe.clone().unwrap_or_default();
-        states.add_row(cells.into_iter().chain(has_failsafe.then_some(failsafe)));
-    }
-    let mut parameters = table(["parameter", "value", "range", "description"]);
-    for ParameterSummary { name, value, range, description } in &machine.parameters {
+        cells.into_iter().chain(has_failsafe.then_some(failsafe)).collect()
+    });
+    let states = Table::new(4, headings, states);
+    let parameters = machine.parameters.iter().map(|ParameterSummary { name, value, range, description }| {
         let range = range.as_ref().map(|[low, high]| format!("{low} .. {high}")).unwrap_or_default();
-        parameters.add_row([name, value, &range, description]);
-    }
+        vec![name.clone(), value.clone(), range, description.clone()]
+    });
+    let parameters = Table::new(4, ["parameter", "value", "range", "description"], parameters);
     let mut text = format!(
         "{file}: machine {}, whiskers {}, {} bytes of memory, at most {} operations a tick\n",
         machine.name,
@@ -240,17 +241,10 @@ fn describe(file: &str, machine: &Summary) -> String {
         machine.most_operations
     );
     if !machine.parameters.is_empty() {
-        text += &(parameters.trim_fmt() + "\n");
+        text += &(parameters.fitted() + "\n");
     }
     if let Some(failsafe) = &machine.failsafe {
         text.extend(["failsafe -> ", failsafe, "\n"]);
     }
-    text + &states.trim_fmt()
-}
-
-/// An empty table under a header, without lines.
-fn table<'h>(header: impl IntoIterator<Item = &'h str>) -> comfy_table::Table {
-    let mut table = comfy_table::Table::new();
-    table.load_style(comfy_table::presets::NOTHING).set_header(header.into_iter().collect::<Vec<_>>());
-    table
+    text + &states.fitted()
 }

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use crate::file::CommandFiles;
 use crate::scene::{Jitter, Scene};
 use crate::study::bench::{SCENARIOS, TextFile};
-use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_table};
+use crate::study::compare::{Comparison, Incomplete, PolicyRuns, comparison_tables};
 
 use super::arguments::CompareArguments;
 use super::batch::run_all;
@@ -52,7 +52,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&comparison)?;
     } else {
-        output::result(comparison_table(&comparison))?;
+        output::tables(&comparison_tables(&comparison), arguments.columns.wide)?;
     }
     Ok(Exit::Done)
 }

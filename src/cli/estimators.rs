@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use crate::study::bench::{DEFAULT_POLICY, SCENARIOS, TextFile};
-use crate::study::estimators::{estimators_table, judge_all};
+use crate::study::estimators::{estimators_tables, judge_all};
 use crate::study::in_parallel;
 
 use super::arguments::{BenchArguments, World};
@@ -35,7 +35,7 @@ pub(super) fn estimators(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&rows)?;
     } else {
-        output::result(estimators_table(&rows))?;
+        output::tables(&estimators_tables(&rows), arguments.columns.wide)?;
     }
     Ok(Exit::Done)
 }

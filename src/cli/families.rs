@@ -58,7 +58,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&runs)?;
     } else {
-        output::result(families_table(&tallies(&runs)))?;
+        output::tables(&[families_table(&tallies(&runs))], arguments.columns.wide)?;
     }
     Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
 }

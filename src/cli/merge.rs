@@ -35,7 +35,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     let file = read.output("--out", &path)?;
     let _lock = merged.check_place(&path)?;
     file.write(merged.text()?)?;
-    tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.json)?;
+    tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.json, arguments.columns)?;
     Ok(Exit::Done)
 }
 

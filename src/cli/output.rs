@@ -4,13 +4,19 @@ use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 
 use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
-use crate::report::Document;
+use crate::report::{Document, Table};
 
 use super::exit::Failure;
 
 /// Prints a result and ends its line.
 pub(super) fn result(text: impl Display) -> Result<(), Failure> {
     written(&format!("{}\n", printable(&text.to_string())))
+}
+
+/// Prints tables, one below the other; with all their columns, or with those that fit on a line.
+pub(super) fn tables(tables: &[Table], wide: bool) -> Result<(), Failure> {
+    let texts: Vec<String> = tables.iter().map(|table| if wide { table.wide() } else { table.fitted() }).collect();
+    result(texts.join("\n\n"))
 }
 
 /// Prints a text as it is, unless a terminal would obey it. A reader that has gone away, such as `head`, is no fault; a disk that is full is.

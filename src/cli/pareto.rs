@@ -55,7 +55,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json(&pareto)?;
     } else {
-        output::result(pareto_table(&pareto))?;
+        output::tables(&[pareto_table(&pareto)], arguments.columns.wide)?;
     }
     Ok(Exit::Done)
 }

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::file::CommandFiles;
-use crate::report::{RunResult, table, tick_lines};
+use crate::report::{RunResult, results_table, tick_lines};
 use crate::score::Score;
 
-use super::arguments::RunArguments;
+use super::arguments::{Columns, RunArguments};
 use super::exit::{Exit, Failure};
 use super::job::{Job, ReportFiles, Told, extended, tell};
 use super::output;
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&results)?;
     } else {
-        show(&results, arguments.out.as_deref())?;
+        show(&results, arguments.out.as_deref(), arguments.columns)?;
     }
     Ok(exit)
 }
@@ -83,8 +83,8 @@ pub(super) fn finish(
 }
 
 /// Prints the results as a table, and where the reports are.
-pub(super) fn show(results: &[RunResult], directory: Option<&Path>) -> Result<(), Failure> {
-    output::result(table(results))?;
+pub(super) fn show(results: &[RunResult], directory: Option<&Path>, columns: Columns) -> Result<(), Failure> {
+    output::tables(&[results_table(results)], columns.wide)?;
     for result in results {
         if let Some(directory) = directory {
             output::result(format_args!("report: {}", extended(&stem(directory, &result.scenario), "svg").display()))?;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::process::Command;
 
 use crate::scene::WorldKind;
-use crate::study::stress::{StressRow, StressTask, stress_table};
+use crate::study::stress::{StressRow, StressTask, stress_tables};
 use crate::study::sweep::{Answer, StartError, Worker, answer};
 use crate::study::{check_world, engine_version, stream_in_parallel};
 
@@ -47,7 +47,7 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&rows)?;
     } else {
-        output::result(stress_table(&rows))?;
+        output::tables(&stress_tables(&rows), arguments.columns.wide)?;
     }
     Ok(if rows.iter().all(StressRow::is_sound) { Exit::Done } else { Exit::Unexpected })
 }

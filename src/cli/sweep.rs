@@ -11,7 +11,7 @@ use crate::study::sweep::{
     Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
 };
 
-use super::arguments::SweepArguments;
+use super::arguments::{Columns, SweepArguments};
 use super::batch::threads;
 use super::exit::{Exit, Failure};
 use super::output;
@@ -61,7 +61,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
         return Err(failure);
     }
     let summary = SweepSummary::new(sweep, &done, resumed);
-    tell(&summary, &path, arguments.json)?;
+    tell(&summary, &path, arguments.json, arguments.columns)?;
     Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
 }
 
@@ -87,10 +87,10 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
 }
 
 /// Prints what became of the runs whose results are at `path`.
-pub(super) fn tell(summary: &SweepSummary, path: &Path, json: bool) -> Result<(), Failure> {
+pub(super) fn tell(summary: &SweepSummary, path: &Path, json: bool, columns: Columns) -> Result<(), Failure> {
     if json {
         return output::json(summary);
     }
-    output::result(summary_table(&summary.groups))?;
+    output::tables(&[summary_table(&summary.groups)], columns.wide)?;
     output::result(format_args!("results: {}", PathBuf::from(path).display()))
 }

@@ -44,7 +44,7 @@ pub(super) fn tiers(arguments: &BenchArguments) -> Result<Exit, Failure> {
     if arguments.json {
         output::json_list(&rows)?;
     } else {
-        output::result(tiers_table(&rows))?;
+        output::tables(&[tiers_table(&rows)], arguments.columns.wide)?;
     }
     Ok(Exit::Done)
 }

@@ -3,13 +3,19 @@
 use crate::scene::Outcome;
 use crate::study::bench::{Conditions, Timing, TimingRow, timing_table};
 
+use super::arguments::Columns;
 use super::exit::{Exit, Failure};
 use super::job::Job;
 use super::output;
 use super::progress::Progress;
 
 /// Does every job so many times, one run at a time. One round has every job once, so that what else the machine does falls on all of them.
-pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: usize, json: bool) -> Result<Exit, Failure> {
+pub(super) fn timing(
+    jobs: &[(Conditions, Job)],
+    repeats: usize,
+    json: bool,
+    columns: Columns,
+) -> Result<Exit, Failure> {
     let mut progress = Progress::new(jobs.len() * repeats);
     let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(repeats); jobs.len()];
     for _ in 0..repeats {
@@ -28,7 +34,7 @@ pub(super) fn timing(jobs: &[(Conditions, Job)], repeats: usize, json: bool) -> 
     if json {
         output::json_list(&rows)?;
     } else {
-        output::result(timing_table(&rows))?;
+        output::tables(&[timing_table(&rows)], columns.wide)?;
     }
     Ok(if rows.iter().all(|row| row.outcome == Outcome::Completed) { Exit::Done } else { Exit::Unexpected })
 }

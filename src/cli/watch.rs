@@ -39,7 +39,7 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
         match jobs.and_then(|jobs| run_all(&jobs, arguments, &mut files, &watch)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
             Err(failure) => failure.report(),
-            Ok(results) => run::show(&results, arguments.out.as_deref())?,
+            Ok(results) => run::show(&results, arguments.out.as_deref(), arguments.columns)?,
         }
         output::message(format_args!("watching {} files; Ctrl-C ends", watch.files.len()));
         watch.wait();

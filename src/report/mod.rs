@@ -6,6 +6,7 @@ mod number;
 mod outline;
 mod picture;
 mod result;
+mod results_table;
 mod shade;
 mod style;
 mod table;
@@ -18,9 +19,10 @@ pub use result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,
     RunResult, TickUs, TipErrorMm,
 };
-pub use table::table;
+pub use results_table::results_table;
+pub use table::Table;
 pub use tick_line::{TickLine, tick_lines};
 
 pub(crate) use number::{mean_std, millimetres};
 pub(crate) use picture::{FrontPoint, front_picture};
-pub(crate) use table::{NONE, percent, ruled};
+pub(crate) use table::{NONE, percent};

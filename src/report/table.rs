@@ -1,72 +1,130 @@
-//! Results as a table for the terminal.
+//! Tables for the terminal.
 
-use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
+use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, TableStyle};
 
-use super::number::{mean_std, millimetres};
-use super::{MeanStd, RunResult};
-
-/// What stands for a figure that a run does not have.
+/// What stands for a figure that a row does not have.
 pub(crate) const NONE: &str = "–";
 
-/// A column: its heading, what it shows of a run, and whether it is there even if no run has it.
-type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
+/// The number of characters that fit on a line of a terminal.
+const LINE: usize = 100;
+/// The number of blanks between the texts of neighbouring columns.
+const GAP: usize = 3;
 
-/// The columns from left to right.
-const COLUMNS: [Column; 22] = [
-    ("scene", |result| Some(result.scenario.clone()), true),
-    ("policy", |result| Some(result.policy.clone()), true),
-    ("outcome", |result| Some(result.outcome.to_string()), true),
-    ("error mm", |result| Some(mean_std(result.error_mm.mean?, result.error_mm.std)), true),
-    ("p95", |result| result.error_mm.p95.map(millimetres), true),
-    ("max", |result| result.error_mm.max.map(millimetres), true),
-    ("outliers", |result| result.error_mm.outliers.map(|share| percent(share, 2)), true),
-    ("in 95 %", |result| result.error_mm.within_band.map(|share| percent(share, 1)), true),
-    ("coverage", |result| Some(percent(result.coverage, 1)), true),
-    ("passage", |result| Some(percent(result.passage?.share, 1)), false),
-    ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
-    ("Hausdorff mm", |result| result.hausdorff_mm.map(millimetres), true),
-    ("retrieval mm", |result| spread(result.retrieval?.radius_mm), false),
-    ("axis mm", |result| spread(result.axis_mm?), false),
-    ("corners", |result| result.corners.map(|corners| format!("{} of {}", corners.traced, corners.count)), false),
-    ("corner mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
-    ("corner s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
-    ("corner m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
-    ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
-    ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
-    ("× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),
-    ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
-];
-
-/// A table of results, one line each: lengths in mm, times as their headings say. What not every run has, such as corners,
-/// is there if one has it. Plain text, as wide as it needs to be.
-#[must_use]
-pub fn table(results: &[RunResult]) -> String {
-    let shown = |&&(_, text, always): &&Column| always || results.iter().any(|result| text(result).is_some());
-    let columns: Vec<_> = COLUMNS.iter().filter(shown).collect();
-    let lines = results.iter().map(|result| {
-        columns.iter().map(|(_, text, _)| text(result).unwrap_or_else(|| NONE.to_owned())).collect::<Vec<_>>()
-    });
-    ruled(columns.iter().map(|(heading, ..)| *heading), lines, 3)
+/// A table of texts with a heading above every column.
+///
+/// The first columns name a row. They stand to the left and are always shown. The other columns hold one figure each, which stands to the
+/// right. They are in the order of their importance: those that do not fit on a line are left out from the right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    caption: Option<String>,
+    headings: Vec<String>,
+    names: usize,
+    rows: Vec<Vec<String>>,
 }
 
-/// A table with rules above, below and under its headings; all but the first `names` columns are figures, which stand to the
-/// right.
-pub(crate) fn ruled<'h>(
-    headings: impl IntoIterator<Item = &'h str>,
-    lines: impl IntoIterator<Item = Vec<String>>,
-    names: usize,
-) -> String {
-    let mut table = Table::new();
-    let rule = LineStyle::none().fill('─').junction('─');
-    let style = TableStyle::new().top_border(rule).header_separator(rule).bottom_border(rule);
-    table.load_style(style).set_header(headings);
-    for line in lines {
-        table.add_row(line.into_iter().map(Cell::new));
+impl Table {
+    /// A table whose first `names` columns name a row.
+    pub(crate) fn new<H: Into<String>>(
+        names: usize,
+        headings: impl IntoIterator<Item = H>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Self {
+        let headings = headings.into_iter().map(Into::into).collect();
+        Self { caption: None, headings, names, rows: rows.into_iter().collect() }
     }
-    for column in table.column_iter_mut().skip(names) {
-        column.set_cell_alignment(CellAlignment::Right);
+
+    /// The same table under a line of text.
+    #[must_use]
+    pub(crate) fn under(self, caption: impl Into<String>) -> Self {
+        Self { caption: Some(caption.into()), ..self }
     }
-    table.trim_fmt()
+
+    /// The headings from left to right.
+    #[must_use]
+    pub fn headings(&self) -> &[String] {
+        &self.headings
+    }
+
+    /// The cells of every row, from left to right.
+    #[must_use]
+    pub fn rows(&self) -> &[Vec<String>] {
+        &self.rows
+    }
+
+    /// The table as text, no wider than 100 characters. The last line says how many columns are left out, if there are any. Names that are
+    /// too long together are wrapped.
+    #[must_use]
+    pub fn fitted(&self) -> String {
+        let ends = self.widths().into_iter().scan(0, |end, width| {
+            *end += width + GAP;
+            Some(*end)
+        });
+        let shown = ends.take_while(|end| *end <= LINE).count().max(self.names).min(self.headings.len());
+        let mut text = self.text(shown, Some(LINE));
+        let left_out = self.headings.len() - shown;
+        if left_out > 0 {
+            text += &format!("\n{left_out} more column{} with --wide", if left_out == 1 { "" } else { "s" });
+        }
+        text
+    }
+
+    /// The table as text with all its columns, as wide as it needs to be.
+    #[must_use]
+    pub fn wide(&self) -> String {
+        self.text(self.headings.len(), None)
+    }
+
+    /// The first columns as text with rules above, below and under the headings; texts are wrapped where they need more than `width`.
+    fn text(&self, columns: usize, width: Option<usize>) -> String {
+        let mut table = self.ruled(columns);
+        let headings = self.headings.iter().zip(self.widths()).take(columns);
+        table.set_header(headings.map(|(heading, width)| wrapped(heading, width)));
+        for column in table.column_iter_mut().skip(self.names) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        if let Some(width) = width.and_then(|width| u16::try_from(width).ok()) {
+            table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+        }
+        let caption = self.caption.as_ref().map(|caption| format!("{caption}\n")).unwrap_or_default();
+        caption + &table.trim_fmt()
+    }
+
+    /// The widths of the columns: of their widest cells, and of the longest words of their headings.
+    fn widths(&self) -> Vec<usize> {
+        let cells = self.ruled(self.headings.len()).column_max_content_widths();
+        let cells = cells.into_iter().map(usize::from).chain(std::iter::repeat(0));
+        let word = |heading: &String| heading.split(' ').map(length).max().unwrap_or(0);
+        self.headings.iter().zip(cells).map(|(heading, cells)| word(heading).max(cells)).collect()
+    }
+
+    /// The rows' first columns, without headings.
+    fn ruled(&self, columns: usize) -> comfy_table::Table {
+        let mut table = comfy_table::Table::new();
+        let rule = LineStyle::none().fill('─').junction('─');
+        let style = TableStyle::new().top_border(rule).header_separator(rule).bottom_border(rule);
+        table.load_style(style);
+        for row in &self.rows {
+            table.add_row(row.iter().take(columns).map(Cell::new));
+        }
+        table
+    }
+}
+
+/// A heading with its words on as many lines as a width needs.
+fn wrapped(heading: &str, width: usize) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for word in heading.split(' ') {
+        match lines.last_mut() {
+            Some(line) if length(line) + 1 + length(word) <= width => *line = format!("{line} {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
+}
+
+/// The number of characters of a text.
+fn length(text: &str) -> usize {
+    text.chars().count()
 }
 
 /// A share (0 to 1) in percent.
@@ -74,6 +132,76 @@ pub(crate) fn percent(share: f64, digits: usize) -> String {
     format!("{:.digits$} %", 100.0 * share)
 }
 
-fn spread(figure: MeanStd) -> Option<String> {
-    Some(mean_std(figure.mean?, figure.std))
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use super::*;
+    use proptest::prelude::*;
+
+    fn table(names: usize, figures: usize, rows: usize) -> impl Strategy<Value = Table> {
+        let headings = prop::collection::vec("[a-z]{1,9}( [a-z]{1,9}){0,2}", names + figures);
+        let name = "[a-z0-9]{1,30}([ -][a-z0-9]{1,30}){0,3}";
+        let names_of_rows = prop::collection::vec(prop::collection::vec(name, names), rows);
+        let figures_of_rows = prop::collection::vec(prop::collection::vec("[0-9.]{1,12}", figures), rows);
+        (headings, names_of_rows, figures_of_rows).prop_map(move |(headings, names_of_rows, figures_of_rows)| {
+            let rows = names_of_rows.into_iter().zip(figures_of_rows).map(|(names, figures)| [names, figures].concat());
+            Table::new(names, headings, rows)
+        })
+    }
+
+    fn tables() -> impl Strategy<Value = Table> {
+        (1..4_usize, 0..20_usize, 0..5_usize).prop_flat_map(|(names, figures, rows)| table(names, figures, rows))
+    }
+
+    /// A text without what wrapping adds.
+    fn letters(text: &str) -> String {
+        text.chars().filter(|letter| !letter.is_whitespace() && *letter != '─').collect()
+    }
+
+    proptest! {
+        #[test]
+        fn a_fitted_table_is_at_most_a_hundred_characters_wide_and_counts_what_it_leaves_out(table in tables()) {
+            let fitted = table.fitted();
+            prop_assert!(fitted.lines().all(|line| length(line) <= LINE), "{fitted}");
+            let said = fitted.lines().last().and_then(|line| line.split_once(" more column"));
+            let left_out = said.map_or(0, |(count, _)| count.parse().unwrap());
+            prop_assert!(left_out <= table.headings.len() - table.names);
+            // What is shown of a row is there in full, wrapped or not.
+            let shown = table.headings.len() - left_out;
+            let all = |text: &str| { let mut all: Vec<char> = letters(text).chars().collect(); all.sort_unstable(); all };
+            let cells = table.headings[..shown].iter().chain(table.rows.iter().flat_map(|row| &row[..shown]));
+            let names: usize = table.widths()[..table.names].iter().map(|width| width + GAP).sum();
+            if names <= LINE {
+                let lines = table.rows.len() + 1 + usize::from(left_out > 0);
+                let rest: Vec<&str> = fitted.lines().rev().take(lines).collect();
+                prop_assert_eq!(rest.iter().filter(|line| line.contains('─')).count(), 1, "a row is wrapped:\n{}", fitted);
+            }
+            let body = if left_out > 0 { fitted.rsplit_once('\n').unwrap().0 } else { &fitted };
+            prop_assert_eq!(all(body), all(&cells.cloned().collect::<String>()), "{}", fitted);
+        }
+
+        #[test]
+        fn a_wide_table_shows_every_cell_on_the_line_of_its_row(table in tables()) {
+            let wide = table.wide();
+            let lines: Vec<&str> = wide.lines().collect();
+            let first = lines.len() - 1 - table.rows.len();
+            for (line, row) in lines[first..].iter().zip(&table.rows) {
+                prop_assert_eq!(letters(line), letters(&row.concat()));
+            }
+        }
+    }
+
+    #[test]
+    fn a_table_that_fits_leaves_nothing_out_and_one_column_too_many_is_left_out_and_counted() {
+        let table = |figures: usize| {
+            let headings =
+                std::iter::once("scene".to_owned()).chain((0..figures).map(|index| format!("figure {index}")));
+            Table::new(1, headings, [[vec!["disk".to_owned()], vec!["123456".to_owned(); figures]].concat()])
+        };
+        // 8 characters for the scene, 9 for every figure.
+        assert_eq!(table(10).fitted(), table(10).wide());
+        assert!(table(11).fitted().ends_with("\n1 more column with --wide"), "{}", table(11).fitted());
+        assert!(table(12).fitted().ends_with("\n2 more columns with --wide"), "{}", table(12).fitted());
+    }
 }

@@ -159,16 +159,16 @@ pub struct Tally {
 impl Tally {
     pub(super) const HEADINGS: [&str; 11] = [
         "runs",
-        "completed",
         "passed",
+        "completed",
+        "collided",
+        "error mm",
+        "outliers",
+        "in 95 %",
         "timeout",
         "failed",
         "diverged",
-        "collided",
-        "error mm",
-        "p95",
-        "outliers",
-        "in 95 %",
+        "p95 error mm",
     ];
 
     /// Counts some runs.
@@ -204,16 +204,16 @@ impl Tally {
         let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
         [
             self.runs.to_string(),
-            share(self.completed),
             share(self.passed),
+            share(self.completed),
+            self.collided.to_string(),
+            figure(self.error_mean_mm),
+            share_of(self.outliers, 2),
+            share_of(self.within_band, 1),
             self.timeout.to_string(),
             self.failed.to_string(),
             self.diverged.to_string(),
-            self.collided.to_string(),
-            figure(self.error_mean_mm),
             figure(self.error_p95_mm),
-            share_of(self.outliers, 2),
-            share_of(self.within_band, 1),
         ]
     }
 }

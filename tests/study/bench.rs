@@ -77,7 +77,7 @@ fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
     let worse = BenchRow::new(result("disk", 2e-3), false);
     assert!(!worse.passed && !worse.clone().under(Conditions::default()).passed);
     let hard = worse.clone().under(conditions);
-    assert!(hard.passed && bench_table(&[hard]).contains("disk, friction 0.3, noise"));
+    assert!(hard.passed && bench_table(&[hard]).wide().contains("disk, friction 0.3, noise"));
     let failed = BenchRow { result: RunResult { outcome: Outcome::Failed, ..worse.result.clone() }, ..worse };
     assert!(!failed.under(conditions).passed);
 }
@@ -100,12 +100,19 @@ fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_ch
 
 #[test]
 fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
-    let table =
-        bench_table(&[BenchRow::new(result("disk", 2e-4), true), BenchRow::new(result("smooth-tunnel", 2e-3), true)]);
-    for wanted in ["0.20 ± 0.00 better", "0.8 ± 0.5", "2.00 ± 0.00  worse", "1.3 ± 1.6", "not known  worse", "4 ± 4"]
+    let rows = ["disk", "smooth-tunnel"].into_iter().zip([2e-4, 2e-3]);
+    let table = bench_table(&rows.map(|(scene, off)| BenchRow::new(result(scene, off), true)).collect::<Vec<_>>());
+    let column = |heading: &str| table.headings().iter().position(|found| found == heading).unwrap();
+    for (row, wanted) in table
+        .rows()
+        .iter()
+        .zip([["better", "0.20 ± 0.00", "0.8 ± 0.5"], ["worse: error, axis", "2.00 ± 0.00", "1.3 ± 1.6"]])
     {
-        assert!(table.contains(wanted), "no {wanted} in\n{table}");
+        let found = ["against the thesis", "error mm", "thesis: error mm"].map(|heading| &row[column(heading)]);
+        assert_eq!(found, wanted);
     }
+    // An axis that is not known is worse than the thesis's.
+    assert_eq!(["axis mm", "thesis: axis mm"].map(|heading| &table.rows()[1][column(heading)]), ["–", "4 ± 4"]);
 }
 
 #[test]
@@ -116,9 +123,9 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
     let picture = "<svg xmlns=\"x\"><clipPath id=\"map\"/>ä#%</svg>".to_owned();
     let page = bench_page(&rows, &[picture.clone(), picture]);
-    assert_eq!((page.matches("<img ").count(), page.matches("<tr>").count()), (2, 3));
+    assert_eq!((page.matches("<img ").count(), page.matches("<tr>").count()), (2, 6));
     assert!(!page.contains("<script") && !page.contains("<svg") && !page.contains("id=\"map\""));
-    assert!(page.contains("1 of 2 runs completed") && page.contains("class=\"worse\">failed"));
+    assert!(page.contains("1 of 2 runs completed") && page.contains("class=\"name worse\">failed"));
     assert!(page.contains("src=\"data:image/svg+xml,%3Csvg xmlns=%22x%22%3E"));
     assert!(page.contains("%C3%A4%23%25"));
 }

@@ -12,7 +12,7 @@ use vibrissa::report::{Hashes, Identity, RunResult};
 use vibrissa::rig::Rig;
 use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_table};
+use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_tables};
 
 fn figure(name: &str) -> &'static Figure {
     FIGURES.iter().find(|figure| figure.name == name).unwrap()
@@ -120,8 +120,9 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_that_of_completion_and_i
     assert_eq!((completed.pairs, completed.losses, completed.wins), (4, 1, 0));
     assert!(completed.first == 1.0 && completed.mean == 0.75, "a share of all runs");
     assert!(comparison.figures.iter().all(|figure| figure.figure != "corners.time_s"), "a disk has none");
-    let table = comparison_table(&comparison);
-    assert!(table.contains("Against a.fsm") && table.contains("not completed"), "{table}");
+    let [runs, figures] = comparison_tables(&comparison);
+    assert_eq!(runs.rows()[1], ["b.fsm", "4", "1"]);
+    assert!(figures.fitted().starts_with("Against a.fsm"), "{}", figures.fitted());
 }
 
 /// A disk whose edge is 1 cm in front of the platform's nose.

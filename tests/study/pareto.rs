@@ -74,7 +74,7 @@ fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
     assert!(pareto.settings.iter().any(|row| row.on_front.exact));
     // There was no fine run.
     assert!(pareto.floor_mm.is_none() && pareto.settings.iter().all(|row| row.fine_mm.is_none() && !row.on_front.fine));
-    let table = pareto_table(&pareto);
+    let table = pareto_table(&pareto).wide();
     assert!(pareto.settings.iter().all(|row| table.contains(&row.setting)), "{table}");
     let picture = pareto_picture(&pareto);
     assert!(picture.starts_with("<svg") && picture.contains("4 · 40 links, 6.67 ms"), "{picture}");

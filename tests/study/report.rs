@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::machine::{ActionPart, Cause, Failsafe, Flaw, Mark};
-use vibrissa::report::{Hashes, Identity, RunResult, picture, table};
+use vibrissa::report::{Hashes, Identity, RunResult, picture, results_table};
 use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scene::{Outcome, Scene};
@@ -110,15 +110,15 @@ fn a_result_tells_of_retrievals_and_a_picture_shows_them() {
 
 #[test]
 fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
-    let bare = table(&[result(&half_round())]);
+    let bare = results_table(&[result(&half_round())]).wide();
     assert!(!bare.contains("corners") && !bare.contains("collisions") && !bare.contains("retrieval"), "{bare}");
     let mut run = retrieved();
     run.trace.ticks[9].body_touches = true;
     let mut square = result(&run);
     let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
     square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into(), &Rig::default())).corners;
-    let full = table(&[result(&half_round()), square]);
-    assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval mm"), "{full}");
+    let full = results_table(&[result(&half_round()), square]).wide();
+    assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval"), "{full}");
 }
 
 #[test]
@@ -135,7 +135,8 @@ fn a_table_has_a_line_a_run() {
     lost.scenario = "rounded rectangle".to_owned();
     lost.outcome = Outcome::Failed;
     lost.realtime = None;
-    snapshots("report").bind(|| insta::assert_snapshot!("table", table(&[result(&half_round()), lost])));
+    snapshots("report")
+        .bind(|| insta::assert_snapshot!("table", results_table(&[result(&half_round()), lost]).fitted()));
 }
 
 /// A scene of the disk of [`half_round`].

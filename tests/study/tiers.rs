@@ -81,7 +81,7 @@ fn a_shaft_that_is_stiffer_by_a_hundredth_has_a_hundredth_more_moment() {
     });
     // The hinge is not stiffer.
     assert!((row.moment_share.unwrap() - 0.01).abs() < 2e-4, "{row:?}");
-    let table = tiers_table(std::slice::from_ref(&row));
+    let table = tiers_table(std::slice::from_ref(&row)).wide();
     assert!(
         ["disk", "thesis", "quasistatic", "1.00 %", "completed"].iter().all(|cell| table.contains(cell)),
         "{table}"

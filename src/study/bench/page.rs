@@ -1,11 +1,12 @@
 //! The bench as a page for a browser.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 use crate::scene::Outcome;
 
 use super::row::{BenchRow, Verdict};
-use super::table::{HEADINGS, cells};
+use super::table::{HEADINGS, NAMES, cells};
 
 const HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
@@ -13,13 +14,18 @@ const HEAD: &str = "<!DOCTYPE html>
 <title>Vibrissa bench</title>
 <style>
 body { font: 15px/1.5 system-ui, sans-serif; color: #1f2933; max-width: 1240px; margin: 2em auto; padding: 0 1em }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums }
-th, td { padding: .2em .7em; text-align: right; white-space: nowrap; border-bottom: 1px solid #e4e7eb }
-th:nth-child(-n+3), td:nth-child(-n+3) { text-align: left }
+table { border-collapse: collapse; margin-bottom: 2em; font-variant-numeric: tabular-nums }
+th, td { padding: .2em .6em; text-align: right; border-bottom: 1px solid #e4e7eb } td { white-space: nowrap }
+.name { text-align: left }
 .better { color: #00734f } .worse { color: #c2410c; font-weight: 600 }
-.wide { overflow-x: auto } img { width: 100%; border: 1px solid #e4e7eb }
+img { width: 100%; border: 1px solid #e4e7eb }
 </style>
 ";
+
+/// The columns of either table: what the thesis reports too with outliers and coverage, and the rest. Both fit on a screen of 1300 pixels.
+const TABLES: [[Range<usize>; 2]; 2] = [[0..NAMES, NAMES..12], [0..OUTCOME, 12..HEADINGS.len()]];
+/// The column of the outcome.
+const OUTCOME: usize = 2;
 
 /// A page with the table of the bench and a picture (SVG) of every run: one file that needs no other.
 #[must_use]
@@ -27,32 +33,13 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     let passed = rows.iter().filter(|row| row.passed).count();
     let mut page = format!(
         "{HEAD}<h1>Vibrissa bench</h1>\n<p>{passed} of {} runs completed with no figure worse than the thesis's. Figures are \
-         mean ± sample standard deviation; those of the thesis, which has neither friction nor noise, stand beside. A run under \
-         friction or noise only has to complete; its tip model knows the coefficient.</p>\n<div class=\"wide\"><table>\n<tr>",
+         mean ± sample standard deviation. The thesis has neither friction nor noise. A run under friction or noise only has to \
+         complete; its tip model knows the coefficient.</p>\n",
         rows.len()
     );
-    // Writing to a string cannot fail.
-    for heading in HEADINGS {
-        let _ = write!(page, "<th>{heading}</th>");
+    for columns in TABLES {
+        page += &table(rows, &columns);
     }
-    page.push_str("</tr>\n");
-    for (index, row) in rows.iter().enumerate() {
-        page.push_str("<tr>");
-        for (column, (text, verdict)) in cells(row).into_iter().enumerate() {
-            let class = match verdict {
-                Some(Verdict::Better) => " class=\"better\"",
-                Some(Verdict::Worse) => " class=\"worse\"",
-                None if column == 2 && row.result.outcome != Outcome::Completed => " class=\"worse\"",
-                None => "",
-            };
-            let text = escaped(&text);
-            // The name of the scene leads to its picture.
-            let text = if column == 0 { format!("<a href=\"#run{index}\">{text}</a>") } else { text };
-            let _ = write!(page, "<td{class}>{text}</td>");
-        }
-        page.push_str("</tr>\n");
-    }
-    page.push_str("</table></div>\n");
     for (index, (row, picture)) in rows.iter().zip(pictures).enumerate() {
         let title = escaped(&format!("{}, {}", row.scene(), row.result.policy));
         let _ = write!(
@@ -63,6 +50,38 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
         );
     }
     page
+}
+
+/// A table with some columns of the bench.
+fn table(rows: &[BenchRow], columns: &[Range<usize>]) -> String {
+    let mut table = "<table>\n<tr>".to_owned();
+    let chosen = || columns.iter().cloned().flatten();
+    // Writing to a string cannot fail.
+    for column in chosen() {
+        let class = if column < NAMES { " class=\"name\"" } else { "" };
+        let _ = write!(table, "<th{class}>{}</th>", HEADINGS[column]);
+    }
+    table.push_str("</tr>\n");
+    for (index, row) in rows.iter().enumerate() {
+        table.push_str("<tr>");
+        let cells = cells(row);
+        for column in chosen() {
+            let (text, verdict) = &cells[column];
+            let mut classes = if column < NAMES { vec!["name"] } else { vec![] };
+            match verdict {
+                Some(Verdict::Better) => classes.push("better"),
+                Some(Verdict::Worse) => classes.push("worse"),
+                None if column == OUTCOME && row.result.outcome != Outcome::Completed => classes.push("worse"),
+                None => {}
+            }
+            let text = escaped(text);
+            // The name of the scene leads to its picture.
+            let text = if column == 0 { format!("<a href=\"#run{index}\">{text}</a>") } else { text };
+            let _ = write!(table, "<td class=\"{}\">{text}</td>", classes.join(" "));
+        }
+        table.push_str("</tr>\n");
+    }
+    table + "</table>\n"
 }
 
 fn escaped(text: &str) -> String {

@@ -1,42 +1,42 @@
 //! The bench as a table.
 
-use crate::report::{NONE, mean_std, millimetres, percent, ruled};
+use crate::report::{NONE, Table, mean_std, millimetres, percent};
 
 use super::row::{BenchRow, Verdict};
 use crate::study::TipShares;
 
-/// The columns of names, which stand to the left.
-const NAMES: usize = 3;
+/// The number of columns that name a run and its verdict.
+pub(super) const NAMES: usize = 4;
 
 /// The headings of the table's columns.
-pub(super) const HEADINGS: [&str; 20] = [
+pub(super) const HEADINGS: [&str; 21] = [
     "scene",
     "policy",
     "outcome",
+    "against the thesis",
     "error mm",
-    "thesis",
-    "retrieval mm",
-    "thesis",
-    "axis mm",
-    "thesis",
+    "thesis: error mm",
     "outliers",
-    "in 95 %",
     "coverage",
-    "wall coverage",
-    "corners",
-    "corner mm",
-    "corner s",
-    "corner m",
+    "retrieval mm",
+    "thesis: retrieval mm",
+    "axis mm",
+    "thesis: axis mm",
     "collisions",
+    "wall coverage",
+    "in 95 %",
+    "corners",
+    "corner place mm",
+    "corner time s",
+    "corner path m",
     "path m",
     "sim s",
 ];
 
-/// A table of the bench, one line a run. Each figure that the thesis reports too says how it compares, and has the thesis's
-/// beside it.
+/// A table of the bench with a row for every run. It tells whether a figure is worse than the thesis's, which stands beside it.
 #[must_use]
-pub fn bench_table(rows: &[BenchRow]) -> String {
-    ruled(HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()), NAMES)
+pub fn bench_table(rows: &[BenchRow]) -> Table {
+    Table::new(NAMES, HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()))
 }
 
 /// A line for every policy: how many tips it recorded in all scenes together, which share of them are outliers, and which lies within
@@ -63,24 +63,17 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
     policies.into_iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The cells of a line, with the verdict that a cell bears.
-pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 20] {
+/// The cells of a row, with the verdict that a cell bears.
+pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
-        let found = found.mean.map(|mean| mean_std(mean, found.std));
+        let found = plain(found.mean.map(|mean| mean_std(mean, found.std))).0;
         let reported = reported.map(|reported| match reported.std {
             Some(std) => format!("{} ± {}", reported.mean, std),
             None => reported.mean.to_string(),
         });
-        let found = match (found, verdict) {
-            (None, Some(_)) => Some("not known  worse".to_owned()),
-            (found, Some(Verdict::Better)) => found.map(|found| found + " better"),
-            // As wide as the other word, so that figures stand below each other.
-            (found, Some(Verdict::Worse)) => found.map(|found| found + "  worse"),
-            (found, None) => found,
-        };
-        [(plain(found).0, verdict), plain(reported)]
+        [(found, verdict), plain(reported)]
     });
     let [[error, thesis_error], [radius, thesis_radius], [axis, thesis_axis]] = [error, radius, axis];
     let corners = result.corners.as_ref();
@@ -88,22 +81,35 @@ pub(super) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 20] {
         plain(Some(row.scene())),
         plain(Some(result.policy.clone())),
         plain(Some(result.outcome.to_string())),
+        plain(against_thesis(row)),
         error,
         thesis_error,
+        plain(result.error_mm.outliers.map(|share| percent(share, 2))),
+        plain(Some(percent(result.coverage, 1))),
         radius,
         thesis_radius,
         axis,
         thesis_axis,
-        plain(result.error_mm.outliers.map(|share| percent(share, 2))),
-        plain(result.error_mm.within_band.map(|share| percent(share, 1))),
-        plain(Some(percent(result.coverage, 1))),
+        plain(Some(result.collisions.count.to_string())),
         plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
+        plain(result.error_mm.within_band.map(|share| percent(share, 1))),
         plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),
         plain(corners.and_then(|corners| corners.place_mm.mean).map(millimetres)),
         plain(corners.and_then(|corners| corners.time_s.mean).map(|time| format!("{time:.1}"))),
         plain(corners.and_then(|corners| corners.path_m.mean).map(|path| format!("{path:.2}"))),
-        plain(Some(result.collisions.count.to_string())),
         plain(Some(format!("{:.2}", result.path_m))),
         plain(Some(format!("{:.1}", result.sim_s))),
     ]
+}
+
+/// Whether the figures that the thesis reports are better, or which of them are worse.
+fn against_thesis(row: &BenchRow) -> Option<String> {
+    let verdicts = row.figures().map(|(.., verdict)| verdict);
+    let worse = ["error", "retrieval", "axis"].into_iter().zip(verdicts);
+    let worse: Vec<_> = worse.filter(|(_, verdict)| *verdict == Some(Verdict::Worse)).map(|(name, _)| name).collect();
+    match verdicts.iter().flatten().count() {
+        0 => None,
+        _ if worse.is_empty() => Some("better".to_owned()),
+        _ => Some(format!("worse: {}", worse.join(", "))),
+    }
 }

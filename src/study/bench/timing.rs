@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::machine::Program;
-use crate::report::{NONE, ruled};
+use crate::report::{NONE, Table};
 use crate::scene::{Outcome, Scene, WorldSetup};
 use crate::score::{Score, Statistics};
 use crate::study::processor_time::processor_time;
@@ -121,22 +121,22 @@ impl TimingRow {
     }
 }
 
-/// A table, one line a scene and policy: simulated over processor's time, median, least and greatest, and the times of a control tick.
+/// A table with a row for every scene and policy: simulated time over processor time (median, least, greatest), and the times of a control tick.
 #[must_use]
-pub fn timing_table(rows: &[TimingRow]) -> String {
+pub fn timing_table(rows: &[TimingRow]) -> Table {
     let headings = [
         "scene",
         "policy",
         "world",
         "outcome",
-        "sim s",
-        "start ms",
-        "processor s",
         "× real time",
-        "from",
-        "to",
         "tick µs",
-        "p99",
+        "processor s",
+        "start ms",
+        "sim s",
+        "p99 tick µs",
+        "least × real time",
+        "greatest × real time",
     ];
     let microseconds = |time: Option<f64>| time.map_or_else(|| NONE.to_owned(), |time| format!("{time:.1}"));
     let cells = |row: &TimingRow| {
@@ -145,15 +145,15 @@ pub fn timing_table(rows: &[TimingRow]) -> String {
             row.policy.clone(),
             row.world.clone(),
             row.outcome.to_string(),
-            format!("{:.1}", row.sim_s),
-            format!("{:.1}", row.start_ms),
-            format!("{:.3}", row.processor_s),
             format!("{:.0}", row.realtime),
+            microseconds(row.tick_us.mean),
+            format!("{:.3}", row.processor_s),
+            format!("{:.1}", row.start_ms),
+            format!("{:.1}", row.sim_s),
+            microseconds(row.tick_us.p99),
             format!("{:.0}", row.realtime_range[0]),
             format!("{:.0}", row.realtime_range[1]),
-            microseconds(row.tick_us.mean),
-            microseconds(row.tick_us.p99),
         ]
     };
-    ruled(headings, rows.iter().map(cells), 4)
+    Table::new(4, headings, rows.iter().map(cells))
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use crate::calibration::{AngleSurface, Calibration, ContactCurve, ContactSet};
-use crate::report::ruled;
+use crate::report::Table;
 use crate::rig::Whisker;
 
 use super::hinge_fit::HingeFit;
@@ -145,7 +145,7 @@ fn hold_out<F>(
 
 /// A table of how well fits hold.
 #[must_use]
-pub fn held_out_table(rows: &[HeldOut]) -> String {
+pub fn held_out_table(rows: &[HeldOut]) -> Table {
     let cells = rows.iter().map(|row| {
         vec![
             row.model.to_owned(),
@@ -155,5 +155,5 @@ pub fn held_out_table(rows: &[HeldOut]) -> String {
             row.range.clone(),
         ]
     });
-    ruled(["model", "sets held out", "rms mm", "max mm", "range"], cells, 1)
+    Table::new(1, ["model", "sets held out", "rms mm", "max mm", "range"], cells)
 }

@@ -8,4 +8,4 @@ mod table;
 pub use comparison::{Comparison, Incomplete, PolicyRuns};
 pub use difference::{Difference, FigureComparison, Outlook};
 pub use figure::{FIGURES, Figure};
-pub use table::comparison_table;
+pub use table::comparison_tables;

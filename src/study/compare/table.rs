@@ -1,29 +1,20 @@
 //! A comparison as tables.
 
-use std::fmt::Write;
-
-use crate::report::{NONE, ruled};
+use crate::report::{NONE, Table};
 
 use super::comparison::Comparison;
 use super::difference::Outlook;
 
-const HEADINGS: [&str; 8] = ["figure", "policy", "pairs", "first", "mean", "difference, 95 %", "wins", "which is"];
+const HEADINGS: [&str; 9] =
+    ["figure", "policy", "which is", "mean", "first", "difference", "95 % interval", "wins", "pairs"];
 
-/// A comparison for the terminal: how many runs did not complete, and the figures with their differences from the first policy.
+/// A comparison as two tables: how many runs did not complete, and the figures with their differences from the first policy.
 #[must_use]
-pub fn comparison_table(comparison: &Comparison) -> String {
+pub fn comparison_tables(comparison: &Comparison) -> [Table; 2] {
     let runs = comparison
         .policies
         .iter()
         .map(|policy| vec![policy.policy.clone(), policy.runs.to_string(), policy.incomplete.len().to_string()]);
-    let mut text = ruled(["policy", "runs", "not completed"], runs, 1);
-    if let Some(first) = comparison.policies.first() {
-        let _ = write!(
-            text,
-            "\n\nAgainst {}, `completed` over all runs, the rest over those that both completed:\n",
-            first.policy
-        );
-    }
     let figures = comparison.figures.iter().map(|figure| {
         let interval = figure
             .difference
@@ -32,11 +23,6 @@ pub fn comparison_table(comparison: &Comparison) -> String {
         vec![
             figure.figure.to_owned(),
             figure.policy.clone(),
-            figure.pairs.to_string(),
-            number(figure.first),
-            number(figure.mean),
-            format!("{} ({interval})", signed(figure.difference.mean)),
-            format!("{} of {}", figure.wins, figure.wins + figure.losses),
             match figure.outlook {
                 Outlook::Better => "better",
                 Outlook::Worse => "worse",
@@ -44,9 +30,20 @@ pub fn comparison_table(comparison: &Comparison) -> String {
                 Outlook::Open => "not distinguishable",
             }
             .to_owned(),
+            number(figure.mean),
+            number(figure.first),
+            signed(figure.difference.mean),
+            interval,
+            format!("{} of {}", figure.wins, figure.wins + figure.losses),
+            figure.pairs.to_string(),
         ]
     });
-    text + &ruled(HEADINGS, figures, 2)
+    let first = comparison.policies.first().map_or(NONE, |first| &first.policy);
+    [
+        Table::new(1, ["policy", "runs", "not completed"], runs),
+        Table::new(3, HEADINGS, figures)
+            .under(format!("Against {first}: `completed` over all runs, the rest over the runs that both completed")),
+    ]
 }
 
 /// A number with as many decimals as are worth reading.

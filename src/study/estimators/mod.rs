@@ -6,5 +6,5 @@ mod tape;
 
 pub(super) use judge::judge;
 pub use judge::judge_all;
-pub use row::{EstimatorRow, estimators_table};
+pub use row::{EstimatorRow, estimators_tables};
 pub(super) use tape::Tape;

@@ -4,7 +4,7 @@ use crate::report::Document;
 use serde::Serialize;
 
 use crate::machine::TipModelKind;
-use crate::report::{NONE, millimetres, ruled};
+use crate::report::{NONE, Table, millimetres};
 use crate::study::TipShares;
 
 /// How one tip model did on the samples of one scene.
@@ -39,10 +39,10 @@ impl Document for EstimatorRow {
     const FORMAT: &'static str = "estimators";
 }
 
-/// A table with a line for every scene and noise, and figures of all scenes below: of every tip model the mean and the 95th percentile
-/// of the error (mm), and behind a stroke the share that it tells, if that is less than 99 %.
+/// Two tables. The first has a row for every scene and noise, with the mean error (mm) of every tip model. The second has a row for every
+/// tip model and noise, with its figures over all scenes.
 #[must_use]
-pub fn estimators_table(rows: &[EstimatorRow]) -> String {
+pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
     let of = |row: &EstimatorRow| (row.scenario.clone(), row.noise.to_bits());
     let mut groups: Vec<(String, u64)> = Vec::new();
     for row in rows {
@@ -60,7 +60,8 @@ pub fn estimators_table(rows: &[EstimatorRow]) -> String {
             .map(|model| rows.iter().find(|row| of(row) == *group && row.model == model).map_or(NONE.to_owned(), cell));
         [vec![group.0.clone(), noise(group.1)], cells.to_vec()].concat()
     });
-    let scenes = ruled(["scene", "noise"].into_iter().chain(models), lines, 2);
+    let scenes = Table::new(2, ["scene", "noise"].into_iter().chain(models), lines)
+        .under("Mean error (mm) of every tip model; how many points each tells is in the second table");
 
     let mut noises: Vec<u64> = Vec::new();
     for (_, noise) in &groups {
@@ -93,14 +94,11 @@ pub fn estimators_table(rows: &[EstimatorRow]) -> String {
         });
     let headings =
         ["tip model", "noise", "mean mm", "p95 mm", "in 95 %", "outliers", "told", "on the shaft", "tick µs"];
-    format!(
-        "{scenes}\n\nMeans over the scenes; shares within the 95 % interval and of outliers are of all tips together:\n{}",
-        ruled(headings, lines, 2)
-    )
+    let means = Table::new(2, headings, lines)
+        .under("Means over the scenes; shares within the 95 % interval and of outliers are of all tips together");
+    [scenes, means]
 }
 
 fn cell(row: &EstimatorRow) -> String {
-    let (Some(mean), Some(p95)) = (row.mean_mm, row.p95_mm) else { return NONE.to_owned() };
-    let told = if row.told < 0.99 { format!(" | {:.0} %", 100.0 * row.told) } else { String::new() };
-    format!("{}, {}{told}", millimetres(mean), millimetres(p95))
+    row.mean_mm.map_or_else(|| NONE.to_owned(), millimetres)
 }

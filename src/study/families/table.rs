@@ -1,15 +1,15 @@
 //! Families as a table.
 
-use crate::report::ruled;
+use crate::report::Table;
 use crate::study::Tally;
 
 use super::tally::FamilyTally;
 
-/// A table, one line a tally. Errors are means over the runs that completed; outliers and intervals are shares of the tips of all runs.
+/// A table with a row for every tally. Errors are means over the runs that completed; outliers and intervals are shares of the tips of all runs.
 #[must_use]
-pub fn families_table(tallies: &[FamilyTally]) -> String {
+pub fn families_table(tallies: &[FamilyTally]) -> Table {
     let headings = ["family", "cm/s"].into_iter().chain(Tally::HEADINGS);
-    ruled(headings, tallies.iter().map(cells), 1)
+    Table::new(2, headings, tallies.iter().map(cells))
 }
 
 fn cells(FamilyTally { family, speed, tally }: &FamilyTally) -> Vec<String> {

@@ -1,20 +1,30 @@
 //! Settings as a table.
 
-use crate::report::{NONE, ruled};
+use crate::report::{NONE, Table};
 use crate::study::Ending;
 
 use super::row::{Front, Pareto, ParetoRow};
 
-const HEADINGS: [&str; 10] =
-    ["setting", "on the front", "in its world", "time", "from", "to", "exact mm", "fine mm", "coverage", "× real time"];
+const HEADINGS: [&str; 10] = [
+    "setting",
+    "on the front",
+    "on its world's front",
+    "relative time",
+    "exact error mm",
+    "fine error mm",
+    "coverage",
+    "× real time",
+    "least time",
+    "greatest time",
+];
 
-/// A table, one line a setting: whether it is on the fronts of time against error, against the exact contour and against the fine run; the
-/// time over that of the default, median, least and greatest; and both errors. Below it stands what the fine run can tell.
+/// A table with a row for every setting. It tells whether the setting is on a front of time against error. Errors are against the exact
+/// contour and against the fine run. Times are over that of the default. The caption says how far the fine run is reproducible.
 #[must_use]
-pub fn pareto_table(pareto: &Pareto) -> String {
-    let table = ruled(HEADINGS, pareto.settings.iter().map(cells), 3);
+pub fn pareto_table(pareto: &Pareto) -> Table {
     let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));
-    format!("{table}\n\nThe fine run from a start 1 mm behind is off the fine run by {floor}.")
+    Table::new(3, HEADINGS, pareto.settings.iter().map(cells))
+        .under(format!("A fine run whose start is 1 mm behind differs from the fine run by {floor}."))
 }
 
 fn cells(row: &ParetoRow) -> Vec<String> {
@@ -34,12 +44,12 @@ fn cells(row: &ParetoRow) -> Vec<String> {
         front.to_owned(),
         front_of_world.to_owned(),
         shown(row.relative_time, &ratio),
-        shown(least, &ratio),
-        shown(greatest, &ratio),
         shown(row.error_mm, &error),
         shown(row.fine_mm, &error),
         shown(row.coverage, &|coverage| format!("{:.1} %", 100.0 * coverage)),
         shown(row.processor_s.filter(|time| *time > 0.0), &|time| format!("{:.0}", row.sim_s / time)),
+        shown(least, &ratio),
+        shown(greatest, &ratio),
     ]
 }
 

@@ -1,12 +1,12 @@
 //! Hard cases as tables.
 
-use crate::report::{NONE, ruled};
+use crate::report::{NONE, Table};
 
 use super::run::StressRow;
 
 /// Two tables: how every case ended, and the largest stable step of every setting.
 #[must_use]
-pub fn stress_table(rows: &[StressRow]) -> String {
+pub fn stress_tables(rows: &[StressRow]) -> [Table; 2] {
     let cases = rows.iter().filter_map(|row| match row {
         StressRow::Case { name, world, drive, outcome, reason, sim_s, finite } => Some(vec![
             name.clone(),
@@ -15,7 +15,7 @@ pub fn stress_table(rows: &[StressRow]) -> String {
             serde_json::to_value(outcome).ok()?.as_str()?.to_owned(),
             if *finite { String::new() } else { "not finite".to_owned() },
             format!("{sim_s:.2}"),
-            shortened(reason.as_deref().unwrap_or("")),
+            reason.clone().unwrap_or_default(),
         ]),
         StressRow::Step { .. } => None,
     });
@@ -26,13 +26,8 @@ pub fn stress_table(rows: &[StressRow]) -> String {
         }
         StressRow::Case { .. } => None,
     });
-    let cases = ruled(["case", "world", "driven", "outcome", "numbers", "sim s", "reason"], cases, 7);
-    let steps = ruled(["setting", "world", "largest stable step ms"], steps, 2);
-    format!("{cases}\n\n{steps}")
-}
-
-/// The first letters of a text.
-fn shortened(text: &str) -> String {
-    const MOST: usize = 60;
-    if text.chars().count() <= MOST { text.to_owned() } else { text.chars().take(MOST).collect::<String>() + "…" }
+    [
+        Table::new(7, ["case", "world", "driven", "outcome", "numbers", "sim s", "reason"], cases),
+        Table::new(2, ["setting", "world", "largest stable step ms"], steps),
+    ]
 }

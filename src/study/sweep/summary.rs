@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::report::ruled;
+use crate::report::Table;
 use crate::scene::{Sweep, SweepRun};
 use crate::study::{Figures, Tally};
 
@@ -69,9 +69,9 @@ impl SweepSummary {
 /// A heading, and the count that stands under it.
 type Ends = (&'static str, fn(&Tally) -> usize);
 
-/// A table, one line a group. Crashed and refused runs have columns if there are any.
+/// A table with a row for every group. Crashed and refused runs have columns if there are any.
 #[must_use]
-pub fn summary_table(groups: &[SweepGroup]) -> String {
+pub fn summary_table(groups: &[SweepGroup]) -> Table {
     let settings: Vec<&str> =
         groups.first().into_iter().flat_map(|group| group.settings.keys().map(String::as_str)).collect();
     let crashed: Ends = ("crashed", |tally| tally.crashed);
@@ -84,5 +84,5 @@ pub fn summary_table(groups: &[SweepGroup]) -> String {
         let names = std::iter::once(scenes.clone()).chain(settings.values().cloned()).chain([policy.clone()]);
         names.chain(tally.cells()).chain(ends.iter().map(|(_, count)| count(tally).to_string())).collect()
     };
-    ruled(headings, groups.iter().map(cells), 2 + settings.len())
+    Table::new(2 + settings.len(), headings, groups.iter().map(cells))
 }

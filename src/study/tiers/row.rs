@@ -3,7 +3,7 @@
 use crate::report::Document;
 use serde::Serialize;
 
-use crate::report::{NONE, ruled};
+use crate::report::{NONE, Table};
 use crate::score::Statistics;
 use crate::study::Ending;
 
@@ -69,20 +69,20 @@ const HEADINGS: [&str; 11] = [
     "scene",
     "policy",
     "tier",
-    "tip mm",
-    "p95",
-    "moment µN m",
-    "p95",
-    "of the moment",
-    "contour mm",
-    "left out",
     "its run",
+    "tip mm",
+    "contour mm",
+    "moment µN m",
+    "of the moment",
+    "left out",
+    "p95 tip mm",
+    "p95 moment µN m",
 ];
 
 /// A table with a line for every scene, policy and tier: how far tips and moments are from the reference's, mean and 95th percentile, what
 /// share of the moment that is; how far contours are apart; what share of the ticks was left out, and how the policy's run ended.
 #[must_use]
-pub fn tiers_table(rows: &[TierRow]) -> String {
+pub fn tiers_table(rows: &[TierRow]) -> Table {
     let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);
     let lines = rows.iter().map(|row| {
         let millimetres = |value: f64| format!("{value:.4}");
@@ -91,15 +91,15 @@ pub fn tiers_table(rows: &[TierRow]) -> String {
             row.scenario.clone(),
             row.policy.clone(),
             row.tier.to_owned(),
-            shown(row.tip_mm.map(|tip| tip.mean), &millimetres),
-            shown(row.tip_mm.map(|tip| tip.p95), &millimetres),
-            shown(row.moment_un_m.map(|apart| apart.mean), &moment),
-            shown(row.moment_un_m.map(|apart| apart.p95), &moment),
-            shown(row.moment_share, &|share| format!("{:.2} %", 100.0 * share)),
-            shown(row.contour_mm, &millimetres),
-            format!("{:.1} %", 100.0 * row.left_out),
             row.outcome.name().to_owned(),
+            shown(row.tip_mm.map(|tip| tip.mean), &millimetres),
+            shown(row.contour_mm, &millimetres),
+            shown(row.moment_un_m.map(|apart| apart.mean), &moment),
+            shown(row.moment_share, &|share| format!("{:.2} %", 100.0 * share)),
+            format!("{:.1} %", 100.0 * row.left_out),
+            shown(row.tip_mm.map(|tip| tip.p95), &millimetres),
+            shown(row.moment_un_m.map(|apart| apart.p95), &moment),
         ]
     });
-    ruled(HEADINGS, lines, 3)
+    Table::new(4, HEADINGS, lines)
 }

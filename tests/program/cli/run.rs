@@ -293,3 +293,25 @@ fn the_world_is_the_one_asked_for_or_the_scenarios_or_the_one_that_there_is() {
     std::fs::write(&path, scenario).unwrap();
     assert_eq!(world_of(&[path.to_str().unwrap(), "--policy", "policies/thesis.fsm"]), "quasistatic");
 }
+
+#[test]
+fn tables_are_at_most_a_hundred_characters_wide_unless_all_columns_are_asked_for() {
+    let scenario = directory("wide").join("scene.yaml").display().to_string();
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    let name = "a-disk-whose-name-is-as-long-as-a-name-of-a-scenario-may-be-0000";
+    let policy = std::env::current_dir().unwrap().join("policies/thesis.fsm");
+    let named = disk.replace("name: disk", &format!("name: {name}"));
+    std::fs::write(&scenario, named.replace("../policies/thesis.fsm", policy.to_str().unwrap())).unwrap();
+    let commands: [&[&str]; 3] = [
+        &["run", &scenario],
+        &["families", "convex-corner", "--count", "1"],
+        &["compare", "policies/vibrissa.fsm", "policies/thesis.fsm", &scenario],
+    ];
+    for command in commands {
+        let command = [command, &["--world", "quasistatic"]].concat();
+        let [fitted, wide] = [&[][..], &["--wide"]].map(|columns| stdout(&vibrissa(&[&command[..], columns].concat())));
+        assert!(fitted.lines().all(|line| line.chars().count() <= 100), "{fitted}");
+        assert!(!wide.contains("--wide") && wide.lines().any(|line| line.chars().count() > 100), "{wide}");
+    }
+    assert_eq!(vibrissa(&["run", &scenario, "--wide", "--json"]).status.code(), Some(2));
+}

@@ -7,7 +7,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scene::{Scene, WorldKind};
 use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS, Timing, TimingRow, timing_table};
-use vibrissa::study::stress::{Drive, StabilityCase, StressRow, StressTask, stress_cases, stress_table};
+use vibrissa::study::stress::{Drive, StabilityCase, StressRow, StressTask, stress_cases, stress_tables};
 use vibrissa::study::sweep::{Answer, Worker, answer};
 use vibrissa::study::{Ending, engine_version};
 
@@ -44,7 +44,7 @@ fn a_process_for_hard_cases_greets_and_answers_with_rows() {
     let mut slot = None;
     let Answer::Line(line) = answer(&mut slot, start, &zero.to_string()).unwrap() else { panic!("it ended") };
     let row: StressRow = serde_json::from_str(&line).unwrap();
-    assert!(row.is_sound() && stress_table(&[row]).contains("a run of 0 s"));
+    assert!(row.is_sound() && stress_tables(&[row])[0].wide().contains("a run of 0 s"));
     let Answer::Crash(reason) = answer(&mut slot, start, &all.len().to_string()).unwrap() else {
         panic!("no such case")
     };
@@ -71,7 +71,7 @@ fn times_are_medians_of_the_runs_and_a_count_of_none_is_refused() {
     let runs = [1.0, 5.0, 2.0].map(|processor| Timing { processor, sim: 10.0, ..taken });
     let row = TimingRow::new("disk".to_owned(), String::new(), String::new(), &runs).unwrap();
     assert_eq!((row.runs, row.processor_s, row.realtime, row.realtime_range), (3, 2.0, 5.0, [2.0, 10.0]));
-    assert!(timing_table(&[row]).contains("disk"));
+    assert!(timing_table(&[row]).wide().contains("disk"));
     assert_eq!(vibrissa(&["bench", "--timing", "0"]).status.code(), Some(2));
 }
 
