@@ -107,10 +107,12 @@ impl TipModel for MomentAndShear {
         self.near = bend;
         let covariance = self.covariance(&bend)?;
         let normal = unit(bend.force_direction);
+        let spread = (normal.transpose() * covariance * normal).x.sqrt();
         Some(Touch {
             point_world: base.position + rotate(self.surface(&bend), base.heading),
             covariance_world: turned(&covariance, base.heading),
-            spread: (normal.transpose() * covariance * normal).x.sqrt(),
+            spread,
+            recorded_spread: spread,
             is_sure: true,
             contact_length: bend.contact_length,
         })

@@ -192,6 +192,12 @@ impl Perception {
         (whisker.recorded && whisker.is_felt() && whisker.is_sure()).then(|| whisker.tip_world())
     }
 
+    /// How far off the recorded tip of a whisker may be (m): a standard deviation.
+    #[must_use]
+    pub fn recorded_spread(&self, whisker: usize) -> f64 {
+        self.whiskers[whisker].recorded_spread()
+    }
+
     /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
     pub fn marks(&self, whisker: usize) -> impl Iterator<Item = (Mark, Point2)> {
         let whisker = &self.whiskers[whisker];

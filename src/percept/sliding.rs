@@ -85,7 +85,7 @@ const BENDING: f64 = 1.0;
 const UNREST: f64 = 1e-9;
 /// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
 /// drags the other way. While a tip slides back its errors grow as they fade otherwise.
-const GIVING: f64 = 8e-8;
+const GIVING: f64 = 1e-6;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -290,7 +290,8 @@ impl TipModel for Sliding {
         Some(Touch {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
-            spread: contact.place_spread(),
+            spread: contact.place_spread(&contact.covariance),
+            recorded_spread: contact.place_spread(&contact.considered),
             is_sure: self.rest.doubt() < MOST_DOUBT,
             contact_length: self.length,
         })
@@ -344,10 +345,10 @@ impl Contact {
         }
     }
 
-    /// Standard deviation of the place along the normal (m).
-    fn place_spread(&self) -> f64 {
+    /// Standard deviation of the place along the normal (m), by a covariance as the contact's own.
+    fn place_spread(&self, covariance: &Matrix2<f64>) -> f64 {
         let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
-        (self.considered.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
+        (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
     }
 
     /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
@@ -361,6 +362,6 @@ impl Contact {
         let both = by_direction * self.covariance.m12;
         along * tangent * tangent.transpose()
             + both * (tangent * normal.transpose() + normal * tangent.transpose())
-            + self.place_spread().powi(2) * normal * normal.transpose()
+            + self.place_spread(&self.covariance).powi(2) * normal * normal.transpose()
     }
 }

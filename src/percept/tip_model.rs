@@ -16,6 +16,8 @@ pub struct Touch {
     pub covariance_world: Matrix2<f64>,
     /// How far off the place may be (m), as a standard deviation: along the surface's normal if the model knows it, else either way.
     pub spread: f64,
+    /// The standard deviation (m) that goes into the record: `spread` with those errors of the model that readings cannot tell.
+    pub recorded_spread: f64,
     /// Whether the place may be recorded. It may not while something else than the tip may touch.
     pub is_sure: bool,
     /// Length of the shaft from its base to what touches (m): all of it for a tip.
@@ -26,10 +28,12 @@ impl Touch {
     /// A touch by the tip of a whisker of `length` (m) at `place` with its `covariance` (m, m²; frame of the base), with the base at
     /// `base`, where nothing is known of the surface's direction.
     pub(super) fn by_tip(place: Vector2, covariance: &Matrix2<f64>, length: f64, base: Pose) -> Self {
+        let spread = covariance.trace().sqrt();
         Self {
             point_world: base.position + rotate(place, base.heading),
             covariance_world: turned(covariance, base.heading),
-            spread: covariance.trace().sqrt(),
+            spread,
+            recorded_spread: spread,
             is_sure: true,
             contact_length: length,
         }

@@ -161,6 +161,11 @@ impl PerceivedWhisker {
         }
     }
 
+    /// How far off a recorded tip may be (m): a standard deviation.
+    pub(super) fn recorded_spread(&self) -> f64 {
+        self.touch.map_or_else(|| self.tip_spread(), |touch| touch.recorded_spread)
+    }
+
     /// A vector of the contour (world frame) at the distance `back` (m) behind its end, once it is ready.
     pub(super) fn contour_at(&self, back: f64, quantity: ContourVector) -> Option<Vector2> {
         let tangent = self.contour.tangent_at(back)?;

@@ -153,7 +153,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world
         tick.deflections[whisker] = perception.deflection(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);
         tick.touches[whisker] = touch(perception, bound);
-        tick.tip_spreads[whisker] = perception.whisker(bound, WhiskerScalar::TipSpread);
+        tick.tip_spreads[whisker] = perception.recorded_spread(bound);
     }
     tick
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::machine::{Program, Senses, TipModelKind, WhiskerScalar};
+use crate::machine::{Program, Senses, TipModelKind};
 use crate::percept::Perception;
 use crate::rig::{Rig, Sensing};
 use crate::run::BindError;
@@ -96,7 +96,7 @@ pub(in crate::study) fn judge(
             let length = rig.whiskers[in_rig].shaft.length;
             on_shaft += usize::from(perception.touch(bound).is_some_and(|touch| touch.contact_length < length));
             let error = scene.truth.surfaces.nearest(tip_world).distance;
-            let spread = perception.whisker(bound, WhiskerScalar::TipSpread);
+            let spread = perception.recorded_spread(bound);
             tips.push(Tip { tick: index, whisker, tip_world, error, spread, offset: None });
         }
     }
