@@ -54,7 +54,7 @@ fn stop(world: &mut dyn World, steering: &mut Steering, mut last: Sample, time: 
 #[test]
 fn a_bent_whisker_does_not_push_a_platform_that_stops() {
     let rig = Rig::default();
-    for stiff in [0.7, 1.0] {
+    for stiff in [0.7, 1.0, 4.0] {
         let mut rig = rig.clone();
         rig.whiskers.iter_mut().for_each(|whisker| whisker.shaft.young_modulus *= stiff);
         for mut world in worlds(&rig) {
@@ -63,7 +63,7 @@ fn a_bent_whisker_does_not_push_a_platform_that_stops() {
             let pressed = drive(world.as_mut(), &Command::STOP, 0.6);
             assert!(pressed.whiskers[0].base_angle.abs() > 1.5e-4, "{}", pressed.whiskers[0].base_angle);
             let mut steering = Steering::new(&rig, &[Some(0), Some(1)]);
-            let (last, off, turned) = stop(world.as_mut(), &mut steering, pressed, 120.0, 6.0);
+            let (last, off, turned) = stop(world.as_mut(), &mut steering, pressed, 120.0, 2.0);
             assert!(off < 1e-4 && turned < 0.05_f64.to_radians(), "{off} m, {turned} rad");
             assert!(last.whiskers[0].base_angle.abs() > 1.5e-4, "the whisker still pushes");
         }
@@ -87,7 +87,9 @@ fn a_platform_that_brakes_does_not_go_back_to_where_it_was_told_to_stop() {
             (Steering::new(&Rig::default(), &[]), Command { velocity_world: Vector2::new(0.0, 0.1), yaw_rate: 0.5 });
         let before = drive(world.as_mut(), &going, 1.0);
         let (rested, ..) = stop(world.as_mut(), &mut steering, before, 0.6, 0.0);
-        assert!((rested.body.position.y - before.body.position.y - 0.1 * 0.05).abs() < 1e-3, "it coasts");
+        let coasted = rested.body.position.y - before.body.position.y;
+        // Worlds differ by what they take for the speed within a sample.
+        assert!((coasted - 0.1 * 0.05).abs() < 0.1 / 300.0 + 1e-5, "it coasts {coasted} m");
         let (_, off, turned) = stop(world.as_mut(), &mut steering, rested, 10.0, 0.0);
         assert!(off < 1e-5 && turned < 5e-5, "{off} m, {turned} rad");
     }
