@@ -85,7 +85,7 @@ const BENDING: f64 = 1.0;
 const UNREST: f64 = 1e-9;
 /// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
 /// drags the other way. While a tip slides back its errors grow as they fade otherwise.
-const GIVING: f64 = 1e-6;
+const GIVING: f64 = 1.5e-6;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -97,6 +97,8 @@ const FIRST_PLACE: f64 = 2e-5;
 const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
 /// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
+/// How far from there a whisker that stays bent comes to rest (m, standard deviation).
+const LANDED_WITHIN: f64 = 0.02;
 /// The greatest doubt about the tip (m) with which its place is recorded.
 const MOST_DOUBT: f64 = 0.2e-3;
 /// An innovation farther off than this many standard deviations is not sliding.
@@ -209,11 +211,14 @@ impl Sliding {
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
         let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
         let turned = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
-        // The tip, and how far the surface through it is from where the tip left, in standard deviations and with the direction's.
+        // The tip, and how far the surface through it and the tip itself are from where the tip left, in standard deviations and with the
+        // direction's.
         let judged = |normal: f64| {
             let tip = self.tip(angle, base, normal)?;
-            let miss = unit(normal).dot(&(tip.tip_base - left.coords));
-            Some((tip, miss, (miss / off).powi(2) + turned(normal)))
+            let gone = tip.tip_base - left.coords;
+            let miss = unit(normal).dot(&gone);
+            let apart = (miss / off).powi(2) + gone.norm_squared() / LANDED_WITHIN.powi(2) + turned(normal);
+            Some((tip, miss, apart))
         };
         // From the usual direction on either way, as far as one may still be nearer than the nearest so far.
         let mut nearest: Option<(f64, f64)> = None;
@@ -231,12 +236,16 @@ impl Sliding {
         for _ in 0..LANDING_ITERATIONS {
             let Some((tip, miss, _)) = judged(normal) else { return unsettled };
             let slope = miss_slope(&tip, normal, left) / off;
-            let step = (slope * miss / off + (normal - usual) * prior) / (slope * slope + prior);
+            let going = tip.by_direction / LANDED_WITHIN;
+            let gone = (tip.tip_base - left.coords) / LANDED_WITHIN;
+            let gradient = slope * miss / off + going.dot(&gone) + (normal - usual) * prior;
+            let step = gradient / (slope * slope + going.norm_squared() + prior);
             normal -= step.clamp(-LANDING_STEP, LANDING_STEP);
         }
         let Some((tip, _, _)) = judged(normal) else { return unsettled };
         let slope = miss_slope(&tip, normal, left) / off;
-        let variance = (slope * slope + prior).recip();
+        let going = tip.by_direction / LANDED_WITHIN;
+        let variance = (slope * slope + going.norm_squared() + prior).recip();
         State::Settled(Contact::begun(bend, &tip, normal, variance))
     }
 }
