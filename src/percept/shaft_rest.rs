@@ -141,6 +141,10 @@ impl ShaftRest {
             self.judge(tip);
             if self.seems_to_turn() && self.pivot.lies_flat(angle, normal) {
                 self.doubt = self.doubt.max(FLAT);
+                // A place that turns out to be no corner says nothing of this.
+                if let Some(rest) = &mut self.rest {
+                    rest.doubt_before = rest.doubt_before.max(FLAT);
+                }
             }
         }
     }
@@ -307,5 +311,22 @@ mod tests {
         assert!(rest.doubt() >= FLAT);
         rest.end();
         assert!(rest.doubt() < f64::EPSILON);
+    }
+
+    #[test]
+    fn a_place_that_was_no_corner_leaves_a_shaft_in_doubt_that_lay_along_a_surface() {
+        let (mut rest, whisker) = rest();
+        // It lies along a surface while it seems to rest on one corner, and then it seems to rest on another.
+        for (place, normal) in [(Point2::new(0.3, -0.2), FRAC_PI_2), (Point2::new(0.3, -0.19), PI)] {
+            for step in 0..5 {
+                let turned = normal - PI - 0.02 * f64::from(step);
+                take_on_corner(&mut rest, &whisker, place, (0.9 + 5e-3 * f64::from(step), 2.0), turned);
+            }
+        }
+        // Readings that no fixed place explains end the rest.
+        for _ in 0..4 {
+            rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), PI);
+        }
+        assert!(rest.doubt() > FLAT / 3.0, "{} m", rest.doubt());
     }
 }

@@ -85,7 +85,7 @@ const BENDING: f64 = 1.0;
 const UNREST: f64 = 1e-9;
 /// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
 /// drags the other way. While a tip slides back its errors grow as they fade otherwise.
-const GIVING: f64 = 1.5e-6;
+const GIVING: f64 = 1e-6;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -246,7 +246,9 @@ impl Sliding {
         let slope = miss_slope(&tip, normal, left) / off;
         let going = tip.by_direction / LANDED_WITHIN;
         let variance = (slope * slope + going.norm_squared() + prior).recip();
-        State::Settled(Contact::begun(bend, &tip, normal, variance))
+        let mut contact = Contact::begun(bend, &tip, normal, variance);
+        contact.considered.m22 += CAUGHT.powi(2);
+        State::Settled(contact)
     }
 }
 
@@ -322,6 +324,8 @@ const SMOOTHNESS: f64 = 5e-6;
 /// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;
+/// How far off a tip may be (m, standard deviation) that came to rest without having been free: the whisker may be caught.
+const CAUGHT: f64 = 3e-3;
 /// Steps of the Gauss-Newton method from the best of them.
 const LANDING_ITERATIONS: usize = 6;
 

@@ -60,12 +60,12 @@ impl Table {
             Some(*end)
         });
         let shown = ends.take_while(|end| *end <= LINE).count().max(self.names).min(self.headings.len());
-        let mut text = self.text(shown, Some(LINE));
-        let left_out = self.headings.len() - shown;
-        if left_out > 0 {
-            text += &format!("\n{left_out} more column{} with --wide", if left_out == 1 { "" } else { "s" });
+        let text = self.text(shown, Some(LINE));
+        match self.headings.len() - shown {
+            0 => text,
+            1 => format!("{text}\n1 more column with --wide"),
+            left_out => format!("{text}\n{left_out} more columns with --wide"),
         }
-        text
     }
 
     /// The table as text with all its columns, as wide as it needs to be.
