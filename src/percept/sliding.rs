@@ -101,6 +101,8 @@ const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 const LANDED_WITHIN: f64 = 0.02;
 /// The greatest doubt about the tip (m) with which its place is recorded.
 const MOST_DOUBT: f64 = 0.2e-3;
+/// The greatest standard deviation of a place (m) with which it is recorded. Greater ones hold only where the mechanics are nearly linear.
+const MOST_SPREAD: f64 = 0.5e-3;
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
 /// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
@@ -298,12 +300,13 @@ impl TipModel for Sliding {
 
     fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
         let contact = self.contact()?;
+        let recorded_spread = contact.place_spread(&contact.considered);
         Some(Touch {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(&contact.covariance),
-            recorded_spread: contact.place_spread(&contact.considered),
-            is_sure: self.rest.doubt() < MOST_DOUBT,
+            recorded_spread,
+            is_sure: self.rest.doubt() < MOST_DOUBT && recorded_spread < MOST_SPREAD,
             contact_length: self.length,
         })
     }
