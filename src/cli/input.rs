@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::calibration::ContactSet;
-use crate::diagnostic::{Diagnostic, Position, Source, suggest};
+use crate::diagnostic::{Diagnostic, NotUtf8, Source, suggest, utf8};
 use crate::file::CommandFiles;
 use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
@@ -35,33 +35,26 @@ fn name(path: &Path) -> Result<String, Failure> {
 /// Reads a text.
 pub(super) fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, Failure> {
     let name = name(path)?;
-    let text = files.read(path, SIZE_LIMIT).and_then(text).map_err(Failure::read(path))?;
+    let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(Failure::read(path))?;
     Ok(Source::new(name, text))
 }
 
-fn text(bytes: Vec<u8>) -> Result<String, Error> {
+fn text(bytes: &[u8]) -> Result<String, Error> {
     let unusable = |cause: &str| Error::new(ErrorKind::InvalidData, cause);
     if bytes.len() > SIZE_LIMIT {
         return Err(unusable(
             "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
         ));
     }
-    String::from_utf8(bytes).map_err(|fault| {
-        let good = fault.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&fault.as_bytes()[..good]);
-        let Position { line, column } = Source::new("", before).line_column(good);
-        let byte = fault.as_bytes()[good];
-        unusable(&format!(
-            "it is not UTF-8 text: in line {line}, column {column} the byte 0x{byte:02X} begins no letter; save it as UTF-8, or is it the \
-             wrong file?"
-        ))
-    })
+    let text = utf8(bytes).map_err(|fault| unusable(&format!("{fault}; {}", NotUtf8::ADVICE)))?;
+    Ok(text.to_owned())
 }
 
 /// Reads standard input.
 pub(super) fn read_standard(files: &mut CommandFiles) -> Result<Source, Failure> {
     let name = "standard input";
-    let text = files.read_standard(SIZE_LIMIT).and_then(text).map_err(Failure::read(Path::new(name)))?;
+    let text =
+        files.read_standard(SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(Failure::read(Path::new(name)))?;
     Ok(Source::new(name, text))
 }
 
@@ -127,7 +120,7 @@ pub(super) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loade
     let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(Failure::artifact(path))?))
     } else {
-        PolicyFile::Text(Source::new(name(path)?, text(bytes).map_err(Failure::read(path))?))
+        PolicyFile::Text(Source::new(name(path)?, text(&bytes).map_err(Failure::read(path))?))
     };
     Ok(Loaded { value, hash })
 }
@@ -139,18 +132,21 @@ pub(super) fn with_libraries(source: &Source, files: &mut CommandFiles) -> Sourc
 
 /// The text of a file that a policy uses.
 fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
-    files.read(path, SIZE_LIMIT).and_then(text).map_err(|cause| reason(path, &cause))
+    files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
 }
 
 /// The same for an editor, which writes to no file.
 #[cfg(feature = "lsp")]
 pub(super) fn library_for_editor(path: &str) -> Result<String, String> {
     let path = Path::new(path);
-    crate::file::read(path, SIZE_LIMIT).and_then(text).map_err(|cause| reason(path, &cause))
+    crate::file::read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
 }
 
-/// Why a file cannot be read, with the name that was probably meant.
+/// Why a file cannot be read; where there is none, with the name that was probably meant.
 fn reason(path: &Path, cause: &Error) -> String {
+    if cause.kind() != ErrorKind::NotFound {
+        return cause.to_string();
+    }
     let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
     let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
     let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();

@@ -6,6 +6,7 @@ mod record;
 mod source;
 mod suggestion;
 mod terminal;
+mod utf8;
 
 pub use kind::{Diagnostic, FAULT_LIMIT, Label, Severity};
 pub use printable::{printable, printable_json};
@@ -13,3 +14,4 @@ pub use record::{Record, RecordLabel, records};
 pub use source::{Position, Source, Span};
 pub use suggestion::suggest;
 pub use terminal::{Colour, terminal};
+pub use utf8::{NotUtf8, utf8};

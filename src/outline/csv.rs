@@ -2,6 +2,7 @@
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
+use crate::diagnostic::utf8;
 use crate::geometry::{Piece, Point2};
 
 use super::found::{Outline, Outlines};
@@ -11,7 +12,9 @@ use super::{MOST_PIECES, OutlineError, OutlineFault, Request};
 /// Reads a polygon: x and y in each line, with a header or without. The first corner may be repeated at the end.
 pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
     let plane = Plane::scaled(request.unit.ok_or(OutlineFault::NoUnit)?);
-    let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(bytes);
+    let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
+    let mut reader =
+        ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text.as_bytes());
     let mut corners: Vec<Point2> = Vec::new();
     let mut first_line = None;
     for (index, record) in reader.records().enumerate() {
@@ -68,9 +71,5 @@ fn line(position: Option<&csv::Position>) -> Option<usize> {
 }
 
 fn refusal(error: &csv::Error) -> OutlineError {
-    let reason = match error.kind() {
-        csv::ErrorKind::Utf8 { .. } => "it is no text in UTF-8".to_owned(),
-        _ => error.to_string(),
-    };
-    OutlineFault::Syntax { reason }.at(line(error.position()))
+    OutlineFault::Syntax { reason: error.to_string() }.at(line(error.position()))
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::diagnostic::NotUtf8;
 use crate::geometry::{ContourError, Point2};
 use crate::units::{Dimension, format_si};
 
@@ -23,6 +24,9 @@ pub enum OutlineFault {
     /// There are no bytes.
     #[error("there is nothing in it")]
     Empty,
+    /// It should be a text, and is none.
+    #[error("{0}")]
+    NotUtf8(NotUtf8),
     /// There is more in it than is taken.
     #[error("there are more than {limit} {what}")]
     TooLarge {
@@ -135,6 +139,7 @@ impl OutlineFault {
             Self::Empty | Self::Syntax { .. } => {
                 "look there, or save it anew: it may be damaged, cut off, or not what its ending says"
             }
+            Self::NotUtf8(_) => NotUtf8::ADVICE,
             Self::TooLarge { .. } => "leave out what the whiskers cannot tell, or split it into several files",
             Self::NoUnit => "add `unit`, such as `unit: 1 mm`",
             Self::NoOutline => "draw lines, arcs, curves or shapes that are closed; texts and pictures are none",

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 use roxmltree::{Document, ParsingOptions};
 
-use crate::diagnostic::{Source, suggest};
+use crate::diagnostic::{Source, suggest, utf8};
 
 use super::found::{Outline, Outlines};
 use super::{OutlineError, OutlineFault, Request};
@@ -23,7 +23,7 @@ const MOST_NODES: u32 = 500_000;
 
 /// Reads the outlines of all shapes, or of those of one element.
 pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
-    let text = std::str::from_utf8(bytes).map_err(|_| syntax("it is no text in UTF-8"))?;
+    let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
     bounds::check(text)?;
     // Drawing programs write a document type.
     let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };

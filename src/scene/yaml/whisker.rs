@@ -6,7 +6,7 @@ use super::key::Key;
 use super::node::{Entry, Node};
 use super::reader::Reader;
 use crate::calibration::Calibration;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, NotUtf8, Span, utf8};
 use crate::rig::{Hinge, Shaft, Whisker};
 use crate::scene::mjcf::{LEAST_INERTIA, link_inertia};
 use crate::signal::MAX_WHISKERS;
@@ -113,10 +113,10 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
 /// Reads the file of a calibration.
 fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
     let path = reader.text(&entry.value)?;
-    let text = reader
-        .file(&path.value)
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
-    let found = text.and_then(|text| Calibration::from_yaml(&text).map_err(|error| error.to_string()));
+    let found = reader.file(&path.value).and_then(|bytes| {
+        let text = utf8(&bytes).map_err(|fault| format!("{fault}; {}", NotUtf8::ADVICE))?;
+        Calibration::from_yaml(text).map_err(|error| error.to_string())
+    });
     found
         .map_err(|reason| {
             let fault = Diagnostic::error(fault::FILE, format!("cannot use `{}`", path.value), path.span, reason);

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use super::program::{ROOT, bad, stderr, stdout, vibrissa};
+use super::program::{ROOT, bad, directory, stderr, stdout, vibrissa};
 
 #[test]
 fn help_explains_every_command() {
@@ -119,6 +119,22 @@ fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_statu
             assert!(message.contains(&format!("cannot read {file}")) && message.contains(expected), "{message}");
         }
     }
+}
+
+#[test]
+fn another_name_is_suggested_only_where_there_is_no_file() {
+    let directory = directory("suggested-names");
+    std::fs::write(directory.join("laws.fsm"), "library laws\n").unwrap();
+    let policy = |used: &str| {
+        let text = format!("machine m\nuse \"{used}\"\ninitial S\nstate S {{ after 1 s -> Failure(\"late\") }}\n");
+        std::fs::write(directory.join("policy.fsm"), text).unwrap();
+        stderr(&vibrissa(&["check", directory.join("policy.fsm").to_str().unwrap()]))
+    };
+    let absent = policy("lews.fsm");
+    assert!(absent.contains("did you mean `laws.fsm`?"), "{absent}");
+    std::fs::write(directory.join("lews.fsm"), b"library lews\n# \xb5m\n").unwrap();
+    let present = policy("lews.fsm");
+    assert!(present.contains("in line 2, column 3 the byte 0xB5") && !present.contains("did you mean"), "{present}");
 }
 
 #[cfg(not(feature = "lsp"))]
