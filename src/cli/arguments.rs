@@ -11,7 +11,9 @@ use crate::study::sweep::Shard;
 use super::language_arguments::{CheckArguments, CompileArguments, FmtArguments, GraphArguments, TestArguments};
 use super::settings::Settings;
 pub(super) use super::values::{TierName, World};
-use super::values::{parse_angle, parse_friction, parse_jobs, parse_length, parse_repeats};
+use super::values::{
+    parse_friction, parse_jitter, parse_jitter_heading, parse_jobs, parse_repeats, parse_runs, parse_seed,
+};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -85,7 +87,7 @@ pub(super) struct RunArguments {
     #[command(flatten)]
     pub(super) pruning: Pruning,
     /// Seed of the sensors' noise instead of the scenario's; it matters only to a rig with noise
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     pub(super) seed: Option<u64>,
     /// Write a picture and the result of every run into this directory
     #[arg(short, long, value_name = "DIR")]
@@ -115,7 +117,7 @@ pub(super) struct BenchArguments {
     #[command(flatten)]
     pub(super) settings: Settings,
     /// Coefficients of friction of what is touched, with a run for each: --friction 0,0.1,0.3
-    #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", value_parser = parse_friction)]
+    #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = parse_friction)]
     pub(super) friction: Vec<f64>,
     /// Give the sensors the noise and the resolution that the real one is estimated to have
     #[arg(long)]
@@ -133,8 +135,8 @@ pub(super) struct BenchArguments {
     #[arg(long, value_enum, value_name = "TIER", value_delimiter = ',',
           conflicts_with_all = ["friction", "noise", "world", "no_prune", "estimators", "timing", "out"])]
     pub(super) worlds: Vec<TierName>,
-    /// Measure times instead: run every scene N times, one run at a time, and print medians
-    #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"], value_parser = parse_repeats)]
+    /// Measure times instead: run every scene N times, from 1 to 1000, one run at a time, and print medians
+    #[arg(long, value_name = "N", conflicts_with_all = ["estimators", "out", "jobs"], allow_negative_numbers = true, value_parser = parse_repeats)]
     pub(super) timing: Option<usize>,
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
@@ -144,8 +146,8 @@ pub(super) struct BenchArguments {
     pub(super) json: bool,
     #[command(flatten)]
     pub(super) columns: Columns,
-    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
-    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
+    /// How many runs to do at a time, from 1 to 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -168,7 +170,7 @@ pub(super) struct CalibrateArguments {
     #[arg(long, conflicts_with = "sets")]
     pub(super) noise: bool,
     /// Seed of that noise
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = parse_seed)]
     pub(super) seed: u64,
     /// Write the calibration, the sets and a picture of the deflection profile into this directory
     #[arg(short, long, value_name = "DIR")]
@@ -190,15 +192,15 @@ pub(super) struct CompareArguments {
     /// unless there are any
     #[arg(value_name = "FILE", required = true)]
     pub(super) files: Vec<PathBuf>,
-    /// How many runs to do of each scenario: the first as it is, the others with seeds of their own, which fix the noise and
-    /// the start
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    /// How many runs to do of each scenario, from 1 to 100000: the first as it is, the others with seeds of their own, which fix the
+    /// noise and the start
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_runs)]
     pub(super) seeds: u64,
-    /// How far starts may be from the scenario's along x and y: --jitter "20 mm"
-    #[arg(long, value_name = "LENGTH", default_value = "0 mm", value_parser = parse_length)]
+    /// How far starts may be from the scenario's along x and y, from 0 to 10 m: --jitter "20 mm"
+    #[arg(long, value_name = "LENGTH", default_value = "0 mm", allow_hyphen_values = true, value_parser = parse_jitter)]
     pub(super) jitter: f64,
-    /// How far headings may be from the scenario's: --jitter-heading "10 deg"
-    #[arg(long, value_name = "ANGLE", default_value = "0 deg", value_parser = parse_angle)]
+    /// How far headings may be from the scenario's, from 0 to 180 deg: --jitter-heading "10 deg"
+    #[arg(long, value_name = "ANGLE", default_value = "0 deg", allow_hyphen_values = true, value_parser = parse_jitter_heading)]
     pub(super) jitter_heading: f64,
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
@@ -210,8 +212,8 @@ pub(super) struct CompareArguments {
     pub(super) json: bool,
     #[command(flatten)]
     pub(super) columns: Columns,
-    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
-    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
+    /// How many runs to do at a time, from 1 to 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -227,8 +229,8 @@ pub(super) struct ParetoArguments {
     /// Policy, or compiled machine, to run instead of the one that is built in
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
-    /// How often to run every setting; run times are medians
-    #[arg(long, value_name = "N", default_value = "3", value_parser = parse_repeats)]
+    /// How often to run every setting, from 1 to 1000; run times are medians
+    #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, value_parser = parse_repeats)]
     pub(super) repeats: usize,
     /// Write the results and a picture of time against error into this directory
     #[arg(short, long, value_name = "DIR")]
@@ -253,14 +255,14 @@ pub(super) struct FamiliesArguments {
     pub(super) policy: Option<PathBuf>,
     #[command(flatten)]
     pub(super) settings: Settings,
-    /// How many scenes to draw of each family
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    /// How many scenes to draw of each family, from 1 to 100000
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = parse_runs)]
     pub(super) count: u64,
     /// Draw other scenes
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
     pub(super) seed: u64,
     /// Draw only the scene with this number
-    #[arg(long, value_name = "K", conflicts_with = "count")]
+    #[arg(long, value_name = "K", conflicts_with = "count", allow_negative_numbers = true, value_parser = parse_seed)]
     pub(super) trial: Option<u64>,
     /// World to run in, instead of the scenario's; `mujoco` where that names none
     #[arg(long, value_enum)]
@@ -278,8 +280,8 @@ pub(super) struct FamiliesArguments {
     pub(super) json: bool,
     #[command(flatten)]
     pub(super) columns: Columns,
-    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
-    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
+    /// How many runs to do at a time, from 1 to 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 
@@ -297,8 +299,8 @@ pub(super) struct SweepArguments {
     /// Do only the K-th of N parts; which part a run belongs to depends on its key alone
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub(super) shard: Shard,
-    /// How many runs to do at a time, at most 32 for each processor; as many as there are processors unless given
-    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
+    /// How many runs to do at a time, from 1 to 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
     /// Write results into this directory, or go on with those that are there; out/NAME unless given
     #[arg(short, long, value_name = "DIR")]
@@ -348,8 +350,8 @@ pub(super) struct StressArguments {
     pub(super) json: bool,
     #[command(flatten)]
     pub(super) columns: Columns,
-    /// How many cases to run at a time, at most 32 for each processor; as many as there are processors unless given
-    #[arg(short, long, value_name = "J", value_parser = parse_jobs)]
+    /// How many cases to run at a time, from 1 to 32 for each processor; as many as there are processors unless given
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
 }
 

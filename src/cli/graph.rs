@@ -9,7 +9,7 @@ use super::language_arguments::{ChartFormat, GraphArguments};
 use super::{input, output};
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
-    let view = View { state: arguments.state.as_deref(), depth: arguments.depth.map(usize::from) };
+    let view = View { state: arguments.state.as_deref(), depth: arguments.depth };
     let mut files = CommandFiles::new();
     let whole = input::chart(&arguments.policy, &mut files)?;
     let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;

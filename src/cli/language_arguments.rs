@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::arguments::EXIT_STATUS;
 use super::settings::Settings;
-use super::values::World;
+use super::values::{World, parse_depth};
 
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_STATUS)]
@@ -44,10 +44,10 @@ pub(super) struct GraphArguments {
     /// Format of the statechart
     #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
     pub(super) format: ChartFormat,
-    /// Show states of N levels only: with 1 those that lie in no other. What leads to or from the others leads to or from the state
-    /// around them
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
-    pub(super) depth: Option<u8>,
+    /// Show states of N levels only, from 1 to 8: with 1 those that lie in no other. What leads to or from the others leads to or from the
+    /// state around them
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_depth)]
+    pub(super) depth: Option<usize>,
     /// Show only what lies in this state, and where that leads; with --depth, N levels of it
     #[arg(long, value_name = "NAME")]
     pub(super) state: Option<String>,

@@ -74,19 +74,18 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
         (vec!["bench", "--set", "trust=1"], "policies/thesis.fsm: the policy has no parameter `trust`"),
         (vec!["families", "--set", "speed=20 mm/s"], "families draw the speed"),
-        (vec!["bench", "--jobs", "0"], "write a whole number from 1 to "),
         (vec!["sweep", "a.yaml", "-j", "100000000"], "32 for each processor"),
-        (vec!["bench", "--timing", "18446744073709551615"], "write a whole number from 1 to 1000"),
-        (vec!["pareto", "--repeats", "18446744073709551615"], "write a whole number from 1 to 1000"),
-        (vec!["families", "--count", "100001"], "1..=100000"),
         (vec!["bench", "--friction", "0.1,2"], "from 0 to 1"),
+        (vec!["bench", "--friction", "-1"], "from 0 to 1"),
         (vec!["compare", "policies/thesis.fsm"], "1 policy is given; give two or more"),
         (vec!["compare", disk], "0 policies are given"),
         (vec!["compare", "policies/thesis.fsm", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["compare", "policies/thesis.fsm", "policies/bang.fsm", "a.yaml"], "cannot read a.yaml"),
         (vec!["compare", "a.fsm", "b.fsm", "--jitter", "5 deg"], "a length"),
-        (vec!["compare", "a.fsm", "b.fsm", "--jitter=-5 mm"], "not negative"),
-        (vec!["compare", "a.fsm", "b.fsm", "--seeds", "0"], "--seeds"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter", "-5 mm"], "write a length from 0 to 10 m"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter", "1e300 m"], "write a length from 0 to 10 m"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter-heading", "181 deg"], "write an angle from 0 to 180 deg"),
+        (vec!["compare", "a.fsm", "b.fsm", "--jitter", "10 m", "--jitter-heading", "180 deg"], "cannot read a.fsm"),
         (vec!["fmt"], "POLICY"),
         (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
         (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
@@ -97,6 +96,39 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
         assert_eq!(stdout(&output), "", "{arguments:?}");
+    }
+}
+
+#[test]
+fn every_count_is_refused_with_its_range_which_the_help_states() {
+    for (command, count, range) in [
+        ("bench", "--timing", "from 1 to 1000"),
+        ("bench", "--jobs", "from 1 to "),
+        ("pareto", "--repeats", "from 1 to 1000"),
+        ("compare", "--seeds", "from 1 to 100000"),
+        ("compare", "-j", "from 1 to "),
+        ("families", "--count", "from 1 to 100000"),
+        ("sweep", "-j", "from 1 to "),
+        ("stress", "--jobs", "from 1 to "),
+        ("graph", "--depth", "from 1 to 8"),
+    ] {
+        let help = stdout(&vibrissa(&[command, "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(help.contains(range), "{command} {count}: {help}");
+        for value in ["0", "-1", "1.5", "some", "", "18446744073709551615", "18446744073709551616"] {
+            let output = vibrissa(&[command, count, value]);
+            let told = stderr(&output);
+            assert_eq!(output.status.code(), Some(2), "{command} {count} {value}: {told}");
+            assert!(told.contains(&format!("write a whole number {range}")), "{command} {count} {value}: {told}");
+        }
+    }
+    for (command, number) in
+        [("run", "--seed"), ("families", "--seed"), ("families", "--trial"), ("calibrate", "--seed")]
+    {
+        for value in ["-1", "1.5", "18446744073709551616"] {
+            let told = stderr(&vibrissa(&[command, number, value]));
+            let range = "write a whole number from 0 to 18446744073709551615";
+            assert!(told.contains(range), "{command} {number} {value}: {told}");
+        }
     }
 }
 
