@@ -28,7 +28,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
     make_directory(Some(&directory))?;
     let path = directory.join(arguments.shard.file_name());
-    files.output("--out", &path)?.grows()?;
+    files.growing("--out", &path)?;
     let header = plan.header(arguments.shard);
     let (mut results, mut done) = Results::open(&path, &header, sweep)?;
     let resumed = done.len();

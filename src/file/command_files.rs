@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::identity::{Identity, place};
 use super::output::{Output, OutputError, Stream, Way};
 use super::regular::{self, read_at_most};
+use super::special;
 
 /// What one command reads and writes. No file is both, and none is written twice, whatever names and links lead to it.
 #[derive(Debug)]
@@ -24,6 +25,16 @@ pub struct CommandFiles {
 enum Use {
     Input(PathBuf),
     Output { argument: &'static str, path: PathBuf },
+}
+
+/// What an output's path leads to.
+enum Goal {
+    /// A regular file, or nothing yet.
+    Regular,
+    /// What else there is, such as a pipe.
+    Special,
+    /// A stream of the program.
+    Stream(Stream),
 }
 
 /// A file is an output already.
@@ -100,19 +111,49 @@ impl CommandFiles {
     /// [`OutputError`] when it cannot be written, is an input, or is an output already.
     pub fn output(&mut self, argument: &'static str, path: &Path) -> std::result::Result<Output, OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
-        let about = path.metadata();
-        if let Ok(about) = &about {
-            if about.is_dir() {
-                return Err(unwritable(ErrorKind::IsADirectory.into()));
+        let way = match self.goal(path).map_err(unwritable)? {
+            Goal::Regular => {
+                self.write_once(argument, path)?;
+                Way::Replace
             }
-            if let Some(stream) = Identity::inode(about).and_then(|inode| self.stream(&inode)) {
-                return Ok(Output::new(argument, path, Way::Stream(stream)));
-            }
-            if !about.is_file() {
-                return Ok(Output::new(argument, path, Way::Open));
+            Goal::Special => Way::Open(special::open(path).map_err(unwritable)?),
+            Goal::Stream(stream) => Way::Stream(stream),
+        };
+        Ok(Output::new(argument, path, way))
+    }
+
+    /// The same of a file to which lines are added. The caller opens it.
+    ///
+    /// # Errors
+    /// [`OutputError`] as of [`Self::output`], and when it is no regular file, or a stream of the program goes there.
+    pub fn growing(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
+        let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
+        match self.goal(path).map_err(unwritable)? {
+            Goal::Regular => self.write_once(argument, path),
+            Goal::Special | Goal::Stream(_) => {
+                let cause = "lines are added only to a regular file of their own";
+                Err(unwritable(Error::new(ErrorKind::InvalidInput, cause)))
             }
         }
-        place(path).map_err(unwritable)?;
+    }
+
+    /// What an output's path leads to.
+    fn goal(&self, path: &Path) -> Result<Goal> {
+        let Ok(about) = path.metadata() else { return Ok(Goal::Regular) };
+        if about.is_dir() {
+            return Err(ErrorKind::IsADirectory.into());
+        }
+        let stream = Identity::inode(&about).and_then(|inode| self.stream(&inode));
+        Ok(match stream {
+            Some(stream) => Goal::Stream(stream),
+            None if about.is_file() => Goal::Regular,
+            None => Goal::Special,
+        })
+    }
+
+    /// Notes that a regular file is written.
+    fn write_once(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
+        place(path).map_err(|cause| OutputError::Unwritable { argument, path: path.to_owned(), cause })?;
         let identities: Vec<_> = Identity::of(path).collect();
         for identity in identities {
             let (argument, path) = (argument, path.to_owned());
@@ -124,7 +165,7 @@ impl CommandFiles {
                 None => self.uses.insert(identity, Use::Output { argument, path }),
             };
         }
-        Ok(Output::new(argument, path, Way::Replace))
+        Ok(())
     }
 
     /// The program's own stream that a file is.

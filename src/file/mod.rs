@@ -7,6 +7,7 @@ mod identity;
 mod output;
 mod regular;
 mod replace;
+mod special;
 
 pub use command_files::CommandFiles;
 pub use identity::is_at;

@@ -1,8 +1,8 @@
 //! A place that a command writes to.
 
 use std::fmt;
-use std::fs::OpenOptions;
-use std::io::{Error, ErrorKind, Write, stderr, stdout};
+use std::fs::File;
+use std::io::{Error, Write, stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use super::replace::replace;
@@ -16,12 +16,12 @@ pub struct Output {
 }
 
 /// How to write.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(super) enum Way {
     /// By a new file in the place of the old one.
     Replace,
-    /// What is no regular file, such as a pipe, is opened and written to.
-    Open,
+    /// What is no regular file, such as a pipe, is open and written to.
+    Open(File),
     /// What is one of the program's own streams, under whatever name, goes there with the rest.
     Stream(Stream),
 }
@@ -90,33 +90,19 @@ impl Output {
         &self.path
     }
 
-    /// Checks that lines can be added to it: that it is a regular file, or none, and no stream of the program goes there.
-    ///
-    /// # Errors
-    /// [`OutputError::Unwritable`].
-    pub fn grows(self) -> Result<(), OutputError> {
-        let Self { argument, path, way } = self;
-        let cause = || Error::new(ErrorKind::InvalidInput, "lines are added only to a regular file of their own");
-        if matches!(way, Way::Replace) {
-            Ok(())
-        } else {
-            Err(OutputError::Unwritable { argument, path, cause: cause() })
-        }
-    }
-
     /// Writes it, as a whole or not at all if it is a regular file.
     ///
     /// # Errors
     /// [`OutputError::Unwritable`].
     pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
         let content = content.as_ref();
-        let written = match self.way {
-            Way::Replace => replace(&self.path, content),
-            Way::Open => OpenOptions::new().write(true).open(&self.path).and_then(|mut file| file.write_all(content)),
+        let Self { argument, path, way } = self;
+        let written = match way {
+            Way::Replace => replace(&path, content),
+            Way::Open(mut file) => file.write_all(content),
             Way::Stream(Stream::Output) => stdout().write_all(content).and_then(|()| stdout().flush()),
             Way::Stream(Stream::Error) => stderr().write_all(content),
         };
-        let Self { argument, path, .. } = self;
         written.map_err(|cause| OutputError::Unwritable { argument, path, cause })
     }
 }

@@ -255,6 +255,32 @@ fn what_is_no_file_is_written_to_directly() {
     assert!(stderr(&refused).contains("another place with --out"), "{}", stderr(&refused));
 }
 
+/// Nothing waits: a pipe that nobody reads would never be opened.
+#[test]
+fn a_pipe_that_nobody_reads_is_refused_before_the_first_run() {
+    let folder = folder("stale-outputs");
+    assert_eq!(in_folder(&folder, "sweep @/small.yaml --out @/done").status.code(), Some(0));
+    for (line, name) in [
+        ("families polygon --count 1 --world quasistatic --out @", "results.jsonl"),
+        ("graph @/quick.fsm -o @/pipe", "pipe"),
+        ("compile @/quick.fsm -o @/pipe", "pipe"),
+        ("run @/scene.yaml --ticks @/pipe", "pipe"),
+        ("run @/scene.yaml --out @", "scene.svg"),
+        ("merge @/done --out @/pipe", "pipe"),
+        ("calibrate @/measured.csv --out @", "profile.svg"),
+    ] {
+        let pipe = folder.join(name);
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let refused = in_folder(&folder, line);
+        let told = stderr(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{line}: {told}");
+        let wanted = [name, "a pipe that nobody reads", "remove it", "another place with --"];
+        assert!(wanted.iter().all(|wanted| told.contains(wanted)), "{line}: {told}");
+        assert_eq!(stdout(&refused), "", "{line}");
+        fs::remove_file(&pipe).unwrap();
+    }
+}
+
 /// Every kind of file that a command may be given or may find named in another, by what names it.
 const READ: &[(&str, &str)] = &[
     ("run @/scene.yaml", "scene.yaml"),
