@@ -98,6 +98,10 @@ pub(super) enum Failure {
     NoStage,
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
+    #[error(
+        "cannot watch files: the system starts no thread for that ({0}); end other programs, or run without --watch"
+    )]
+    NoWatch(std::io::Error),
     #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
     SameName { first: PathBuf, second: PathBuf, name: String },
     #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]

@@ -89,6 +89,9 @@ struct Watch {
 impl Watch {
     fn new() -> Result<Self, Failure> {
         let (sender, events) = channel();
+        // The watcher does not tell that its thread cannot be started, and panics when it is asked for something then.
+        let thread = std::thread::Builder::new().spawn(|| ()).map_err(Failure::NoWatch)?;
+        let _ = thread.join();
         // When the receiver is gone the program is about to end.
         let watcher = notify::recommended_watcher(move |event| drop(sender.send(event)))?;
         Ok(Self { watcher, events, files: BTreeSet::new(), folders: BTreeSet::new() })

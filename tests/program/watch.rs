@@ -38,6 +38,17 @@ impl Drop for Watching {
     }
 }
 
+/// A stack that no machine has room for: no thread can be started.
+#[test]
+fn without_a_thread_that_watches_it_is_told_what_to_do() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    command.args(["run", "scenarios/disk.yaml", "--watch"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let output = command.env("RUST_MIN_STACK", (1_u64 << 46).to_string()).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.starts_with("error: cannot watch files") && told.contains("run without --watch"), "{told}");
+}
+
 #[test]
 fn saving_a_policy_runs_it_again_and_breaks_off_the_run_before() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
