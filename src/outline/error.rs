@@ -72,6 +72,12 @@ pub enum OutlineFault {
         /// Its radius, in units of the file.
         radius: f64,
     },
+    /// An ellipse has no width, or one that is negative.
+    #[error("an ellipse has the axis ratio {ratio}: it must be positive")]
+    AxisRatio {
+        /// Its minor axis, divided by its major axis.
+        ratio: f64,
+    },
     /// A polygon has too few corners.
     #[error("{count} corners make no polygon")]
     Corners {
@@ -148,6 +154,7 @@ impl OutlineFault {
             Self::Unsupported { advice, .. } => advice,
             Self::FarOff => "is the `unit` right?",
             Self::Radius { .. } => "draw it anew with a positive radius, or take it out",
+            Self::AxisRatio { .. } => "draw it anew with a positive ratio, or take it out",
             Self::Corners { .. } => "give at least three, a line each",
             Self::Open { .. } => "close it; or, if it is no outline, take it out or choose another `element`",
             Self::Branches { .. } => "take out what is drawn twice, and lines that are no outline",

@@ -78,10 +78,14 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
             elliptic(&own(entity, plane)?, entity.place(10)?, radii, angles)
         }
         "ELLIPSE" => {
+            let ratio = entity.number(40, 1.0)?;
+            if ratio <= 0.0 {
+                return Err(OutlineFault::AxisRatio { ratio }.into());
+            }
             // Its centre and its axis are the world's, whichever side it is seen from.
             let hand = own(entity, plane)?.x_axis.dot(&plane.x_axis).signum();
             let major = Vector2::from(entity.place(11)?);
-            let minor = perpendicular(major) * (hand * entity.number(40, 1.0)?);
+            let minor = perpendicular(major) * (hand * ratio);
             let angles = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
             elliptic(plane, entity.place(10)?, [major, minor], angles)
         }
