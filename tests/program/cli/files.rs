@@ -147,6 +147,34 @@ fn merge_writes_to_none_of_its_inputs() {
 }
 
 #[test]
+fn merge_follows_a_link_to_results_and_says_why_others_will_not_do() {
+    let folder = folder("merged-links");
+    assert_eq!(in_folder(&folder, "sweep @/small.yaml --out @/done").status.code(), Some(0));
+    fs::create_dir(folder.join("linked")).unwrap();
+    let results = folder.join("linked/results.jsonl");
+    let merge = |words: &str| {
+        let output = in_folder(&folder, &format!("merge @/linked --out @/merged.jsonl{words}"));
+        (output.status.code(), stderr(&output))
+    };
+    assert!(merge("").1.contains("there are no results of a sweep"));
+    symlink("../done/results.jsonl", &results).unwrap();
+    assert_eq!(merge("").0, Some(0));
+    assert_eq!(text(&folder, "merged.jsonl"), text(&folder, "done/results.jsonl"));
+    for (make, reason) in [
+        ("ln -s nowhere", "No such file"),
+        ("mkfifo", "it is a pipe, not a regular file"),
+        ("mkdir", "it is a directory, not a regular file"),
+    ] {
+        let _ = fs::remove_file(&results);
+        let mut words = make.split(' ');
+        assert!(Command::new(words.next().unwrap()).args(words).arg(&results).status().unwrap().success());
+        let (status, told) = merge("");
+        assert_eq!(status, Some(2), "{make}: {told}");
+        assert!(told.contains("linked/results.jsonl") && told.contains(reason), "{make}: {told}");
+    }
+}
+
+#[test]
 fn two_outputs_are_two_files_also_where_there_is_none_yet() {
     let folder = folder("two-outputs");
     symlink("new.json", folder.join("later.json")).unwrap();
