@@ -4,7 +4,7 @@ use std::path::Path;
 
 use similar::TextDiff;
 
-use crate::diagnostic::Source;
+use crate::diagnostic::{Source, printable};
 use crate::file::{CommandFiles, replace};
 use crate::policy::format;
 
@@ -49,9 +49,9 @@ fn fmt_one(path: &Path, check: bool, files: &mut CommandFiles) -> Result<Exit, F
 
 /// A unified diff from what there is to what should be; nothing where there is no difference.
 fn difference(source: &Source, formatted: &str) -> String {
-    let formatted_name = format!("{} (formatted)", source.name);
+    let name = printable(&source.name);
     TextDiff::from_lines(source.text.as_str(), formatted)
         .unified_diff()
-        .header(&source.name, &formatted_name)
+        .header(&name, &format!("{name} (formatted)"))
         .to_string()
 }

@@ -43,6 +43,7 @@ fn what_a_terminal_would_obey_is_shown_by_its_number() {
         vec!["run", &flag],
         vec![ORDERS],
         vec!["run", "x", "--seed", ORDERS],
+        vec!["fmt", "--check", &good],
         vec!["fmt", &good],
         vec!["compile", &good, "-o", "made.machine"],
         vec!["graph", &missing],
@@ -55,6 +56,9 @@ fn what_a_terminal_would_obey_is_shown_by_its_number() {
     let output = run(&directory, &["check", &good]);
     assert!(output.status.success() && stdout(&output).starts_with(SHOWN), "{}", stdout(&output));
     assert!(stderr(&run(&directory, &["check", &bad])).contains(SHOWN));
+    std::fs::write(directory.join(&good), GOOD.replace("  do", "do")).unwrap();
+    let difference = stdout(&run(&directory, &["fmt", "--check", &good]));
+    assert!(difference.starts_with(&format!("--- {SHOWN}.fsm\n+++ {SHOWN}.fsm (formatted)\n")), "{difference}");
     let usage = run(&directory, &["run", &flag]);
     assert_eq!(usage.status.code(), Some(2));
     assert!(stderr(&usage).contains(SHOWN), "{}", stderr(&usage));
