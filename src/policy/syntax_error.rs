@@ -12,6 +12,9 @@ use super::hint::did_you_mean;
 const ITEM: &str =
     "an item (`use`, `whisker`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
 
+/// What some editors write before the text of a file.
+const BYTE_ORDER_MARK: &str = "\u{feff}";
+
 /// Words that can only stand outside of every brace.
 const ITEM_WORDS: [&str; 10] =
     ["machine", "library", "use", "whisker", "param", "initial", "law", "state", "always", "test"];
@@ -34,6 +37,15 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
 
     if found.is_empty() {
         return at_the_end(source, at, rules, opened);
+    }
+    if found == BYTE_ORDER_MARK && at == 0 {
+        return Diagnostic::error(
+            "P0101",
+            "the file begins with a byte-order mark",
+            span,
+            "U+FEFF, which is not shown",
+        )
+        .hint("save it as UTF-8 without a byte-order mark (BOM)");
     }
     if found == "\"" && !is_closed(&source.text[at..]) {
         return Diagnostic::error("P0101", "the text is not closed", span, "begins here")
