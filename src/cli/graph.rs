@@ -8,6 +8,9 @@ use super::exit::{Exit, Failure};
 use super::language_arguments::{ChartFormat, GraphArguments};
 use super::{input, output};
 
+/// So many states, some of them in others, make a picture that is wider than a screen.
+const MANY_STATES: usize = 20;
+
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
     let view = View { state: arguments.state.as_deref(), depth: arguments.depth };
     let mut files = CommandFiles::new();
@@ -21,6 +24,12 @@ pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
         ChartFormat::Mermaid => chart_mermaid(&chart),
         ChartFormat::Dot => chart_dot(&chart),
     };
+    if chart.states.len() > MANY_STATES && chart.states.iter().any(|state| state.parent.is_some()) {
+        output::message(format_args!(
+            "The chart has {} states. `--depth 1` shows the outermost ones, and `--state NAME` the inside of one.",
+            chart.states.len()
+        ));
+    }
     let text = text.trim_end();
     match file {
         Some(file) => file.write(format!("{text}\n"))?,

@@ -85,7 +85,7 @@ const BENDING: f64 = 1.0;
 const UNREST: f64 = 1e-9;
 /// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
 /// drags the other way. While a tip slides back its errors grow as they fade otherwise.
-const GIVING: f64 = 1e-6;
+const GIVING: f64 = 1.5e-6;
 /// Standard deviation (rad) of a surface's direction at the first touch.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
@@ -101,8 +101,6 @@ const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 const LANDED_WITHIN: f64 = 0.02;
 /// The greatest doubt about the tip (m) with which its place is recorded.
 const MOST_DOUBT: f64 = 0.2e-3;
-/// The greatest standard deviation of a place (m) with which it is recorded. Greater ones hold only where the mechanics are nearly linear.
-const MOST_SPREAD: f64 = 0.5e-3;
 /// An innovation farther off than this many standard deviations is not sliding.
 const GATE: f64 = 4.0;
 /// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
@@ -205,6 +203,18 @@ impl Sliding {
         })
     }
 
+    /// Coming to rest without having been free: the whisker may be caught.
+    fn come_to_rest(&self, left: Option<Point2>, angle: f64, base: Pose) -> State {
+        let state = left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base));
+        match state {
+            State::Settled(mut contact) => {
+                contact.considered.m22 += CAUGHT.powi(2);
+                State::Settled(contact)
+            }
+            other => other,
+        }
+    }
+
     /// Coming to rest, after the tip left a surface at `left`, on what goes on from there.
     fn land(&self, left: Point2, angle: f64, base: Pose) -> State {
         let bend = angle.signum();
@@ -248,9 +258,7 @@ impl Sliding {
         let slope = miss_slope(&tip, normal, left) / off;
         let going = tip.by_direction / LANDED_WITHIN;
         let variance = (slope * slope + going.norm_squared() + prior).recip();
-        let mut contact = Contact::begun(bend, &tip, normal, variance);
-        contact.considered.m22 += CAUGHT.powi(2);
-        State::Settled(contact)
+        State::Settled(Contact::begun(bend, &tip, normal, variance))
     }
 }
 
@@ -276,7 +284,7 @@ impl TipModel for Sliding {
                 if self.calm_for < self.calm_samples {
                     State::Unsettled { left, bend }
                 } else {
-                    left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base))
+                    self.come_to_rest(left, angle, base)
                 }
             }
             _ => State::Unsettled { left: None, bend },
@@ -300,13 +308,12 @@ impl TipModel for Sliding {
 
     fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
         let contact = self.contact()?;
-        let recorded_spread = contact.place_spread(&contact.considered);
         Some(Touch {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
             spread: contact.place_spread(&contact.covariance),
-            recorded_spread,
-            is_sure: self.rest.doubt() < MOST_DOUBT && recorded_spread < MOST_SPREAD,
+            recorded_spread: contact.place_spread(&contact.considered),
+            is_sure: self.rest.doubt() < MOST_DOUBT,
             contact_length: self.length,
         })
     }
@@ -327,8 +334,8 @@ const SMOOTHNESS: f64 = 5e-6;
 /// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;
-/// How far off a tip may be (m, standard deviation) that came to rest without having been free: the whisker may be caught.
-const CAUGHT: f64 = 3e-3;
+/// How far off a tip may be (m, standard deviation) whose whisker may be caught.
+const CAUGHT: f64 = 5e-3;
 /// Steps of the Gauss-Newton method from the best of them.
 const LANDING_ITERATIONS: usize = 6;
 

@@ -82,11 +82,14 @@ impl Table {
         for column in table.column_iter_mut().skip(self.names) {
             column.set_cell_alignment(CellAlignment::Right);
         }
+        let caption = self.caption.as_ref().map(|caption| match width {
+            Some(width) => wrapped(caption, width) + "\n",
+            None => format!("{caption}\n"),
+        });
         if let Some(width) = width.and_then(|width| u16::try_from(width).ok()) {
             table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
         }
-        let caption = self.caption.as_ref().map(|caption| format!("{caption}\n")).unwrap_or_default();
-        caption + &table.trim_fmt()
+        caption.unwrap_or_default() + &table.trim_fmt()
     }
 
     /// The widths of the columns: of their widest cells, and of the longest words of their headings.
@@ -110,10 +113,10 @@ impl Table {
     }
 }
 
-/// A heading with its words on as many lines as a width needs.
-fn wrapped(heading: &str, width: usize) -> String {
+/// A text with its words on as many lines as a width needs.
+fn wrapped(text: &str, width: usize) -> String {
     let mut lines: Vec<String> = Vec::new();
-    for word in heading.split(' ') {
+    for word in text.split(' ') {
         match lines.last_mut() {
             Some(line) if length(line) + 1 + length(word) <= width => *line = format!("{line} {word}"),
             _ => lines.push(word.to_owned()),

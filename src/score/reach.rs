@@ -1,5 +1,6 @@
 //! What of an outline the rig cannot get to.
 
+use std::cell::Cell;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 use std::f64::consts::TAU;
@@ -24,6 +25,8 @@ const SPACING: f64 = 4e-3;
 const DETOUR: f64 = 1.0824;
 /// A gap (m) up to which two lines cross: where they do, it is zero up to rounding.
 const ROUNDING: f64 = 1e-9;
+/// How often the search asks an outline for a distance or a crossing, at most: some seconds.
+const MOST_QUERIES: usize = 2_500_000;
 /// How far (m) off an outline its points are tried, on the outside.
 const OFF: f64 = 1e-5;
 
@@ -36,6 +39,8 @@ const OFF: f64 = 1e-5;
 ///
 /// Poses are tried on a grid, and footprints are smaller by what lies between two poses of it, some 4 mm for the reference rig. Where the
 /// platform gets stuck by its taper, that lets it in some 15 mm deeper. Points are tried every 4 mm.
+///
+/// The work is limited. Points that are left when it is used up count as within reach.
 #[must_use]
 pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
     let mut search = Search::new(rig, truth);
@@ -67,6 +72,8 @@ struct Search<'s> {
     length: f64,
     is_free: HashMap<Node, bool>,
     has_base: HashMap<Node, bool>,
+    /// Queries of outlines so far.
+    queries: Cell<usize>,
 }
 
 impl<'s> Search<'s> {
@@ -85,6 +92,7 @@ impl<'s> Search<'s> {
             length: rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, f64::max),
             is_free: HashMap::new(),
             has_base: HashMap::new(),
+            queries: Cell::new(0),
         }
     }
 
@@ -106,6 +114,9 @@ impl<'s> Search<'s> {
     /// Whether a tip may touch an outline at a point, from the side to which `outwards` leads.
     fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
         let from = at + outwards;
+        if self.queries.get() > MOST_QUERIES {
+            return true;
+        }
         // Nearly all that can be touched has a pose straight in front of it; the search would take a thousand times as long.
         self.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
     }
@@ -139,6 +150,9 @@ impl<'s> Search<'s> {
             if length > most {
                 return false;
             }
+            if self.queries.get() > MOST_QUERIES {
+                return true;
+            }
             if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
                 continue;
             }
@@ -167,8 +181,14 @@ impl<'s> Search<'s> {
         is_outside(self.truth, point)
     }
 
+    /// Counts a query of every outline.
+    fn count_queries(&self) {
+        self.queries.set(self.queries.get() + self.truth.surfaces.contours().count());
+    }
+
     /// Whether nothing is between two points.
     fn is_open(&self, start: Point2, end: Point2) -> bool {
+        self.count_queries();
         let line = Segment { start, end };
         let mut surfaces = self.truth.surfaces.contours();
         surfaces.all(|contour| contour.distance(start) > (end - start).norm() || crosses_nothing(contour, &line))
@@ -189,6 +209,7 @@ impl<'s> Search<'s> {
     /// Whether the platform, turned by `heading` (rad), is clear of everything with the base of one of its whiskers here.
     fn has_pose(&self, base: Point2, heading: f64) -> bool {
         self.mounts.iter().any(|corners| {
+            self.count_queries();
             let corners = corners.map(|corner| base + rotate(corner, heading));
             // The smaller footprint leaves the base outside, where a thin wall could be between the two.
             is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))

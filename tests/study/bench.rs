@@ -9,7 +9,7 @@ use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
 use vibrissa::rig::Rig;
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table};
+use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table, pooled_tips};
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
 fn result(scenario: &str, off: f64) -> RunResult {
@@ -42,6 +42,18 @@ fn a_figure_is_better_up_to_the_thesis_s_and_worse_beyond() {
     assert_eq!((row.verdicts.radius_mm, row.passed), (Some(Verdict::Worse), false));
     boxed.retrieval = Some(retrieval(spread(11.1)));
     assert!(BenchRow::new(boxed, true).passed);
+}
+
+#[test]
+fn shares_are_pooled_over_tips_and_not_over_scenes() {
+    let row = |scenario: &str, tips: usize, outliers: f64, within_band: f64| {
+        let mut result = result(scenario, 0.0);
+        result.error_mm.n = tips;
+        (result.error_mm.outliers, result.error_mm.within_band) = (Some(outliers), Some(within_band));
+        BenchRow::new(result, true)
+    };
+    let told = pooled_tips(&[row("disk", 100, 0.04, 0.6), row("box", 300, 0.0, 1.0)]);
+    assert_eq!(told, "thesis: 400 tips, 1.000 % outliers, 90.0 % within their 95 % interval");
 }
 
 #[test]

@@ -58,6 +58,25 @@ fn all_of_a_wide_hook_is_in_reach() {
 }
 
 #[test]
+fn of_an_outline_that_takes_too_long_to_search_only_a_part_is_told_to_be_out_of_reach() {
+    // A comb: slots of 5 cm by 30 cm between walls of 5 cm.
+    let comb = |slots: u32| {
+        let slot = |index: u32| {
+            let left = 0.05 + 0.1 * f64::from(index);
+            [(left + 0.05, 0.3), (left + 0.05, 0.0), (left, 0.0), (left, 0.3)]
+        };
+        let right = 0.05 + 0.1 * f64::from(slots);
+        let outside = [(0.0, 0.3), (0.0, -0.05), (right, -0.05), (right, 0.3)];
+        let corners = outside.into_iter().chain((0..slots).rev().flat_map(slot));
+        let corners: Vec<Point2> = corners.map(|(x, y)| Point2::new(x, y)).collect();
+        polygon(&corners).unwrap()
+    };
+    let [one, many] = [1, 100].map(|slots| unreached(comb(slots), &Rig::default(), Vec::new()));
+    assert!(one > 0.2, "{one} m");
+    assert!(many > one && many < 50.0 * one, "{many} m, {one} m of one slot");
+}
+
+#[test]
 fn what_was_traced_is_in_reach() {
     let outline = hook(0.08, 0.2);
     let count = 1500;

@@ -38,6 +38,10 @@ fn graph_shows_a_part_of_a_statechart() {
         let one = shown(&["--state", "Retrieval", "--depth", "1"]);
         assert!(one.contains("Springing") && !one.contains("Exploring"), "{one}");
     }
+    for (arguments, is_told) in [(&[][..], true), (&["--depth", "1"], false)] {
+        let output = vibrissa(&[&["graph", "policies/vibrissa.fsm"], arguments].concat());
+        assert_eq!(stderr(&output).contains("`--depth 1` shows the outermost"), is_told, "{}", stderr(&output));
+    }
     let output = vibrissa(&["graph", "policies/vibrissa.fsm", "--state", "Retreival"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("do you mean `Retrieval`?"), "{}", stderr(&output));
