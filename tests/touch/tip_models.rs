@@ -7,12 +7,12 @@ use vibrissa::percept::{Perception, Touch};
 use vibrissa::rig::Rig;
 use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
 
-/// What the right whisker tells after a second on a straight surface, bent by `base_angle` (rad).
+/// What the right whisker tells after one and a half seconds on a straight surface, bent by `base_angle` (rad).
 fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Option<Touch>) {
     let mut rig = Rig::default();
     rig.sensing.forces = true;
     let mut perception = Perception::new(&rig, &[Some(0)], &[kind]).unwrap();
-    for tick in 0..30 {
+    for tick in 0..45 {
         let samples: [Sample; 10] = std::array::from_fn(|index| {
             let time = f64::from(tick * 10 + i32::try_from(index).unwrap()) / 300.0;
             let mut whiskers = [Reading::default(); MAX_WHISKERS];
