@@ -22,7 +22,7 @@ fn result(text: &str) -> Result<(Vec<u8>, Vec<Diagnostic>), Vec<Diagnostic>> {
 fn the_same_text_gives_the_same_bytes_or_the_same_faults_in_every_thread() {
     let corpus = mutate::corpus();
     let generated = (0..300).map(|seed| mutate::input(&corpus, &mut Random(seed)));
-    let texts: Vec<String> = corpus.iter().cloned().chain(generated).collect();
+    let texts: Vec<String> = corpus.right.iter().chain(&corpus.wrong).cloned().chain(generated).collect();
     let all = || texts.iter().map(|text| result(text)).collect::<Vec<_>>();
     let once = all();
     thread::scope(|scope| {

@@ -1,7 +1,7 @@
 //! Texts that are nearly policies: those of this project, broken in small ways.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::TOKENS;
 use crate::generate;
@@ -10,8 +10,23 @@ use crate::random::Random;
 /// Texts longer than this (bytes) are cut, so that a random walk stays among small ones.
 const LONGEST: usize = 8 << 10;
 
-/// All policies of the project, the wrong ones of the tests among them, in the order of their paths.
-pub(crate) fn corpus() -> Vec<String> {
+/// All policies of the project, in the order of their paths. Another wrong one makes the right ones no rarer among the texts to try.
+pub(crate) struct Corpus {
+    pub(crate) right: Vec<String>,
+    /// Those of the tests of errors.
+    pub(crate) wrong: Vec<String>,
+}
+
+impl Corpus {
+    fn pick(&self, random: &mut Random) -> &String {
+        match random.below(2) {
+            0 => random.pick(&self.right),
+            _ => random.pick(&self.wrong),
+        }
+    }
+}
+
+pub(crate) fn corpus() -> Corpus {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = ["policies", "tests/fixtures"].map(|folder| root.join(folder)).to_vec();
     let mut files = Vec::new();
@@ -26,16 +41,18 @@ pub(crate) fn corpus() -> Vec<String> {
         }
     }
     files.sort();
-    files.iter().map(|file| String::from_utf8_lossy(&fs::read(file).unwrap()).into_owned()).collect()
+    let text = |file: &PathBuf| String::from_utf8_lossy(&fs::read(file).unwrap()).into_owned();
+    let (wrong, right): (Vec<_>, Vec<_>) = files.into_iter().partition(|file| file.iter().any(|name| name == "bad"));
+    Corpus { right: right.iter().map(text).collect(), wrong: wrong.iter().map(text).collect() }
 }
 
 /// A text to try.
-pub(crate) fn input(corpus: &[String], random: &mut Random) -> String {
+pub(crate) fn input(corpus: &Corpus, random: &mut Random) -> String {
     let mut text = match random.below(2) {
         0 => generate::policy(random),
-        _ => random.pick(corpus).clone(),
+        _ => corpus.pick(random).clone(),
     };
-    let other = random.pick(corpus);
+    let other = corpus.pick(random);
     for _ in 0..[0, 0, 1, 1, 2, 5][random.below(6)] {
         text = match random.below(3) {
             0 => with_other_bytes(&text, other, random),
