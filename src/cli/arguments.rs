@@ -242,7 +242,8 @@ pub(super) struct ParetoArguments {
     pub(super) columns: Columns,
 }
 
-const FAMILIES_STATUS: &str = "Exit status: 0 all runs completed without a contact of the body; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+const FAMILIES_STATUS: &str =
+    "Exit status: 0 all runs passed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = FAMILIES_STATUS)]
@@ -272,7 +273,7 @@ pub(super) struct FamiliesArguments {
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
     pub(super) print: bool,
-    /// Write all results, and a picture of every run that did not complete or had the body touch something, into this directory
+    /// Write all results, and a picture of every run that did not pass, into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print only JSON: an array of results

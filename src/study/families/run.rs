@@ -17,7 +17,7 @@ pub struct FamilyRun {
     pub about: String,
     /// The speed that it was drawn with (m/s).
     pub speed: f64,
-    /// Whether it completed without a contact of the body.
+    /// Whether it completed, traced its object, and the body touched nothing.
     pub passed: bool,
     /// What came of it.
     #[serde(flatten)]
