@@ -17,6 +17,7 @@ Commands:
             --wheel FILE   take them from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
+  prose   measure the sentences and terms of the documentation
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
@@ -29,6 +30,7 @@ pub(crate) enum Command {
     Setup(Options),
     Demo,
     Test,
+    Prose,
     Bench { save: bool },
     Fuzz(u64),
 }
@@ -56,6 +58,7 @@ impl Command {
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
             "test" => Self::Test,
+            "prose" => Self::Prose,
             "bench" => {
                 let mut arguments = arguments.peekable();
                 let save = arguments.next_if(|argument| argument == "--save").is_some();

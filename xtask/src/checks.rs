@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::cargo::{NotStarted, cargo};
 use crate::checkout::Checkout;
+use crate::prose::{self, ProseError};
 use crate::setup::{self, Options, SetupError};
 
 /// One thing that must hold.
@@ -20,6 +21,7 @@ enum Work {
     Cargo(CargoRun),
     CoreIsFreeOfMujoco,
     Setup,
+    Prose,
     CheckoutIsUntouched,
 }
 
@@ -42,6 +44,8 @@ pub(crate) enum CheckError {
     #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
     LeftBehind(String),
     #[error(transparent)]
+    Prose(#[from] ProseError),
+    #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
     Cargo(#[from] NotStarted),
@@ -58,8 +62,9 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 10] = [
+const CHECKS: [Check; 11] = [
     check("formatting", &["fmt", "--all", "--check"]),
+    Check { title: "prose of the documentation", work: Work::Prose },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
     check_in(
         // mujoco-rs's build script would stop at a directory that does not exist.
@@ -122,6 +127,7 @@ impl Check {
             Work::Cargo(run) => run.succeed(self.title, root),
             Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
+            Work::Prose => Ok(prose::check(root)?),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
     }
@@ -216,6 +222,6 @@ mod tests {
         let lines: Vec<_> = text.lines().map(str::trim).collect();
         assert_eq!(lines.len(), 3);
         assert!(lines[0].starts_with("ok") && lines[1].starts_with("FAILED"), "{text}");
-        assert!(lines[2].ends_with("stopped, 8 checks left"), "{text}");
+        assert!(lines[2].ends_with("stopped, 9 checks left"), "{text}");
     }
 }

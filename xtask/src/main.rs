@@ -11,6 +11,7 @@ mod demo;
 mod fuzz;
 mod hash;
 mod platform;
+mod prose;
 mod setup;
 mod sign_of_life;
 mod stamp;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
+        Command::Prose => status(prose::check(&root)),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }

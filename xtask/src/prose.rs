@@ -1,0 +1,237 @@
+//! The prose of the documentation, measured: words per sentence, semicolons in tables, terms that are not the field's.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Most words per sentence in the mean: of the two pages that are read first, and of the others.
+const MOST_WORDS_FIRST: f64 = 18.0;
+const MOST_WORDS: f64 = 22.0;
+/// The pages that are read first.
+const FIRST: [&str; 2] = ["README.md", "ARCHITECTURE.md"];
+/// Where pages are; folders without those in them.
+const FOLDERS: [&str; 4] = ["", "docs", "docs/decisions", "editors"];
+/// Pages that are not measured: a generated one, and a record that grows.
+const LEFT_OUT: [&str; 2] = ["docs/reference.md", "CHANGELOG.md"];
+
+/// Terms of this project's earlier texts, and the field's terms. Only those that have no other meaning are here.
+const TERMS: [(&str, &str); 17] = [
+    ("tip model", "contact estimator"),
+    ("tip models", "contact estimators"),
+    ("springs off", "slips off"),
+    ("sprang off", "slipped off"),
+    ("sinks in", "penetrates"),
+    ("sink in", "penetrate"),
+    ("square to", "perpendicular to"),
+    ("drawn by chance", "sampled at random"),
+    ("drawn evenly", "sampled uniformly"),
+    ("within the band", "within the 95 % interval"),
+    ("hard cases", "stress tests"),
+    ("nose whiskers", "forward-facing whiskers"),
+    ("rule that holds", "global transition"),
+    ("written out", "inlined"),
+    ("chain limit", "microstep limit"),
+    ("on the front", "Pareto-optimal"),
+    ("worlds against each other", "simulator comparison"),
+];
+
+/// Why the prose is not as it should be.
+#[derive(Debug, Error)]
+pub(crate) enum ProseError {
+    #[error("cannot read {}: {cause}", path.display())]
+    Read { path: PathBuf, cause: io::Error },
+    #[error("rewrite these places in plain technical English:\n  {0}")]
+    Findings(String),
+}
+
+/// Measures every page of the checkout at `root`.
+pub(crate) fn check(root: &Path) -> Result<(), ProseError> {
+    let mut findings = Vec::new();
+    for path in pages(root)? {
+        let text =
+            fs::read_to_string(root.join(&path)).map_err(|cause| ProseError::Read { path: path.clone(), cause })?;
+        let name = path.display().to_string();
+        findings.extend(Page::new(&text).findings(&name));
+    }
+    if findings.is_empty() { Ok(()) } else { Err(ProseError::Findings(findings.join("\n  "))) }
+}
+
+/// The pages, by their paths from the root, in order.
+fn pages(root: &Path) -> Result<Vec<PathBuf>, ProseError> {
+    let mut pages = Vec::new();
+    for folder in FOLDERS {
+        let read = |cause| ProseError::Read { path: folder.into(), cause };
+        for entry in fs::read_dir(root.join(folder)).map_err(read)? {
+            let path = Path::new(folder).join(entry.map_err(read)?.file_name());
+            let is_page = path.extension().is_some_and(|extension| extension == "md");
+            if is_page && !LEFT_OUT.iter().any(|left_out| path == Path::new(left_out)) {
+                pages.push(path);
+            }
+        }
+    }
+    pages.sort();
+    Ok(pages)
+}
+
+/// A page without its code.
+#[derive(Debug, Default, PartialEq)]
+struct Page {
+    /// The paragraphs and items of lists, each with the number of its first line.
+    blocks: Vec<(usize, String)>,
+    /// The lines of tables, with their numbers.
+    rows: Vec<(usize, String)>,
+}
+
+impl Page {
+    fn new(text: &str) -> Self {
+        let mut page = Self::default();
+        let mut is_code = false;
+        let mut is_comment = false;
+        // Whether the next line goes on with the last block.
+        let mut goes_on = false;
+        let mut was_blank = true;
+        for (number, line) in (1..).zip(text.lines()) {
+            let trimmed = line.trim();
+            if trimmed.starts_with("```") {
+                is_code = !is_code;
+            }
+            is_comment |= trimmed.starts_with("<!--");
+            let is_indented = line.starts_with("    ") && (was_blank || !goes_on);
+            let is_prose = !is_code && !is_comment && !is_indented && !trimmed.starts_with(['#', '`', '<', '!']);
+            was_blank = trimmed.is_empty();
+            if is_comment && trimmed.ends_with("-->") {
+                is_comment = false;
+            }
+            if is_prose && trimmed.starts_with('|') {
+                page.rows.push((number, plain(trimmed)));
+                goes_on = false;
+            } else if is_prose && !trimmed.is_empty() {
+                let item = trimmed.strip_prefix("- ").or_else(|| numbered(trimmed));
+                match page.blocks.last_mut() {
+                    Some((_, block)) if goes_on && item.is_none() => *block = format!("{block} {trimmed}"),
+                    _ => page.blocks.push((number, item.unwrap_or(trimmed).to_owned())),
+                }
+                goes_on = true;
+            } else if !is_indented {
+                goes_on = false;
+            }
+        }
+        for (_, block) in &mut page.blocks {
+            *block = plain(block);
+        }
+        page
+    }
+
+    /// The mean number of words of a sentence; `None` without one.
+    fn words_per_sentence(&self) -> Option<f64> {
+        let sentences = self.blocks.iter().flat_map(|(_, block)| sentences(block));
+        let counts: Vec<usize> = sentences.map(|sentence| sentence.split_whitespace().count()).collect();
+        (!counts.is_empty()).then(|| counts.iter().sum::<usize>() as f64 / counts.len() as f64)
+    }
+
+    /// What is wrong with the page of this name, a line each.
+    fn findings(&self, name: &str) -> Vec<String> {
+        let mut findings = Vec::new();
+        let most = if FIRST.contains(&name) { MOST_WORDS_FIRST } else { MOST_WORDS };
+        if let Some(words) = self.words_per_sentence().filter(|words| *words > most) {
+            findings.push(format!("{name}: {words:.1} words per sentence in the mean, more than {most}"));
+        }
+        for (line, row) in &self.rows {
+            if row.contains(';') {
+                findings.push(format!("{name}:{line}: a semicolon in a table; one cell has one quantity"));
+            }
+        }
+        for (line, text) in self.blocks.iter().chain(&self.rows) {
+            let text = text.to_lowercase();
+            for (term, better) in TERMS {
+                if has_words(&text, term) {
+                    findings.push(format!("{name}:{line}: `{term}`: the field's term is `{better}`"));
+                }
+            }
+        }
+        findings
+    }
+}
+
+/// An item of a numbered list without its number.
+fn numbered(line: &str) -> Option<&str> {
+    let (number, item) = line.split_once(". ")?;
+    (!number.is_empty() && number.chars().all(|letter| letter.is_ascii_digit())).then_some(item)
+}
+
+/// A text with a letter in the place of code, and the text of links without where they lead.
+fn plain(text: &str) -> String {
+    // The bar that Markdown does not take for the end of a cell.
+    let text = text.replace("&#124;", "|");
+    let mut parts = text.split('`');
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    while let (Some(_code), Some(rest)) = (parts.next(), parts.next()) {
+        plain.push('x');
+        plain.push_str(rest);
+    }
+    while let Some(middle) = plain.find("](") {
+        let Some(end) = plain[middle..].find(')') else { break };
+        plain.replace_range(middle..=middle + end, "");
+        if let Some(start) = plain[..middle].rfind('[') {
+            plain.remove(start);
+        }
+    }
+    plain
+}
+
+/// The sentences of a block. A mark ends one only before a space.
+fn sentences(block: &str) -> impl Iterator<Item = &str> {
+    let ends = block.match_indices(['.', '!', '?']).map(|(at, _)| at + 1);
+    let ends: Vec<usize> = ends.filter(|&end| block[end..].starts_with(' ')).chain([block.len()]).collect();
+    let starts = std::iter::once(0).chain(ends.clone());
+    let sentences = starts.zip(ends).map(|(start, end)| block[start..end].trim());
+    sentences.filter(|sentence| sentence.contains(char::is_alphanumeric))
+}
+
+/// Whether a text has a phrase of whole words.
+fn has_words(text: &str, phrase: &str) -> bool {
+    let is_letter = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
+    text.match_indices(phrase).any(|(at, _)| {
+        !is_letter(text[..at].chars().next_back()) && !is_letter(text[at + phrase.len()..].chars().next())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn code_headings_and_tables_are_no_sentences() {
+        let page = Page::new(
+            "# A heading\n\nOne two\nthree. Four `a b c` six.\n\n    code here\n\n```\nmore\n```\n\n- an item\n- another\n  one\n\n| a | b |\n",
+        );
+        assert_eq!(
+            page.blocks,
+            [(3, "One two three. Four x six.".to_owned()), (12, "an item".to_owned()), (13, "another one".to_owned())]
+        );
+        assert_eq!(page.rows.len(), 1);
+        assert_eq!(page.words_per_sentence(), Some(2.5));
+    }
+
+    #[test]
+    fn a_long_sentence_a_semicolon_in_a_table_and_an_old_term_are_found() {
+        let long = ["word"; 19].join(" ");
+        let page = Page::new(&format!("{long}.\n\n| 1 mm; 2 mm |\n\nIt uses a [tip model](a.md#b).\n"));
+        let findings = page.findings("README.md");
+        assert_eq!(findings.len(), 2, "{findings:?}");
+        assert!(
+            findings[0].contains("README.md:3") && findings[1].contains("README.md:5: `tip model`"),
+            "{findings:?}"
+        );
+        let findings = Page::new(&format!("{long}.")).findings("README.md");
+        assert!(findings[0].contains("19.0 words"), "{findings:?}");
+        assert!(Page::new(&format!("{long}.")).findings("docs/language.md").is_empty());
+    }
+
+    #[test]
+    fn only_whole_words_are_terms() {
+        assert!(has_words("a tip model.", "tip model") && !has_words("a tip modeller", "tip model"));
+    }
+}
