@@ -196,6 +196,15 @@ mod tests {
     }
 
     #[test]
+    fn a_caption_is_wrapped_only_in_a_fitted_table() {
+        let caption = "a caption of many words ".repeat(8);
+        let table = Table::new(1, ["scene"], [vec!["disk".to_owned()]]).under(caption.trim());
+        assert!(table.fitted().lines().all(|line| length(line) <= LINE), "{}", table.fitted());
+        assert!(letters(&table.fitted()).starts_with(&letters(&caption)));
+        assert_eq!(table.wide().lines().next(), Some(caption.trim()));
+    }
+
+    #[test]
     fn a_table_that_fits_leaves_nothing_out_and_one_column_too_many_is_left_out_and_counted() {
         let table = |figures: usize| {
             let headings =

@@ -161,7 +161,7 @@ fn what_passes_has_traced_its_object_and_hardly_a_tip_is_an_outlier() {
 }
 
 #[test]
-#[ignore = "takes half an hour; `cargo test --release --test study verdicts -- --ignored` runs it"]
+#[ignore = "takes a quarter of an hour; `cargo test --release --test study verdicts -- --ignored` runs it"]
 fn what_passes_has_traced_its_object_and_hardly_a_tip_is_an_outlier_in_thousands_of_runs() {
     assert!(passed_runs(WorldKind::QuasiStatic, 101, 800) > 3000);
     #[cfg(feature = "sim")]
