@@ -11,7 +11,7 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput};
 use stage::Stage;
 use vibrissa::geometry::{ContourSet, Point2, perpendicular, unit};
-use vibrissa::percept::LocalContour;
+use vibrissa_runtime::percept::LocalContour;
 
 /// Points that are asked for, all along a contour.
 const POINTS: usize = 512;

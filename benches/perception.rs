@@ -9,8 +9,8 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput};
 use stage::Stage;
-use vibrissa::machine::{Senses, TipModelKind};
-use vibrissa::percept::Perception;
+use vibrissa_runtime::machine::{Senses, TipModelKind};
+use vibrissa_runtime::percept::Perception;
 
 /// Ticks after which the platform goes along the middle of the tunnel.
 const IN_TUNNEL: usize = 600;

@@ -14,10 +14,10 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput};
 use recorded::{Felt, Recorded};
 use stage::{SETTLED, Stage};
-use vibrissa::machine::{Action, Turn};
 use vibrissa::policy::{compile, compile_with_warnings};
-use vibrissa::signal::Command;
 use vibrissa::world::World;
+use vibrissa_runtime::machine::{Action, Turn};
+use vibrissa_runtime::signal::Command;
 
 /// Ticks in a row: enough that the clock costs nothing, and few enough that what they felt stays in the cache.
 const TICKS: usize = 32;
@@ -138,7 +138,7 @@ fn agree(compiled: Action, by_hand: Option<Action>) {
 }
 
 /// What a steering action moves while it turns at a rate, and its numbers.
-fn steering(action: Action) -> Option<(vibrissa::machine::Mover, [f64; 4])> {
+fn steering(action: Action) -> Option<(vibrissa_runtime::machine::Mover, [f64; 4])> {
     match action {
         Action::Steer { mover, along_world, speed, turn: Turn::Rate(rate) } => {
             Some((mover, [along_world.x, along_world.y, speed, rate]))

@@ -9,8 +9,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
 use stage::{SETTLED, Stage};
-use vibrissa::signal::Command;
 use vibrissa::world::World;
+use vibrissa_runtime::signal::Command;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let disk = Stage::disk()?;

@@ -8,13 +8,14 @@ use std::error::Error;
 
 use criterion::{Criterion, Throughput};
 use stage::{SETTLED, Stage};
-use vibrissa::signal::Command;
-use vibrissa::world::{QuasiStaticWorld, World};
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::world::World;
+use vibrissa_runtime::signal::Command;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let disk = Stage::disk()?;
     let scene = &disk.scene;
-    let quasi_static = QuasiStaticWorld::new(&scene.rig, &scene.solids, scene.start, 0)?;
+    let quasi_static = QuasiStaticWorld::new(&scene.rig, &scene.physics, &scene.solids, scene.start, 0)?;
     let worlds: [(&str, Box<dyn World>); 2] =
         [("mujoco", Box::new(disk.world()?)), ("quasistatic", Box::new(quasi_static))];
     let mut criterion = Criterion::default().configure_from_args();

@@ -9,11 +9,11 @@ use std::sync::Arc;
 use allocator::allocations;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::Status;
 use vibrissa::policy::compile;
-use vibrissa::rig::Rig;
-use vibrissa::run::Control;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Status;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// Ten samples of a platform that goes straight ahead, its right whisker bent to `base_angle` (rad).
 fn samples(tick: usize, base_angle: f64) -> [Sample; 10] {

@@ -1,8 +1,8 @@
 //! What a policy felt in one tick of a run.
 
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
-use vibrissa::run::Control;
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 
 /// All that can be asked of a whisker, each in the place that its own number names, as in [`Recorded`].
 const SCALARS: [WhiskerScalar; 8] = [

@@ -8,12 +8,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::Program;
+use vibrissa::mujoco::MujocoWorld;
 use vibrissa::policy::compile;
-use vibrissa::run::Control;
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::world::World;
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// Ticks after which the platform swipes steadily.
 pub(crate) const SETTLED: usize = 300;
@@ -54,13 +56,13 @@ impl Stage {
     }
 
     fn load(scenario: &str, policy: &str) -> Result<Self, Box<dyn Error>> {
-        let scene = Scene::from_yaml(&read(scenario)?).map_err(|faults| format!("{faults:?}"))?;
+        let scene = scenario::read(&read(scenario)?).map_err(|faults| format!("{faults:?}"))?;
         let program = compile(&read(policy)?).map_err(|faults| format!("{faults:?}"))?;
         Ok(Self { scene, program: Arc::new(program) })
     }
 
     pub(crate) fn world(&self) -> Result<MujocoWorld, Box<dyn Error>> {
-        Ok(MujocoWorld::pruned(&self.scene.rig, &self.scene.solids, self.scene.start, 0)?)
+        Ok(MujocoWorld::pruned(&self.scene.rig, &self.scene.physics, &self.scene.solids, self.scene.start, 0)?)
     }
 
     pub(crate) fn control(&self) -> Result<Control, Box<dyn Error>> {

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use vibrissa::geometry::{Vector2, rotate, turn_between, unit};
-use vibrissa::machine::{Action, BodyScalar, ContourVector, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{Action, BodyScalar, ContourVector, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
 
 /// The state `Swiping` of `policies/thesis.fsm` by hand, with all that it uses of the standard library.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@
 mod erratic;
 
 use sha2::{Digest, Sha256};
-use vibrissa::machine::{Artifact, FORMAT, MAGIC};
+use vibrissa_runtime::machine::{Artifact, FORMAT, MAGIC};
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX);

@@ -1,12 +1,12 @@
-//! What has been measured of a whisker: touches in known places, what is fitted to them, and the file that holds it.
+//! Calibration of a whisker: files of contact sets, contact sets from a simulation, and fits.
 
-mod angle_surface;
-mod contact_curve;
-mod contact_set;
-mod file;
-mod least_squares;
+mod contact_sets;
+mod fit;
+mod hinge_fit;
+#[cfg(feature = "sim")]
+mod stage;
 
-pub use angle_surface::AngleSurface;
-pub use contact_curve::ContactCurve;
-pub use contact_set::{ContactSet, SetsError};
-pub use file::{Calibration, CalibrationError};
+pub use contact_sets::{SetsError, read_sets, write_sets};
+pub use fit::{FEWEST_PLACES, Fitted, HeldOut, fit, held_out_table};
+#[cfg(feature = "sim")]
+pub use stage::{StageError, simulated_sets};

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::scene::{Scene, WorldSetup};
-use crate::study::sweep::Shard;
+use crate::sweep::Shard;
 
 use super::language_arguments::{CheckArguments, CompileArguments, FmtArguments, GraphArguments, TestArguments};
 use super::settings::Settings;

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::calibration::ContactSet;
+use crate::calibration::{Fitted, HeldOut, fit, held_out_table, write_sets};
 use crate::file::{CommandFiles, Output, OutputError};
+use crate::physics::{Physics, Preset};
 use crate::report::profile_picture;
-use crate::rig::{Rig, Whisker};
-use crate::study::calibrate::{Fitted, HeldOut, fit, held_out_table};
+use crate::scenario::write_calibration;
+use vibrissa_runtime::calibration::ContactSet;
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::arguments::CalibrateArguments;
 use super::exit::{Exit, Failure};
@@ -32,9 +34,12 @@ impl Document for Printed<'_> {
 
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let mut rig = match &arguments.rig {
-        Some(scenario) => input::scenario(scenario, &mut files)?.value.rig,
-        None => Rig::default(),
+    let (mut rig, physics) = match &arguments.rig {
+        Some(scenario) => {
+            let scene = input::scenario(scenario, &mut files)?.value;
+            (scene.rig, scene.physics)
+        }
+        None => Preset::default().rig(),
     };
     if arguments.noise {
         rig.sensing.make_real();
@@ -52,7 +57,9 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &mut files)).transpose()?;
     let (sets, about) = match measured {
         Some((path, sets)) => (sets, format!("{}, measured: {}", whisker.name, path.display())),
-        None => (simulated(&rig, index, arguments)?, format!("{}, simulated: a stage before a rod", whisker.name)),
+        None => {
+            (simulated(&rig, &physics, index, arguments)?, format!("{}, simulated: a stage before a rod", whisker.name))
+        }
     };
     let tip_sets = sets.iter().filter(|set| !set.on_shaft).count();
     let fitted = fit(whisker, &sets, format!("{about}, {tip_sets} sets"));
@@ -110,19 +117,24 @@ impl Report {
 
     fn write(self, whisker: &Whisker, sets: &[ContactSet], fitted: &Fitted) -> Result<(), OutputError> {
         let calibration = &fitted.calibration;
-        self.calibration.write(calibration.to_yaml())?;
-        self.sets.write(ContactSet::write_all(sets))?;
+        self.calibration.write(write_calibration(calibration))?;
+        self.sets.write(write_sets(sets))?;
         let title = format!("Deflection profile of {}", calibration.about);
         self.profile.write(profile_picture(&title, whisker.shaft.length, sets, calibration))
     }
 }
 
 #[cfg(feature = "sim")]
-fn simulated(rig: &Rig, whisker: usize, arguments: &CalibrateArguments) -> Result<Vec<ContactSet>, Failure> {
-    Ok(crate::study::calibrate::simulated_sets(rig, whisker, arguments.seed)?)
+fn simulated(
+    rig: &Rig,
+    physics: &Physics,
+    whisker: usize,
+    arguments: &CalibrateArguments,
+) -> Result<Vec<ContactSet>, Failure> {
+    Ok(crate::calibration::simulated_sets(rig, physics, whisker, arguments.seed)?)
 }
 
 #[cfg(not(feature = "sim"))]
-fn simulated(_: &Rig, _: usize, _: &CalibrateArguments) -> Result<Vec<ContactSet>, Failure> {
+fn simulated(_: &Rig, _: &Physics, _: usize, _: &CalibrateArguments) -> Result<Vec<ContactSet>, Failure> {
     Err(Failure::NoStage)
 }

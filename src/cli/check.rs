@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use crate::diagnostic::{Position, Record, records};
 use crate::file::CommandFiles;
-use crate::machine::{Artifact, FORMAT, Program, State, Target};
 use crate::policy::{self, Checked as Found};
 use crate::report::{Document, Table};
-use crate::units::format_si;
+use vibrissa_runtime::machine::{Artifact, FORMAT, Program, State, Target};
+use vibrissa_runtime::units::format_si;
 
 use super::exit::{Exit, Failure};
 use super::input::PolicyFile;
@@ -78,12 +78,24 @@ struct ParameterSummary {
     description: String,
 }
 
+/// The keys of a [`Position`], for the JSON schema.
+#[cfg(test)]
+#[derive(schemars::JsonSchema)]
+#[allow(dead_code, reason = "only the names and types matter")]
+struct PositionSchema {
+    /// The line, from 1.
+    line: usize,
+    /// The column, from 1, in characters.
+    column: usize,
+}
+
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 struct StateSummary {
     name: String,
     /// Where it is in the policy's text.
     #[serde(flatten)]
+    #[cfg_attr(test, schemars(with = "PositionSchema"))]
     place: Position,
     /// The state that it lies in.
     parent: Option<String>,
@@ -178,7 +190,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
 
 fn summary(artifact: &Artifact) -> Summary {
     let Artifact { program, places, .. } = artifact;
-    let parameter = |(parameter, &value): (&crate::machine::Parameter, &f64)| ParameterSummary {
+    let parameter = |(parameter, &value): (&vibrissa_runtime::machine::Parameter, &f64)| ParameterSummary {
         name: parameter.name.clone(),
         value: format_si(value, parameter.dimension),
         range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),

@@ -3,20 +3,20 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::calibration::FEWEST_PLACES;
 use crate::calibration::SetsError;
+#[cfg(feature = "sim")]
+use crate::calibration::StageError;
 use crate::diagnostic::{Diagnostic, Source};
+use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
-use crate::machine::{ArtifactError, SetError};
 use crate::policy::chart::UnknownState;
 use crate::report::ChartTooLarge;
-use crate::rig::UnknownWhisker;
-use crate::scene::family::{FAMILIES, NoDraw};
 use crate::study::ExecuteError;
-use crate::study::calibrate::FEWEST_PLACES;
-#[cfg(feature = "sim")]
-use crate::study::calibrate::StageError;
 use crate::study::stress::CaseError;
-use crate::study::sweep::{ResultsError, StartError};
+use crate::sweep::{ResultsError, StartError};
+use vibrissa_runtime::machine::{ArtifactError, SetError};
+use vibrissa_runtime::rig::UnknownWhisker;
 
 use super::output;
 

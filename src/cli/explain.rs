@@ -1,7 +1,7 @@
 //! `vibrissa explain`
 
 use crate::file::CommandFiles;
-use crate::scene::Pruning;
+use crate::mujoco::Pruning;
 
 use super::arguments::{ExplainArguments, World};
 use super::exit::{Exit, Failure};
@@ -17,11 +17,11 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
     let fitted = scene
         .rig
         .fitted(&program.whiskers, &program.optional)
-        .map_err(crate::run::BindError::from)
+        .map_err(vibrissa_runtime::control::BindError::from)
         .map_err(|cause| Failure::Execute { scenario: arguments.scenario.clone(), cause: cause.into() })?;
     let read: Vec<_> = fitted.into_iter().flatten().map(|index| scene.rig.whiskers[index].name.clone()).collect();
     let world = World::of(arguments.world, &scene);
-    let pruning = Pruning::new(&scene.rig, &scene.solids, scene.start, &read, world);
+    let pruning = Pruning::new(&scene.rig, &scene.physics, &scene.solids, scene.start, &read, world);
     if arguments.json {
         output::json(&pruning)?;
     } else {

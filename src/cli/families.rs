@@ -4,13 +4,13 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use crate::family::{Draw, FAMILIES, Family, SPEEDS};
+use crate::family::{FamilyRun, FamilyTally, families_table};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::scene::Violation;
-use crate::scene::family::{Draw, FAMILIES, Family, SPEEDS};
 use crate::study::bench::DEFAULT_POLICY;
-use crate::study::families::{FamilyRun, FamilyTally, families_table};
 use crate::study::in_parallel;
-use crate::units::{Dimension, format_si};
+use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::arguments::FamiliesArguments;
 use super::batch::{Finished, run_all, threads};

@@ -5,15 +5,18 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::calibration::ContactSet;
-use crate::diagnostic::{Diagnostic, NotUtf8, Source, suggest, utf8};
+use crate::calibration::read_sets;
+use crate::diagnostic::{Diagnostic, NotUtf8, Source, utf8};
 use crate::file::CommandFiles;
-use crate::machine::{ARTIFACT_LIMIT, Artifact, Program};
 use crate::outline;
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, Library, PolicyTest, gather_and_compile};
+use crate::scenario::{self, unreadable};
 use crate::scene::{FileReference, Scene};
 use crate::study::bench::{DEFAULT_POLICY, TextFile};
+use vibrissa_runtime::calibration::ContactSet;
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, Program};
+use vibrissa_runtime::units::suggest;
 
 use super::exit::Failure;
 use super::output;
@@ -88,7 +91,7 @@ fn read_scenario(
     mut file: impl FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Loaded<Scene>, Failure> {
     let mut hash = Sha256::new().chain_update(&source.text);
-    let scene = Scene::from_yaml_with(source, &mut |name| {
+    let scene = scenario::read_with(source, &mut |name| {
         let bytes = file(name)?;
         hash.update([0]);
         hash.update(&bytes);
@@ -103,7 +106,7 @@ fn read_scenario(
 /// Reads touches that were measured.
 pub(super) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, Failure> {
     let source = read(path, files)?;
-    ContactSet::read_all(source.text.as_bytes()).map_err(|cause| Failure::Sets { path: path.to_owned(), cause })
+    read_sets(source.text.as_bytes()).map_err(|cause| Failure::Sets { path: path.to_owned(), cause })
 }
 
 /// What a file that is given for a policy holds.
@@ -162,7 +165,7 @@ fn reason(path: &Path, cause: &Error) -> String {
 /// That a file cannot be read, at the place in `source` that names it; other failures as they are.
 pub(super) fn named_in(source: &Source, file: &FileReference) -> impl FnOnce(Failure) -> Failure {
     |failure| match failure {
-        Failure::Read { path, cause } => at(source, file.unreadable(&reason(&path, &cause))),
+        Failure::Read { path, cause } => at(source, unreadable(file, &reason(&path, &cause))),
         other => other,
     }
 }

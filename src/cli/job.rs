@@ -12,12 +12,12 @@ use sha2::Digest;
 
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::machine::Program;
 use crate::report::{Failsafes, Hashes, Identity, RunResult, picture};
 use crate::run::{Run, Trace};
 use crate::scene::{Scene, WorldSetup};
 use crate::score::Score;
 use crate::study::{engine_hash, execute};
+use vibrissa_runtime::machine::Program;
 
 use super::arguments::RunArguments;
 use super::exit::Failure;

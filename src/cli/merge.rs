@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::file::CommandFiles;
-use crate::study::sweep::{Missing, SweepSummary, merge as merge_files};
+use crate::sweep::{Missing, SweepSummary, merge as merge_files};
 
 use super::arguments::MergeArguments;
 use super::exit::{Exit, Failure};

@@ -7,12 +7,14 @@ use sha2::{Digest, Sha256};
 
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
-use crate::machine::Program;
-use crate::run::Control;
-use crate::scene::{ScenesOf, Sweep, SweepRun, WorldSetup};
-use crate::study::sweep::{Header, Shard};
+use crate::scenario::unreadable;
+use crate::scene::WorldSetup;
 use crate::study::{check_world, engine_version};
-use crate::units::Dimension;
+use crate::sweep::{Header, Shard};
+use crate::sweep::{ScenesOf, Sweep, SweepRun};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::units::Dimension;
 
 use super::exit::Failure;
 use super::input::{self, Loaded, at, named_in};
@@ -180,7 +182,7 @@ impl Plan {
                 Ok((self.path.clone(), Source::new(draw.scene.name, draw.text), drawn_speed))
             }
             (ScenesOf::Scenario(_), Some(text)) => Ok((PathBuf::from(&text.name), text.clone(), None)),
-            (ScenesOf::Scenario(file), None) => Err(at(&self.source, file.unreadable("it has not been read"))),
+            (ScenesOf::Scenario(file), None) => Err(at(&self.source, unreadable(&file, "it has not been read"))),
         }
     }
 

@@ -4,16 +4,16 @@
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
+use crate::family::FamilyRun;
+use crate::mujoco::Pruning;
 use crate::report::{Document, RunResult, TickLine, Versioned};
-use crate::scene::Pruning;
 use crate::study::bench::{BenchRow, TimingRow};
 use crate::study::compare::Comparison;
 use crate::study::estimators::EstimatorRow;
-use crate::study::families::FamilyRun;
 use crate::study::pareto::Pareto;
 use crate::study::stress::StressRow;
-use crate::study::sweep::{Header, SweepLine, SweepSummary};
 use crate::study::tiers::TierRow;
+use crate::sweep::{Header, SweepLine, SweepSummary};
 
 use super::calibrate::Printed;
 use super::check::Checked;

@@ -3,8 +3,8 @@
 use clap::Args;
 use sha2::{Digest, Sha256};
 
-use crate::machine::SetError;
-use crate::units::{Quantity, parse_quantity};
+use vibrissa_runtime::machine::SetError;
+use vibrissa_runtime::units::{Quantity, parse_quantity};
 
 use super::input::{Loaded, Policy};
 

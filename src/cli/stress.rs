@@ -5,8 +5,8 @@ use std::process::Command;
 
 use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask, stress_tables};
-use crate::study::sweep::{Answer, StartError, Worker, answer};
 use crate::study::{check_world, engine_version, stream_in_parallel};
+use crate::sweep::{Answer, StartError, Worker, answer};
 
 use super::arguments::StressArguments;
 use super::batch::threads;

@@ -5,11 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::file::CommandFiles;
-use crate::scene::Sweep;
 use crate::study::stream_in_parallel;
-use crate::study::sweep::{
-    Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table,
-};
+use crate::sweep::Sweep;
+use crate::sweep::{Answer, Results, StartError, SweepLine, SweepSummary, Worker, answer, read_line, summary_table};
 
 use super::arguments::{Columns, SweepArguments};
 use super::batch::threads;

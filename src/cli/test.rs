@@ -8,11 +8,11 @@ use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Diagnostic, Record, Source, records};
 use crate::file::CommandFiles;
-use crate::machine::Program;
 use crate::policy::PolicyTest;
 use crate::report::RunResult;
 use crate::score::Score;
 use crate::study::violations;
+use vibrissa_runtime::machine::Program;
 
 use super::arguments::World;
 use super::exit::{Exit, Failure};

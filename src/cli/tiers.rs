@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use crate::file::CommandFiles;
-use crate::machine::Program;
 use crate::scene::WorldKind;
 use crate::study::bench::{SCENARIOS, TextFile};
 use crate::study::tiers::{Tier, compare_tiers, tiers_table};
 use crate::study::{Ending, check_world, in_parallel};
+use vibrissa_runtime::machine::Program;
 
 use super::arguments::BenchArguments;
 use super::batch::threads;

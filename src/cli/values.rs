@@ -8,11 +8,11 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 
-use crate::machine::NESTING_LIMIT;
 use crate::scene::{Scene, WorldKind};
 use crate::study::processors;
 use crate::study::tiers::Tier;
-use crate::units::{Dimension, parse_quantity};
+use vibrissa_runtime::machine::NESTING_LIMIT;
+use vibrissa_runtime::units::{Dimension, parse_quantity};
 
 /// The worlds, as the command line names them.
 #[derive(Debug, Clone, Copy, ValueEnum)]

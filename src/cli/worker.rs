@@ -6,10 +6,10 @@ use std::sync::mpsc::channel;
 
 use crate::diagnostic::{Colour, terminal};
 use crate::file::CommandFiles;
-use crate::scene::SweepRun;
 use crate::study::engine_version;
 use crate::study::stress::StressTask;
-use crate::study::sweep::{Shard, StartError, SweepLine};
+use crate::sweep::SweepRun;
+use crate::sweep::{Shard, StartError, SweepLine};
 
 use super::arguments::WorkerArguments;
 use super::batch::finished;

@@ -4,14 +4,13 @@ mod kind;
 mod printable;
 mod record;
 mod source;
-mod suggestion;
 mod terminal;
 mod utf8;
 
 pub use kind::{Diagnostic, FAULT_LIMIT, Label, Severity};
 pub use printable::{printable, printable_json};
 pub use record::{Record, RecordLabel, records};
-pub use source::{Position, Source, Span};
-pub use suggestion::suggest;
+pub use source::{Source, Span};
 pub use terminal::{Colour, terminal};
 pub use utf8::{NotUtf8, utf8};
+pub use vibrissa_runtime::machine::Position;

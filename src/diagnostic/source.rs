@@ -1,7 +1,8 @@
 //! A text with a name, and places in it.
 
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
+
+use super::Position;
 
 /// A stretch of a [`Source`], in bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -30,16 +31,6 @@ impl From<Range<usize>> for Span {
     fn from(range: Range<usize>) -> Self {
         Self::new(range.start, range.end)
     }
-}
-
-/// A place in a text as a person counts: from 1, columns in characters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Position {
-    /// The line, from 1.
-    pub line: usize,
-    /// The column, from 1, in characters.
-    pub column: usize,
 }
 
 /// A text with the name that messages show: a file's path, usually. Files that it uses may be parts of it: their texts

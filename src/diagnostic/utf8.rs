@@ -1,6 +1,6 @@
 //! Bytes that should be a text.
 
-use super::source::{Position, Source};
+use super::{Position, Source};
 
 /// Why bytes are no text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

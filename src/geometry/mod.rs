@@ -4,7 +4,6 @@
 //! Lengths are metres, angles radians; x is to the right, y up, angles and turns are positive counter-clockwise.
 //! Everything is computed on the pieces themselves, never on a polyline that stands in for them.
 
-mod angle;
 mod arc;
 mod arrangement;
 mod bezier;
@@ -20,7 +19,6 @@ mod least;
 mod offset;
 mod overlap;
 mod piece;
-mod pose;
 mod sample;
 mod segment;
 mod shapes;
@@ -28,7 +26,6 @@ mod simple;
 mod strip;
 mod union;
 
-pub use angle::{turn_between, wrap};
 pub use arc::Arc;
 pub use bezier::Bezier;
 pub use bounding_box::BoundingBox;
@@ -41,7 +38,6 @@ pub use joint::Corner;
 pub(crate) use least::least_distance;
 pub use offset::OffsetError;
 pub use piece::Piece;
-pub use pose::{Pose, perpendicular, rotate, unit};
 pub use sample::ContourPoint;
 pub use segment::Segment;
 pub use shapes::{
@@ -50,9 +46,4 @@ pub use shapes::{
 };
 pub use strip::{Side, Strip, StripError};
 pub use union::{TOUCHING, UnionError, United, unite};
-
-/// A point of the plane: coordinates in metres.
-pub type Point2 = nalgebra::Point2<f64>;
-
-/// A vector of the plane.
-pub type Vector2 = nalgebra::Vector2<f64>;
+pub use vibrissa_runtime::geometry::{Point2, Pose, Vector2, perpendicular, rotate, turn_between, unit, wrap};

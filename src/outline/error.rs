@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::diagnostic::NotUtf8;
 use crate::geometry::{ContourError, Point2};
-use crate::units::{Dimension, format_si};
+use vibrissa_runtime::units::{Dimension, format_si};
 
 /// Why a file gives no outlines, and where in it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

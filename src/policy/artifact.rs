@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Position, Source};
-use crate::machine::{Artifact, Origin, Program, SourceMap, StatePlace};
+use vibrissa_runtime::machine::{Artifact, Origin, Program, SourceMap, StatePlace};
 
 use super::ast::{File, Guard, Transition};
 

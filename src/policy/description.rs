@@ -5,7 +5,7 @@ use crate::diagnostic::{Source, Span};
 use super::ast::File;
 use super::format::comment_behind;
 use super::grammar::is_word;
-use crate::machine::{DESCRIPTION_LIMIT, Program};
+use vibrissa_runtime::machine::{DESCRIPTION_LIMIT, Program};
 
 /// What the policy's author says about the item that is named at `name`: the comment behind it on the line of its name, or
 /// else the comment lines directly above it. Lines are joined to one; it has no control characters, and no more bytes than

@@ -1,6 +1,7 @@
 //! "Did you mean …?"
 
-use crate::diagnostic::{Diagnostic, suggest};
+use crate::diagnostic::Diagnostic;
+use vibrissa_runtime::units::suggest;
 
 /// Names longer than this (bytes) get no suggestion: comparing them takes time that grows with the square of their length.
 const NAME_LIMIT: usize = 64;

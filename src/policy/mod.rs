@@ -35,8 +35,8 @@ pub use load::Library;
 pub use test::{Expectation, PolicyTest, RunFigure};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::machine::{Artifact, Program};
 use load::{Files, Loaded};
+use vibrissa_runtime::machine::{Artifact, Program};
 
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,10 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
-use crate::machine::{BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, compute};
-use crate::units::{Dimension, format_si};
+use vibrissa_runtime::machine::{
+    BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, compute,
+};
+use vibrissa_runtime::units::{Dimension, format_si};
 
 /// A run of a policy in a scenario, and what must be true of it.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::machine::Register;
-use crate::units::Dimension;
+use vibrissa_runtime::machine::Register;
+use vibrissa_runtime::units::Dimension;
 
 use super::ast::{Binary, TypeName};
 

@@ -1,6 +1,6 @@
 //! Units as policies write them: words, with no blank between them.
 
-use crate::units::{self, Dimension, UnitError, format_si, simple_units};
+use vibrissa_runtime::units::{self, Dimension, UnitError, format_si, simple_units};
 
 /// The units in which a quantity of this dimension is usually written, the most usual first.
 pub(super) fn units_of(dimension: Dimension) -> Vec<String> {

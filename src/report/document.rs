@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::scene::Pruning;
+use crate::mujoco::Pruning;
 
 /// What a command writes as JSON: an object that names its format and the version of that.
 ///

@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::geometry::{Point2, Vector2};
-use crate::machine::{Failsafe, Senses, Status, WhiskerScalar, WhiskerVector};
-use crate::percept::Perception;
 use crate::scene::{Outcome, Reached, Stop};
-use crate::signal::{Command, MAX_WHISKERS};
 use crate::world::{Fault, World};
+use vibrissa_runtime::machine::{Failsafe, Senses, Status, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
-use super::control::Control;
 use super::loop_watch::LoopWatch;
 use super::stall_watch::StallWatch;
 use super::trace::{MarkRecord, TickRecord, Touch, Trace};
+use vibrissa_runtime::control::Control;
 
 /// What a run gave.
 #[derive(Debug, Clone)]

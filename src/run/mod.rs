@@ -1,11 +1,9 @@
 //! The loop: sample, perceive, decide, command; and the trace of what happened.
 
-mod control;
 mod drive;
 mod loop_watch;
 mod stall_watch;
 mod trace;
 
-pub use control::{BindError, Control};
 pub use drive::{Run, drive};
 pub use trace::{MarkRecord, TickRecord, Touch, Trace};

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::geometry::Point2;
 use crate::scene::Stalled;
-use crate::signal::MAX_WHISKERS;
+use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::trace::TickRecord;
 
@@ -69,7 +69,7 @@ impl Places {
 mod tests {
     use super::*;
     use crate::geometry::{Pose, Vector2, unit};
-    use crate::signal::Command;
+    use vibrissa_runtime::signal::Command;
 
     const LIMIT: Stalled = Stalled { within: 0.02, after: 10.0 };
 

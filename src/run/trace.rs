@@ -1,8 +1,8 @@
 //! What happened in a run, tick by tick.
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{Failsafe, Mark};
-use crate::signal::{Command, MAX_WHISKERS};
+use vibrissa_runtime::machine::{Failsafe, Mark};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// What happened in a run, tick by tick.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::gap::gap;
 use crate::geometry::{Contour, Point2, Pose, Segment, unit};
-use crate::rig::Rig;
+use vibrissa_runtime::rig::Rig;
 
 /// Parts nearer to a solid than this (m) touch it.
 const TOUCHING: f64 = 1e-5;

@@ -1,7 +1,7 @@
 //! What must hold at the end of a run.
 
-use crate::units::{Dimension, format_si};
 use std::fmt;
+use vibrissa_runtime::units::{Dimension, format_si};
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

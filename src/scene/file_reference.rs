@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::yaml;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::Span;
 
 /// A file that a scenario or a sweep names.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,12 +13,4 @@ pub struct FileReference {
     pub name: String,
     /// Where it is named.
     pub span: Span,
-}
-
-impl FileReference {
-    /// That the file cannot be read, at the place that names it, for a `reason`.
-    #[must_use]
-    pub fn unreadable(&self, reason: &str) -> Diagnostic {
-        yaml::unreadable(self, reason)
-    }
 }

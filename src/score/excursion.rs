@@ -1,8 +1,8 @@
 //! When a whisker left its contour, and when it came back.
 
 use crate::geometry::Point2;
-use crate::machine::Mark;
 use crate::run::Trace;
+use vibrissa_runtime::machine::Mark;
 
 use super::estimate::LONGEST_BREAK;
 use super::tip::{valid_tips, whiskers};

@@ -1,9 +1,9 @@
 //! How a run went through a tunnel.
 
 use crate::geometry::{Contour, ContourSet, Point2, TunnelAxis, rotate};
-use crate::percept::TipCurve;
-use crate::rig::{Rig, Whisker};
 use crate::run::Trace;
+use vibrissa_runtime::percept::TipCurve;
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::coverage::COVERAGE_TOLERANCE;
 use super::{Estimate, Statistics, Tip};

@@ -9,8 +9,8 @@ use std::ops::Range;
 use super::Estimate;
 use super::coverage::traced;
 use crate::geometry::{Contour, Point2, Segment, Vector2, perpendicular, rotate};
-use crate::rig::Rig;
 use crate::scene::{Truth, gap};
+use vibrissa_runtime::rig::Rig;
 
 /// Side of the squares (m) to whose corners the search for a whisker's base and its shaft goes. Slits narrower than that count as closed.
 const CELL: f64 = 2.5e-3;

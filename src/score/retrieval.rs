@@ -1,9 +1,9 @@
 //! How far a whisker went to find what it had lost.
 
 use crate::geometry::Point2;
-use crate::machine::Mark;
 use crate::run::{MarkRecord, Trace};
-use crate::signal::MAX_WHISKERS;
+use vibrissa_runtime::machine::Mark;
+use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::tip::is_finite;
 use super::{Statistics, body_path};

@@ -4,9 +4,9 @@ use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Passage, RetrievalFigures, Spread, StateShare,
     axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach, state_shares, tips,
 };
-use crate::rig::Rig;
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
+use vibrissa_runtime::rig::Rig;
 
 /// All figures of a run; lengths in metres, times in seconds.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,9 @@
 //! Recorded tips, and how far they are from what is there.
 
 use crate::geometry::{ContourSet, Point2, perpendicular};
-use crate::rig::Rig;
 use crate::run::Trace;
-use crate::signal::MAX_WHISKERS;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::MAX_WHISKERS;
 
 /// A tip estimate that a policy recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]

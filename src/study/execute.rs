@@ -6,13 +6,16 @@ use std::time::Instant;
 
 use sha2::{Digest, Sha256};
 
-use crate::machine::Program;
-use crate::percept::Perception;
-use crate::run::{BindError, Control, Run, Trace, drive};
-use crate::scene::{Scene, WorldKind, WorldSetup, mjcf};
 #[cfg(feature = "sim")]
-use crate::world::MujocoWorld;
-use crate::world::{QuasiStaticError, QuasiStaticWorld, World};
+use crate::mujoco::MujocoWorld;
+use crate::mujoco::mjcf;
+use crate::quasi_static::{QuasiStaticError, QuasiStaticWorld};
+use crate::run::{Run, Trace, drive};
+use crate::scene::{Scene, WorldKind, WorldSetup};
+use crate::world::World;
+use vibrissa_runtime::control::{BindError, Control};
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::percept::Perception;
 
 /// Why a run could not begin.
 #[derive(Debug, thiserror::Error)]
@@ -26,7 +29,7 @@ pub enum ExecuteError {
     /// The world could not be built.
     #[cfg(feature = "sim")]
     #[error(transparent)]
-    Mujoco(#[from] crate::world::MujocoError),
+    Mujoco(#[from] crate::mujoco::MujocoError),
     /// The quasi-static world could not be built.
     #[error(transparent)]
     QuasiStatic(#[from] QuasiStaticError),
@@ -64,16 +67,16 @@ pub fn execute(
 }
 
 pub(super) fn build(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
-    let Scene { rig, solids, start, .. } = scene;
+    let Scene { rig, physics, solids, start, .. } = scene;
     match world.kind {
         #[cfg(feature = "sim")]
         WorldKind::Mujoco => {
             let build = if world.prune { MujocoWorld::pruned } else { MujocoWorld::new };
-            Ok(Box::new(build(rig, solids, *start, seed)?))
+            Ok(Box::new(build(rig, physics, solids, *start, seed)?))
         }
         #[cfg(not(feature = "sim"))]
         WorldKind::Mujoco => Err(ExecuteError::NoWorld(world.kind)),
-        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, solids, *start, seed)?)),
+        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, physics, solids, *start, seed)?)),
     }
 }
 
@@ -85,7 +88,7 @@ pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
     match kind {
         #[cfg(feature = "sim")]
         WorldKind::Mujoco => {
-            crate::world::engine_version().map(|_| ()).map_err(|cause| ExecuteError::Mujoco(cause.into()))
+            crate::mujoco::engine_version().map(|_| ()).map_err(|cause| ExecuteError::Mujoco(cause.into()))
         }
         #[cfg(not(feature = "sim"))]
         WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
@@ -102,7 +105,7 @@ pub fn engine_version() -> String {
 /// The version of MuJoCo, if this build has it and its library can be loaded.
 fn simulator() -> &'static str {
     #[cfg(feature = "sim")]
-    return crate::world::engine_version().unwrap_or("none");
+    return crate::mujoco::engine_version().unwrap_or("none");
     #[cfg(not(feature = "sim"))]
     return "none";
 }
@@ -121,8 +124,8 @@ pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update(engine);
     hash.update([0]);
     // It has all of the rig but its longest step, the solids and the start, whichever world they are for.
-    hash.update(mjcf(&scene.rig, &scene.solids, scene.start));
+    hash.update(mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start));
     hash.update([u8::from(world.prune)]);
-    hash.update(scene.rig.physics.calm_step.to_le_bytes());
+    hash.update(scene.physics.calm_step.to_le_bytes());
     hash.finalize().into()
 }

@@ -1,11 +1,11 @@
 //! The verdict on a run that a policy's test asked for.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::Program;
 use crate::policy::{PolicyTest, RunFigure};
 use crate::run::Run;
 use crate::scene::{Metric, Outcome};
 use crate::score::Score;
+use vibrissa_runtime::machine::Program;
 
 /// What is not as `test` expects of a `run` of `program` that got this `score`; nothing if the test has passed.
 #[must_use]

@@ -2,17 +2,14 @@
 //! scenes; policies against each other; worlds against each other; sweeps.
 
 pub mod bench;
-pub mod calibrate;
 pub mod compare;
 pub mod estimators;
 mod execute;
-pub mod families;
 mod judge;
 mod parallel;
 pub mod pareto;
 mod processor_time;
 pub mod stress;
-pub mod sweep;
 mod tally;
 pub mod tiers;
 

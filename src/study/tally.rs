@@ -157,7 +157,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub(super) const HEADINGS: [&str; 11] = [
+    pub(crate) const HEADINGS: [&str; 11] = [
         "runs",
         "passed",
         "completed",
@@ -197,7 +197,7 @@ impl Tally {
     }
 
     /// What stands under the headings.
-    pub(super) fn cells(&self) -> [String; 11] {
+    pub(crate) fn cells(&self) -> [String; 11] {
         let share = |count: usize| percent(count as f64 / self.runs as f64, 1);
         let share_of =
             |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));

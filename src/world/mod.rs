@@ -1,22 +1,16 @@
 //! Worlds that a loop can drive: advance by a command, give the samples of one control tick.
 
 mod fault;
-#[cfg(feature = "sim")]
-mod mujoco;
-mod quasi_static;
 mod sensors;
 
 pub use fault::Fault;
-#[cfg(feature = "sim")]
-pub use mujoco::{LibraryError, MujocoError, MujocoWorld, PluginError, engine_version};
-pub use quasi_static::{QuasiStaticError, QuasiStaticWorld};
-pub(crate) use sensors::Sensors;
+pub(crate) use sensors::{Sensors, whole};
 
 use crate::geometry::Point2;
-use crate::signal::{Command, Sample};
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// A whisker of which something moves faster than this (m/s) against its base springs: it has slipped off what bent it.
-const SPRINGING: f64 = 0.1;
+pub(crate) const SPRINGING: f64 = 0.1;
 
 /// A world with a rig in it.
 pub trait World {

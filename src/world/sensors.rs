@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 
-use crate::rig::Sensing;
+use vibrissa_runtime::rig::Sensing;
 
 /// No sensor reads an angle (rad) below this. The motion of a free whisker fades beyond the normal numbers, with which processors take a
 /// hundred times as long, and so would all that is made of readings.
@@ -58,7 +58,7 @@ fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Rounds to a count; scenes are validated so that the value is one.
-pub(super) fn whole(value: f64) -> usize {
+pub(crate) fn whole(value: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
     let count = value.round().max(1.0) as usize;
     count

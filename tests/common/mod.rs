@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{
+use vibrissa::policy::compile;
+use vibrissa_runtime::machine::{
     Action, BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
 };
-use vibrissa::policy::compile;
 
 /// What one whisker is like; numbers and truths as the machine sees them.
 #[derive(Debug, Clone, Copy)]

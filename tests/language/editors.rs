@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 use serde_json::{Value, json};
-use vibrissa::units::{Dimension, parse_unit, units_of};
+use vibrissa_runtime::units::{Dimension, parse_unit, units_of};
 
 const LANGUAGE: &str = include_str!("../../grammar/fsm.pest");
 const EDITORS: &str = include_str!("../../editors/vscode/syntaxes/fsm.tmLanguage.json");

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::common::{Feel, Script, run};
 use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, rotate, wrap};
-use vibrissa::machine::{Action, Turn};
+use vibrissa_runtime::machine::{Action, Turn};
 
 /// An expression: its text, how tightly it binds, and its value.
 struct Shown<T> {

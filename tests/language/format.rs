@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::machine::Program;
 use vibrissa::policy::{compile, format};
+use vibrissa_runtime::machine::Program;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 

@@ -3,10 +3,10 @@
 
 use crate::common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
-use vibrissa::machine::{
+use vibrissa_runtime::machine::{
     Action, ActionPart, CHAIN_LIMIT, Cause, Failsafe, Failure, Flaw, Machine, Mark, Mover, SetError, Status, Turn,
 };
-use vibrissa::units::Dimension;
+use vibrissa_runtime::units::Dimension;
 
 /// The speed (m/s) that an action asks for.
 fn speed(action: Action) -> f64 {
@@ -337,7 +337,7 @@ fn parameters_can_be_set_within_their_ranges() {
         say(program.set("fats", 0.1, Dimension::SPEED)),
         "the policy has no parameter `fats`; it has `free`, `fast`"
     );
-    let mut machine = vibrissa::machine::Machine::new(program.into());
+    let mut machine = vibrissa_runtime::machine::Machine::new(program.into());
     assert_eq!(speed(machine.tick(&mut Script::touches(".")).action), 0.2);
 }
 
@@ -377,7 +377,7 @@ fn laws_take_contours_and_quantities_of_any_dimension() {
         state S { do follow(w.contour, 2 deg/s / 1 m * 1, |middle(v.contour, w.contour)| * vector(0 m/s, 1 m/s)) }";
     let text = text.replace("2 deg/s / 1 m * 1", "2 rad/s / 1 m");
     let (_, ticks) = run(&text, &mut Script::touches("x"));
-    let Action::Steer { along_world, speed, turn: vibrissa::machine::Turn::Rate(rate), .. } = ticks[0].1 else {
+    let Action::Steer { along_world, speed, turn: vibrissa_runtime::machine::Turn::Rate(rate), .. } = ticks[0].1 else {
         panic!()
     };
     // As the script has it: the point is (1, -back), the tangent (back, 1), the normal (-1, back) or at the end (0.6, -0.8).

@@ -2,8 +2,8 @@
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
 use vibrissa::diagnostic::{Diagnostic, Source};
-use vibrissa::machine::{Action, Cause, Failsafe, Failure};
 use vibrissa::policy::{chart, compile_with_warnings};
+use vibrissa_runtime::machine::{Action, Cause, Failsafe, Failure};
 
 use crate::common::{Script, program, run, states};
 
@@ -82,7 +82,7 @@ fn a_failsafe_lets_the_machine_act_once_in_the_tick() {
         state Rest {{ {} }}",
         tell("n")
     );
-    let mut machine = vibrissa::machine::Machine::new(std::sync::Arc::new(program(&text)));
+    let mut machine = vibrissa_runtime::machine::Machine::new(std::sync::Arc::new(program(&text)));
     let tick = machine.tick(&mut Script::touches("."));
     assert_eq!(tick.failsafe, Some(Failsafe { left: 0, cause: Cause::Chain }));
     assert!(matches!(tick.action, Action::Steer { speed: 1.0, .. }), "{tick:?}");

@@ -2,9 +2,9 @@
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::Action;
 use vibrissa::policy::index::{Index, Role};
 use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa_runtime::machine::Action;
 
 use crate::common::{Script, run};
 

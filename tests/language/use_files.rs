@@ -66,9 +66,9 @@ fn names_of_a_library_are_its_own() {
     let text = "machine m use \"a.fsm\" (act) param gain = 100 let x = gain law drive() { stop }
         initial Going state Going { var y = x do drive() do act(1 m/s) when y > gain -> Failure(\"no\") }";
     let program = compile(&gathered(text, &files)).unwrap();
-    let machine = &mut vibrissa::machine::Machine::new(std::sync::Arc::new(program));
+    let machine = &mut vibrissa_runtime::machine::Machine::new(std::sync::Arc::new(program));
     let mut senses = crate::common::Script::touches("x");
-    let vibrissa::machine::Action::Steer { speed, .. } = machine.tick(&mut senses).action else { panic!() };
+    let vibrissa_runtime::machine::Action::Steer { speed, .. } = machine.tick(&mut senses).action else { panic!() };
     assert!((speed - 20.0).abs() < 1e-12, "{speed}");
     // What a library uses is not handed on.
     assert_eq!(codes(&format!("machine m use \"a.fsm\" let z = scale {STILL}"), &files), ["P0201"]);

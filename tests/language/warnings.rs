@@ -7,9 +7,9 @@ use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa::policy::{compile, compile_with_warnings, gather};
-use vibrissa::units::parse_quantity;
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::units::parse_quantity;
 
 fn warnings(text: &str) -> Vec<Diagnostic> {
     let source = Source::new("policy.fsm", text);
@@ -272,7 +272,7 @@ fn goes(transitions: &str, told: &Told) -> String {
     let program = compile(&Source::new("policy.fsm", format!("{PREAMBLE} state A {{ stop {transitions} }}")));
     let mut program = program.unwrap();
     if let Some(&p) = told.0.get("p") {
-        program.set("p", p, vibrissa::units::Dimension::NUMBER).unwrap();
+        program.set("p", p, vibrissa_runtime::units::Dimension::NUMBER).unwrap();
     }
     let mut machine = Machine::new(Arc::new(program));
     machine.tick(&mut told.clone());

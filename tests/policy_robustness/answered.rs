@@ -2,9 +2,9 @@
 #![allow(dead_code, reason = "tests and fuzz targets use a part of it each")]
 
 use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
-use vibrissa::machine::Artifact;
 use vibrissa::policy::{Checked, Compiled, chart, check, compile, compile_with_warnings, format, gather};
 use vibrissa::report::{chart_dot, chart_mermaid, chart_svg};
+use vibrissa_runtime::machine::Artifact;
 
 use crate::erratic;
 

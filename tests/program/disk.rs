@@ -6,19 +6,20 @@ use std::sync::Arc;
 
 use serde_json::json;
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::Program;
 use vibrissa::policy::compile;
 use vibrissa::run::Run;
+use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::Score;
 use vibrissa::study::execute;
+use vibrissa_runtime::machine::Program;
 
 fn read(name: &str) -> Source {
     Source::new(name, std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap())
 }
 
 fn scene(text: &str) -> Scene {
-    Scene::from_yaml(&Source::new("scene.yaml", text)).unwrap()
+    scenario::read(&Source::new("scene.yaml", text)).unwrap()
 }
 
 fn thesis() -> Program {
@@ -90,7 +91,7 @@ fn the_policy_follows_disks_of_other_sizes_at_other_speeds() {
         let text = text.replace("[0.4 m, 0.4 m], radius: 0.3 m", &format!("[{centre_x} m, 0.4 m], radius: {radius} m"));
         let text = text.replace("time: 120 s", "time: 300 s");
         let mut program = thesis();
-        program.set("speed", speed, vibrissa::units::Dimension::SPEED).unwrap();
+        program.set("speed", speed, vibrissa_runtime::units::Dimension::SPEED).unwrap();
         let (run, score) = run(&scene(&text), program, 0);
         let what = format!("radius {radius} m at {speed} m/s: {:?}", run.reason);
         assert_eq!(run.outcome, Outcome::Completed, "{what}");
@@ -116,7 +117,9 @@ fn a_policy_that_loses_the_object_fails_and_says_why() {
     for name in ["limit", "target"] {
         let parameter = program.parameters.iter().find(|parameter| parameter.name == name).unwrap();
         let (least, most) = parameter.range.unwrap();
-        program.set(name, if name == "limit" { least } else { most }, vibrissa::units::Dimension::ANGLE).unwrap();
+        program
+            .set(name, if name == "limit" { least } else { most }, vibrissa_runtime::units::Dimension::ANGLE)
+            .unwrap();
     }
     let (run, _) = run(&scene(&read("scenarios/disk.yaml").text), program, 0);
     assert_eq!(run.outcome, Outcome::Failed);

@@ -4,12 +4,13 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::Program;
 use vibrissa::policy::{compile, gather};
+use vibrissa::scenario;
 use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
 use vibrissa::score::Score;
 use vibrissa::study::bench::{POLICIES, SCENARIOS};
 use vibrissa::study::{execute, in_parallel, processors};
+use vibrissa_runtime::machine::Program;
 
 /// How far mean errors may be apart (m).
 const APART: f64 = 5e-5;
@@ -33,7 +34,7 @@ fn the_thesis_policy_does_as_well_in_both_worlds_on_all_scenes() {
         SCENARIOS,
         processors(),
         |file| {
-            let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+            let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
             (scene.name.clone(), WorldKind::ALL.map(|world| run(&scene, &program, world)))
         },
         |_| (),

@@ -3,12 +3,12 @@
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, FAULT_LIMIT, Severity, Source, terminal};
-use vibrissa::scene::Scene;
+use vibrissa::scenario;
 
 const DISK: &str = include_str!("../../scenarios/disk.yaml");
 
 fn faults(text: &str) -> Vec<Diagnostic> {
-    Scene::from_yaml(&Source::new("scenario.yaml", text)).err().unwrap_or_default()
+    scenario::read(&Source::new("scenario.yaml", text)).err().unwrap_or_default()
 }
 
 #[test]
@@ -17,7 +17,7 @@ fn every_malformed_scenario_is_answered_as_reviewed() {
         insta::glob!("../fixtures/scenarios/bad", "*.yaml", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
-            let faults = Scene::from_yaml(&source).unwrap_err();
+            let faults = scenario::read(&source).unwrap_err();
             insta::assert_snapshot!("bad", terminal(&source, &faults, Colour::Plain));
         });
     });
@@ -26,7 +26,7 @@ fn every_malformed_scenario_is_answered_as_reviewed() {
 /// A text either is a scenario, or has at least one error, and each error has a place in the text and advice.
 fn is_answered(text: &str) -> Result<(), TestCaseError> {
     let source = Source::new("scenario.yaml", text);
-    if let Err(faults) = Scene::from_yaml(&source) {
+    if let Err(faults) = scenario::read(&source) {
         prop_assert!(!faults.is_empty() && faults.len() <= FAULT_LIMIT);
         for fault in &faults {
             prop_assert_eq!(fault.severity, Severity::Error);
@@ -75,7 +75,7 @@ proptest! {
 fn a_build_that_reads_no_outlines_says_how_to_get_one_that_does() {
     let drawn = "objects: [{outline: {file: gripper.svg}}]\nstart: {position: [0 m, 0 m], heading: 0 deg}";
     let source = Source::new("gripper.yaml", format!("name: gripper\n{drawn}\nstop: {{time: 1 s}}\n"));
-    let faults = Scene::from_yaml_with(&source, &mut |_| Ok(b"<svg/>".to_vec())).unwrap_err();
+    let faults = scenario::read_with(&source, &mut |_| Ok(b"<svg/>".to_vec())).unwrap_err();
     snapshots("scenarios").bind(|| insta::assert_snapshot!("no_outlines", terminal(&source, &faults, Colour::Plain)));
 }
 
@@ -107,7 +107,7 @@ fn a_polygon_of_too_many_corners_is_answered_as_reviewed() {
         let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(sides)).sin_cos();
         format!("[{} m, {} m]", 0.4 + 0.3 * cos, 0.4 + 0.3 * sin)
     }));
-    let faults = Scene::from_yaml(&source).unwrap_err();
+    let faults = scenario::read(&source).unwrap_err();
     snapshots("scenarios")
         .bind(|| insta::assert_snapshot!("too_many_corners", terminal(&source, &faults, Colour::Plain)));
 }
@@ -115,7 +115,7 @@ fn a_polygon_of_too_many_corners_is_answered_as_reviewed() {
 #[test]
 fn of_a_great_many_faults_some_are_told() {
     let source = with_polygon((0..16_000).map(|_| "[1, 2]".to_owned()));
-    let faults = Scene::from_yaml(&source).unwrap_err();
+    let faults = scenario::read(&source).unwrap_err();
     assert_eq!(faults.len(), FAULT_LIMIT);
     assert!(faults.iter().all(|fault| fault.code == "S0201"));
     assert!(terminal(&source, &faults, Colour::Plain).len() < 50_000);

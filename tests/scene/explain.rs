@@ -1,19 +1,21 @@
 //! What is told of what is left out of a run.
 
 use vibrissa::diagnostic::Source;
-use vibrissa::rig::Preset;
-use vibrissa::scene::{Pruning, Scene, Verdict, WorldKind};
+use vibrissa::mujoco::{Pruning, Verdict};
+use vibrissa::physics::Preset;
+use vibrissa::scenario;
+use vibrissa::scene::{Scene, WorldKind};
 
 use crate::snapshots::snapshots;
 
 fn scene(name: &str) -> Scene {
     let path = format!("{}/scenarios/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
-    Scene::from_yaml(&Source::new(name, std::fs::read_to_string(path).unwrap())).unwrap()
+    scenario::read(&Source::new(name, std::fs::read_to_string(path).unwrap())).unwrap()
 }
 
 fn pruning(scene: &Scene, bound: &[&str], world: WorldKind) -> Pruning {
     let bound: Vec<String> = bound.iter().map(ToString::to_string).collect();
-    Pruning::new(&scene.rig, &scene.solids, scene.start, &bound, world)
+    Pruning::new(&scene.rig, &scene.physics, &scene.solids, scene.start, &bound, world)
 }
 
 #[test]
@@ -47,7 +49,7 @@ fn what_is_left_out_saves_something_and_what_stays_does_not() {
 #[test]
 fn a_rigid_cable_saves_three_degrees_of_freedom_a_ball_joint() {
     let mut scene = scene("disk");
-    Preset::PeerCable.apply(&mut scene.rig);
+    Preset::PeerCable.apply(&mut scene.rig, &mut scene.physics);
     let told = pruning(&scene, &["r0", "l0"], WorldKind::Mujoco).to_string();
     // Two whiskers with a hinge and 39 ball joints each, and a platform.
     assert!(told.contains("236 of 239 degrees of freedom"), "{told}");

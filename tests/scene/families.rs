@@ -3,10 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
 use vibrissa::diagnostic::Source;
+use vibrissa::family::{Draw, FAMILIES, Family, SPEEDS};
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, unit};
-use vibrissa::rig::Rig;
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
-use vibrissa::scene::family::{Draw, FAMILIES, Family, SPEEDS};
+use vibrissa_runtime::rig::Rig;
 
 const TRIALS: u64 = 200;
 
@@ -38,7 +39,7 @@ fn every_draw_is_a_scene_with_a_clear_start_an_aim_and_a_speed() {
             assert!(SPEEDS.contains(&speed), "{context}");
             let length = scene.truth.reference.length();
             assert!((0.3..8.0).contains(&length), "{length} m: {context}");
-            let read = Scene::from_yaml(&Source::new("drawn.yaml", text)).unwrap();
+            let read = scenario::read(&Source::new("drawn.yaml", text)).unwrap();
             assert_eq!((read.start, read.stop), (scene.start, scene.stop), "{context}");
         }
     }

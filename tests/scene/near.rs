@@ -3,9 +3,10 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
+use vibrissa::family::{Draw, FAMILIES};
 use vibrissa::geometry::{Point2, Pose, Segment, Vector2, unit};
-use vibrissa::scene::family::{Draw, FAMILIES};
-use vibrissa::scene::{Part, Reach, Solid};
+use vibrissa::mujoco::Reach;
+use vibrissa::solid::{Part, Solid};
 
 /// How many links the whiskers have.
 const LINKS: usize = 16;

@@ -1,14 +1,15 @@
 //! What `docs/scenarios.md` says is true.
 
 use vibrissa::diagnostic::Source;
-use vibrissa::rig::Rig;
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
+use vibrissa_runtime::rig::Rig;
 
 const DOCUMENT: &str = include_str!("../../docs/scenarios.md");
 
 fn scenarios() -> Vec<Scene> {
     let blocks = DOCUMENT.split("```yaml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    blocks.map(|block| Scene::from_yaml(&Source::new("docs/scenarios.md", block)).unwrap()).collect()
+    blocks.map(|block| scenario::read(&Source::new("docs/scenarios.md", block)).unwrap()).collect()
 }
 
 #[test]

@@ -5,12 +5,13 @@ use std::path::Path;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::{Contour, Point2, Pose, Vector2};
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name).with_extension("yaml");
     let source = Source::new(name, std::fs::read_to_string(path).unwrap());
-    let scene = Scene::from_yaml(&source).map_err(|faults| terminal(&source, &faults, Colour::Plain)).unwrap();
+    let scene = scenario::read(&source).map_err(|faults| terminal(&source, &faults, Colour::Plain)).unwrap();
     assert_eq!(scene.name, name);
     assert_eq!(scene.start, Pose { position: Point2::new(0.0, 0.072), heading: 0.5 * PI });
     scene

@@ -4,11 +4,13 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use vibrissa::geometry::{Contour, Path, Point2, Pose, Side, Strip, Vector2, rotate, unit};
-use vibrissa::mechanics::ShaftChain;
-use vibrissa::rig::Rig;
-use vibrissa::scene::Solid;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::mujoco::MujocoWorld;
+use vibrissa::physics::Physics;
+use vibrissa::solid::Solid;
+use vibrissa::world::World;
+use vibrissa_runtime::mechanics::ShaftChain;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// How far (m) the tip may be from where it would be on the exact wall, judged by the base angle: the tip itself stays within a
 /// fifth of this, but the angle also feels how the force on the tip turns.
@@ -34,7 +36,7 @@ fn drag(wall: &[Solid], length: f64, pose: impl Fn(f64) -> Pose) -> Vec<Sample> 
     rig.whiskers.truncate(1);
     // Servos that hardly lag, so that the way is the one that is asked for.
     rig.platform.servo = 0.01;
-    let mut world = MujocoWorld::new(&rig, wall, pose(0.0), 0).unwrap();
+    let mut world = MujocoWorld::new(&rig, &Physics::default(), wall, pose(0.0), 0).unwrap();
     let period = 1.0 / rig.sensing.control_rate;
     let mut samples = Vec::new();
     let ticks = (length / 0.05 / period).floor();

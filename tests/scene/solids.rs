@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{CentreLine, Contour, Corners, Opening, Point2, Pose, Side, Tunnel};
-use vibrissa::scene::{Part, Solid, SolidError};
+use vibrissa::solid::{Part, Solid, SolidError};
 
 use crate::geometry::random;
 
@@ -161,8 +161,8 @@ fn what_is_open_has_no_inside() {
 #[cfg(feature = "sim")]
 mod engine {
     use super::*;
-    use vibrissa::rig::Rig;
-    use vibrissa::world::MujocoWorld;
+    use vibrissa::mujoco::MujocoWorld;
+    use vibrissa_runtime::rig::Rig;
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]
@@ -170,7 +170,7 @@ mod engine {
         #[test]
         fn every_solid_can_be_simulated(contour in random::closed()) {
             if let Ok(solid) = Solid::inside(contour) {
-                MujocoWorld::new(&Rig::default(), &[solid], Pose::default(), 0).unwrap();
+                MujocoWorld::new(&Rig::default(), &vibrissa::physics::Physics::default(), &[solid], Pose::default(), 0).unwrap();
             }
         }
     }

@@ -6,10 +6,11 @@ use crate::runs::{arc_of_tips, run_with};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
-use vibrissa::rig::Rig;
-use vibrissa::scene::{Outcome, Scene};
+use vibrissa::scenario;
+use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
 use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table, pooled_tips};
+use vibrissa_runtime::rig::Rig;
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
 fn result(scenario: &str, off: f64) -> RunResult {
@@ -98,14 +99,14 @@ fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
 fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_change_nothing() {
     let friction = Conditions { friction: 0.1, noise: false };
     for file in SCENARIOS {
-        let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+        let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
         let mut harder = scene.clone();
         Conditions::default().apply(&mut harder);
         assert_eq!(harder.rig, scene.rig);
         friction.apply(&mut harder);
-        let steps = 1.0 / (harder.rig.sensing.sample_rate * harder.rig.physics.step);
-        assert!((steps - steps.round()).abs() < 1e-9 && harder.rig.physics.step <= 1.0 / 1800.0 + 1e-9, "{steps}");
-        assert!(harder.rig.physics.penetration_limit >= scene.rig.physics.penetration_limit);
+        let steps = 1.0 / (harder.rig.sensing.sample_rate * harder.physics.step);
+        assert!((steps - steps.round()).abs() < 1e-9 && harder.physics.step <= 1.0 / 1800.0 + 1e-9, "{steps}");
+        assert!(harder.physics.penetration_limit >= scene.physics.penetration_limit);
         assert!(harder.rig.sensing.friction > 0.0 && harder.rig.sensing.angle_noise == 0.0);
     }
 }

@@ -9,10 +9,11 @@ use rand_distr::{Distribution, Normal};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{Hashes, Identity, RunResult};
-use vibrissa::rig::Rig;
+use vibrissa::scenario;
 use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
 use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_tables};
+use vibrissa_runtime::rig::Rig;
 
 fn figure(name: &str) -> &'static Figure {
     FIGURES.iter().find(|figure| figure.name == name).unwrap()
@@ -133,7 +134,7 @@ objects: [{circle: {centre: [0 m, 0.418 m], radius: 0.3 m}}]
 start: {position: [0 m, 0 m], heading: 90 deg}
 stop: {time: 120 s}
 ";
-    Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap()
+    scenario::read(&Source::new("disk.yaml", text)).unwrap()
 }
 
 #[test]

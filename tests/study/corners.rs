@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::runs::run_with;
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, perpendicular, polygon, regular_polygon, rotate};
-use vibrissa::machine::Mark;
-use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Trace};
 use vibrissa::score::{CornerFigures, Score, excursions, traced_corners};
+use vibrissa_runtime::machine::Mark;
+use vibrissa_runtime::rig::Rig;
 
 /// How far tips go in a tick at 50 mm/s and 30 Hz (m).
 const STEP: f64 = 0.05 / 30.0;

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::TipModelKind;
 use vibrissa::policy::compile;
-use vibrissa::scene::{Scene, WorldKind};
+use vibrissa::scenario;
+use vibrissa::scene::WorldKind;
 use vibrissa::study::estimators::{EstimatorRow, estimators_tables, judge_all};
+use vibrissa_runtime::machine::TipModelKind;
 
 /// Goes up, and nearer to the wall on the right.
 const POLICY: &str = "machine a  whisker r0  initial Up
@@ -58,7 +59,7 @@ fn all_models_meet_the_same_touches_in_the_world_that_is_asked_for_whatever_the_
              objects: [{{polygon: {{vertices: [[128 mm, -1 m], [2 m, -1 m], [2 m, 1 m], [128 mm, 1 m]]}}}}]\n\
              start: {{position: [0 m, 0 m], heading: 90 deg}}\nstop: {{time: 2 s}}\n"
         );
-        Scene::from_yaml(&Source::new("wall.yaml", text)).unwrap()
+        scenario::read(&Source::new("wall.yaml", text)).unwrap()
     };
     let program = Arc::new(compile(&Source::new("a.fsm", POLICY)).unwrap());
     let judged = |noise: &str| judge_all(&scene(noise), Arc::clone(&program), WorldKind::QuasiStatic).unwrap();

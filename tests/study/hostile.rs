@@ -6,12 +6,15 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::{Cause, Program};
 use vibrissa::policy::{compile, gather};
-use vibrissa::run::{Control, Run, drive};
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::run::{Run, drive};
+use vibrissa::scenario;
 use vibrissa::scene::{Scene, Stop};
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{Fault, QuasiStaticWorld, World};
+use vibrissa::world::{Fault, World};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{Cause, Program};
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// Every shipped policy.
 const POLICIES: [&str; 8] = ["array", "bang", "baseline", "quick", "reverse", "thesis", "tilted", "vibrissa"];
@@ -155,7 +158,7 @@ proptest! {
         ends in prop::collection::vec(prop::option::weighted(0.3, 0.0..=1.0_f64), 64), good in 1_usize..8,
     ) {
         // Objects that overlap, and starts within one, are another matter.
-        let scene = Scene::from_yaml(&Source::new("hostile.yaml", scenario(&objects, &rig)));
+        let scene = scenario::read(&Source::new("hostile.yaml", scenario(&objects, &rig)));
         prop_assume!(scene.is_ok());
         let scene = scene.unwrap();
         let mut program = program(policy);
@@ -164,7 +167,7 @@ proptest! {
                 program.image[index] = low + end.round() * (high - low);
             }
         }
-        let world = QuasiStaticWorld::new(&scene.rig, &scene.solids, scene.start, 1);
+        let world = QuasiStaticWorld::new(&scene.rig, &scene.physics, &scene.solids, scene.start, 1);
         prop_assume!(world.is_ok());
         let mut world = world.unwrap();
         let mut world = Spoilt { world: &mut world, samples: Vec::new(), good, count: 0 };
@@ -179,10 +182,11 @@ proptest! {
 #[test]
 fn no_shipped_policy_does_so_with_the_peers_cables() {
     let path = "scenarios/box.yaml";
-    let mut scene = Scene::from_yaml(&Source::new(path, text(path).unwrap())).unwrap();
-    vibrissa::rig::Preset::PeerCable.apply(&mut scene.rig);
+    let mut scene = scenario::read(&Source::new(path, text(path).unwrap())).unwrap();
+    vibrissa::physics::Preset::PeerCable.apply(&mut scene.rig, &mut scene.physics);
     for policy in ["thesis", "vibrissa"] {
-        let mut world = vibrissa::world::MujocoWorld::pruned(&scene.rig, &scene.solids, scene.start, 0).unwrap();
+        let mut world =
+            vibrissa::mujoco::MujocoWorld::pruned(&scene.rig, &scene.physics, &scene.solids, scene.start, 0).unwrap();
         let run = run(&scene, program(policy), &mut world, 60.0).unwrap();
         assert_eq!(not_finite(&run), None, "{policy}");
     }

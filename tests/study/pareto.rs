@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::{Program, TipModelKind};
 use vibrissa::policy::{compile, gather};
+use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind};
 use vibrissa::study::Ending;
 use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS};
 use vibrissa::study::pareto::{Change, Pareto, Setting, measure, pareto_picture, pareto_table};
+use vibrissa_runtime::machine::{Program, TipModelKind};
 
 fn disk() -> Scene {
-    Scene::from_yaml(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap()
+    scenario::read(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap()
 }
 
 fn program() -> Arc<Program> {
@@ -30,7 +31,7 @@ fn measured(world: WorldKind, changes: &[&[Change]]) -> Pareto {
 #[cfg(feature = "sim")]
 #[test]
 fn the_default_is_on_the_front() {
-    use vibrissa::rig::Solver;
+    use vibrissa::physics::Solver;
     let no_dearer: [&[Change]; 6] = [
         &[Change::Links(8)],
         &[Change::Links(12)],
@@ -51,7 +52,7 @@ fn the_default_is_on_the_front() {
             other.setting, other.error_mm, default.error_mm
         );
     }
-    let physics = disk().rig.physics;
+    let physics = disk().physics;
     assert_eq!(physics.solver, Solver::ProjectedGaussSeidel, "the others take longer (docs/pareto.md)");
     assert!(physics.contact_time <= physics.step, "no contacts are harder");
 }
@@ -84,7 +85,7 @@ fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
 fn a_default_that_cannot_be_run_is_an_error_and_of_the_others_one_that_cannot_is_refused() {
     let mut scene = disk();
     scene.stop.time = 0.5;
-    scene.rig.physics.friction = 0.1;
+    scene.physics.friction = 0.1;
     let settings = [Setting::unchanged(), Setting(vec![Change::World(WorldKind::QuasiStatic)])];
     let of = |world| measure(&scene, &program(), world, &settings, 1, |_| ());
     assert!(of(WorldKind::QuasiStatic).is_err());

@@ -3,10 +3,10 @@
 use crate::runs::run_with;
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, ContourSet, Piece, Point2, Pose, TunnelAxis};
-use vibrissa::rig::Rig;
 use vibrissa::run::Run;
 use vibrissa::scene::Truth;
 use vibrissa::score::{Passage, Score};
+use vibrissa_runtime::rig::Rig;
 
 /// The walls of a straight tunnel up the y axis, 1 m long.
 fn tunnel(clear: f64) -> Truth {

@@ -4,15 +4,17 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
+use vibrissa::family::{Draw, FAMILIES};
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::Program;
+use vibrissa::mujoco::MujocoWorld;
 use vibrissa::policy::{compile, gather};
-use vibrissa::scene::family::{Draw, FAMILIES};
+use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind, WorldSetup};
 use vibrissa::study::bench::POLICIES;
 use vibrissa::study::{execute, in_parallel, processors};
-use vibrissa::units::Dimension;
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::world::World;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::units::Dimension;
 
 fn thesis() -> Program {
     let source = Source::new(POLICIES[0].path, POLICIES[0].text);
@@ -67,7 +69,7 @@ fn sensed(scene: &Scene, program: &Program) -> [Vec<u64>; 2] {
     let commands: Vec<_> = run.unwrap().trace.ticks.iter().map(|tick| tick.command).collect();
     assert!(commands.len() > 100, "{}: {} ticks", scene.name, commands.len());
     [MujocoWorld::pruned, MujocoWorld::new].map(|build| {
-        let mut world = build(&scene.rig, &scene.solids, scene.start, scene.seed).unwrap();
+        let mut world = build(&scene.rig, &scene.physics, &scene.solids, scene.start, scene.seed).unwrap();
         let mut sensed = Vec::new();
         for sample in commands.iter().flat_map(|command| world.advance(command).unwrap().to_vec()) {
             let Pose { position, heading } = sample.body;
@@ -97,8 +99,8 @@ fn pruning_changes_no_bit_of_what_is_sensed() {
         processors(),
         |(name, forces, friction, time)| {
             let path = format!("{}/scenarios/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
-            let mut scene = Scene::from_yaml(&Source::new(*name, std::fs::read_to_string(path).unwrap())).unwrap();
-            (scene.rig.sensing.forces, scene.rig.physics.friction, scene.stop.time) = (*forces, *friction, *time);
+            let mut scene = scenario::read(&Source::new(*name, std::fs::read_to_string(path).unwrap())).unwrap();
+            (scene.rig.sensing.forces, scene.physics.friction, scene.stop.time) = (*forces, *friction, *time);
             let [pruned, whole] = sensed(&scene, &policy);
             let first = pruned.iter().zip(&whole).position(|(a, b)| a != b);
             assert!(first.is_none() && pruned.len() == whole.len(), "{name}: number {first:?} of {}", whole.len());

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Point2, circle, polygon};
-use vibrissa::rig::Rig;
 use vibrissa::scene::Truth;
 use vibrissa::score::{Estimate, out_of_reach};
+use vibrissa_runtime::rig::Rig;
 
 use crate::runs::run_with;
 

@@ -9,12 +9,13 @@ use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::machine::{ActionPart, Cause, Failsafe, Flaw, Mark};
 use vibrissa::report::{Hashes, Identity, RunResult, picture, results_table};
-use vibrissa::rig::Rig;
 use vibrissa::run::{MarkRecord, Run};
+use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
+use vibrissa_runtime::machine::{ActionPart, Cause, Failsafe, Flaw, Mark};
+use vibrissa_runtime::rig::Rig;
 
 fn disk() -> Contour {
     circle(Point2::origin(), 0.3).unwrap()
@@ -147,7 +148,7 @@ objects: [{circle: {centre: [0 m, 0 m], radius: 0.3 m}}]
 start: {position: [0 m, -0.6 m], heading: 90 deg}
 stop: {time: 120 s}
 ";
-    Scene::from_yaml(&Source::new("disk.yaml", text)).unwrap()
+    scenario::read(&Source::new("disk.yaml", text)).unwrap()
 }
 
 fn draw(scene: &Scene, policy: &str, run: &Run) -> String {

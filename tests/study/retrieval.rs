@@ -7,13 +7,14 @@ use std::sync::Arc;
 use crate::runs::run_with;
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, unit};
-use vibrissa::machine::Mark;
-use vibrissa::rig::Rig;
-use vibrissa::run::{Control, MarkRecord, Trace, drive};
+use vibrissa::run::{MarkRecord, Trace, drive};
 use vibrissa::scene::Stop;
 use vibrissa::score::{RetrievalFigures, mark_places, retrievals};
-use vibrissa::signal::{Command, MAX_WHISKERS, Reading, Sample};
 use vibrissa::world::{Fault, World};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Mark;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 
 fn near(found: f64, due: f64) -> bool {
     (found - due).abs() < 1e-9

@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
-use vibrissa::rig::Rig;
 use vibrissa::scene::{Metric, Truth};
 use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, LONGEST_STEP, Score};
+use vibrissa_runtime::rig::Rig;
 
 /// How far tips go in a tick at 50 mm/s and 30 Hz (m).
 const STEP: f64 = 0.05 / 30.0;

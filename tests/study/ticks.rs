@@ -3,9 +3,9 @@
 use crate::runs::{arc_of_tips, run_with};
 use serde_json::{Value, json};
 use vibrissa::geometry::{Point2, Vector2};
-use vibrissa::machine::Mark;
 use vibrissa::report::tick_lines;
 use vibrissa::run::{MarkRecord, Run, Touch};
+use vibrissa_runtime::machine::Mark;
 
 /// A run of one whisker that recorded in every tick but the first.
 fn run() -> Run {

@@ -5,14 +5,15 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Vector2, unit};
-use vibrissa::machine::Program;
-use vibrissa::mechanics::Elastica;
 use vibrissa::policy::{compile, gather};
-use vibrissa::rig::{Rig, Whisker};
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
 use vibrissa::study::Ending;
 use vibrissa::study::bench::{POLICIES, SCENARIOS};
 use vibrissa::study::tiers::{Tier, TierRow, compare_tiers, tiers_table};
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::mechanics::Elastica;
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 fn thesis() -> Arc<Program> {
     let source = Source::new(POLICIES[0].path, POLICIES[0].text);
@@ -23,7 +24,7 @@ fn thesis() -> Arc<Program> {
 fn scene(name: &str, time: f64) -> Scene {
     let path = format!("scenarios/{name}.yaml");
     let file = SCENARIOS.iter().find(|file| file.path == path).unwrap();
-    let mut scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+    let mut scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
     (scene.stop.time, scene.stop.loop_closed, scene.stop.reached) = (time, None, None);
     scene
 }
@@ -101,11 +102,12 @@ fn a_shaft_that_is_stiffer_by_a_hundredth_has_a_hundredth_more_moment() {
 
 /// How deep (mm) the tip of a rig's right whisker sinks into a disk at a base angle (rad), its platform heading along the surface.
 #[cfg(feature = "sim")]
-fn sunk_in(rig: &Rig, base_angle: f64) -> f64 {
+fn sunk_in(rig: &Rig, physics: &vibrissa::physics::Physics, base_angle: f64) -> f64 {
     use vibrissa::geometry::{Point2, Pose, circle};
-    use vibrissa::scene::Solid;
-    use vibrissa::signal::Command;
-    use vibrissa::world::{MujocoWorld, World};
+    use vibrissa::mujoco::MujocoWorld;
+    use vibrissa::solid::Solid;
+    use vibrissa::world::World;
+    use vibrissa_runtime::signal::Command;
 
     const RADIUS: f64 = 0.3;
     let start = Pose { position: Point2::origin(), heading: FRAC_PI_2 };
@@ -113,7 +115,7 @@ fn sunk_in(rig: &Rig, base_angle: f64) -> f64 {
     let tip = start.point_to_world(whisker.base_body) + whisker.shaft.length * unit(FRAC_PI_2 + whisker.direction_body);
     let centre = tip + Vector2::new(RADIUS + 2e-3, 0.0);
     let disk = [Solid::inside(circle(centre, RADIUS).unwrap()).unwrap()];
-    let mut world = MujocoWorld::pruned(rig, &disk, start, 0).unwrap();
+    let mut world = MujocoWorld::pruned(rig, physics, &disk, start, 0).unwrap();
     let aside = Command { velocity_world: Vector2::new(0.01, 0.0), yaw_rate: 0.0 };
     let mut reading = 0.0;
     for _ in 0..300 {
@@ -131,15 +133,15 @@ fn the_chain_by_mujoco_is_apart_by_what_it_sinks_in() {
     let hard = |scene: &Scene| {
         let mut tier = Tier::chain(scene);
         let step = 1.0 / 1800.0;
-        let physics = &mut tier.rig.physics;
+        let physics = &mut tier.physics;
         (physics.step, physics.calm_step, physics.contact_time) = (step, step, step);
         tier
     };
     let rows = [Tier::chain, hard].map(|tier| {
         let row = against_quasi_static("disk", 25.0, tier);
-        let rig = tier(&scene("disk", 25.0)).rig;
+        let Tier { rig, physics, .. } = tier(&scene("disk", 25.0));
         let (whisker, angle) = (&rig.whiskers[0], base_angle(&row, &rig));
-        let depth = sunk_in(&rig, angle);
+        let depth = sunk_in(&rig, &physics, angle);
         // The tip that is held back less by this depth goes where the whisker springs, which is aslant to the surface.
         let back = (tip(whisker, 1.001 * angle) - tip(whisker, angle)) / 1e-3;
         let share = 1e-3 * depth / back.dot(&normal(whisker)).abs();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
+use vibrissa::scenario;
 use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
 use vibrissa::score::Score;
 use vibrissa::study::bench::DEFAULT_POLICY;
@@ -21,7 +22,7 @@ fn scene(objects: &str) -> Scene {
          start: {{position: [0 m, 72 mm], heading: 90 deg}}\n\
          stop: {{time: 240 s, loop_closed: {{within: 5 mm, after: 5 s}}}}\n"
     );
-    Scene::from_yaml(&Source::new("boxes.yaml", text)).unwrap()
+    scenario::read(&Source::new("boxes.yaml", text)).unwrap()
 }
 
 fn is_traced_as_one(world: WorldKind) {

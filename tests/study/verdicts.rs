@@ -3,15 +3,15 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use vibrissa::family::{Draw, FAMILIES, Family};
 use vibrissa::geometry::{Contour, Point2, TunnelAxis};
-use vibrissa::machine::Program;
 use vibrissa::run::{Run, Trace};
-use vibrissa::scene::family::{Draw, FAMILIES, Family};
 use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::{Score, tips};
 use vibrissa::study::bench::DEFAULT_POLICY;
 use vibrissa::study::{execute, in_parallel, processors};
-use vibrissa::units::Dimension;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::units::Dimension;
 
 /// The tolerance of coverage (m), and the distance between the points of an outline that are looked at.
 const TRACED: f64 = 1e-3;

@@ -3,9 +3,9 @@
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle};
-use vibrissa::rig::Rig;
 use vibrissa::run::Trace;
 use vibrissa::score::{Collisions, Score, axis_error, body_path, state_shares};
+use vibrissa_runtime::rig::Rig;
 
 /// A tunnel up the y axis, from 0 to 1 m, wide enough for all of these tips.
 fn tunnel() -> [TunnelAxis; 1] {

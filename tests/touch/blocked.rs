@@ -4,12 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, Vector2, polygon, unit};
-use vibrissa::machine::{BodyScalar, Senses, TipModelKind};
-use vibrissa::percept::Perception;
-use vibrissa::rig::Rig;
-use vibrissa::scene::Solid;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::solid::Solid;
+use vibrissa::world::World;
+use vibrissa_runtime::machine::{BodyScalar, Senses, TipModelKind};
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 const START: Pose = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 };
 
@@ -22,9 +24,10 @@ fn plate(height: f64) -> Solid {
 /// The rig before these solids in every world that there is.
 fn worlds(rig: &Rig, solids: &[Solid], start: Pose) -> Vec<Box<dyn World>> {
     #[cfg_attr(not(feature = "sim"), expect(unused_mut, reason = "there is one world only"))]
-    let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(rig, solids, start, 0).unwrap())];
+    let mut worlds: Vec<Box<dyn World>> =
+        vec![Box::new(QuasiStaticWorld::new(rig, &Physics::default(), solids, start, 0).unwrap())];
     #[cfg(feature = "sim")]
-    worlds.push(Box::new(vibrissa::world::MujocoWorld::new(rig, solids, start, 0).unwrap()));
+    worlds.push(Box::new(vibrissa::mujoco::MujocoWorld::new(rig, &Physics::default(), solids, start, 0).unwrap()));
     worlds
 }
 

@@ -4,11 +4,15 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix2, Vector2};
 use vibrissa::geometry::{Point2, Pose, circle, rotate, unit, wrap};
-use vibrissa::mechanics::{Bend, Elastica};
-use vibrissa::rig::{Preset, Rig};
-use vibrissa::scene::{Reach, Solid, may_be_rigid};
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::mujoco::MujocoWorld;
+use vibrissa::mujoco::{Reach, may_be_rigid};
+use vibrissa::physics::Physics;
+use vibrissa::physics::Preset;
+use vibrissa::solid::Solid;
+use vibrissa::world::World;
+use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 const CENTRE: Point2 = Point2::new(0.4, 0.4);
 const RADIUS: f64 = 0.3;
@@ -24,12 +28,12 @@ fn disk() -> [Solid; 1] {
 }
 
 /// The peer's rig, whose cables have so many links.
-fn rig(links: usize) -> Rig {
-    let mut rig = Preset::PeerCable.rig();
+fn rig(links: usize) -> (Rig, Physics) {
+    let (mut rig, physics) = Preset::PeerCable.rig();
     for whisker in &mut rig.whiskers {
         whisker.shaft.links = links;
     }
-    rig
+    (rig, physics)
 }
 
 /// Goes ahead to [`START`] for so many ticks, then on for a second and a half, which bends the right whisker; and stands still for a second.
@@ -41,9 +45,9 @@ fn press(world: &mut MujocoWorld, before: u16) -> Vec<Sample> {
 
 /// How far the tip of a pressed cable is from the elastica's against the same disk (m), and by which share its base moment is off.
 fn off_the_elastica(links: usize) -> (f64, f64) {
-    let rig = rig(links);
+    let (rig, physics) = rig(links);
     let whisker = &rig.whiskers[0];
-    let mut world = MujocoWorld::pruned(&rig, &disk(), START, 0).unwrap();
+    let mut world = MujocoWorld::pruned(&rig, &physics, &disk(), START, 0).unwrap();
     let sample = *press(&mut world, 0).last().unwrap();
     let (touched, along) = world.whisker_contact(0).unwrap();
     assert!(along > whisker.shaft.length - 1e-3, "it is the tip that touches");
@@ -91,7 +95,7 @@ fn a_clamped_cable_is_off_the_elastica_by_half_as_much_with_twice_the_links() {
 
 #[test]
 fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
-    let rig = rig(12);
+    let (rig, physics) = rig(12);
     let right = &rig.whiskers[0];
     let reach = Reach::new(&rig, &disk());
     let way = SPEED * f64::from(BACK) / rig.sensing.control_rate;
@@ -99,15 +103,14 @@ fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
     let rigid_at = |body: &Pose| may_be_rigid(right, reach.clearance(right, body), 0.0, false);
     assert!(rigid_at(&start) && !rigid_at(&START));
 
-    let mut bending = rig.clone();
-    bending.physics.rigid_in_air = false;
-    let base_angles = |rig: &Rig, pruned: bool| -> Vec<f64> {
+    let bending = Physics { rigid_in_air: false, ..physics.clone() };
+    let base_angles = |physics: &Physics, pruned: bool| -> Vec<f64> {
         let build = if pruned { MujocoWorld::pruned } else { MujocoWorld::new };
-        let samples = press(&mut build(rig, &disk(), start, 0).unwrap(), BACK);
+        let samples = press(&mut build(&rig, physics, &disk(), start, 0).unwrap(), BACK);
         samples.iter().map(|sample| sample.whiskers[0].base_angle).collect()
     };
-    let [rigid, bending] = [&rig, &bending].map(|rig| base_angles(rig, true));
-    assert_eq!(rigid, base_angles(&rig, false), "what is left out changes nothing");
+    let [rigid, bending] = [&physics, &bending].map(|physics| base_angles(physics, true));
+    assert_eq!(rigid, base_angles(&physics, false), "what is left out changes nothing");
     // The hinge of a rigid whisker does not turn at all; another's does as soon as the platform goes.
     let still =
         |angles: &[f64]| angles.iter().take_while(|angle| **angle == 0.0).count() as f64 / rig.sensing.sample_rate;

@@ -3,15 +3,16 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use vibrissa::calibration::{AngleSurface, Calibration, ContactSet};
+use vibrissa::calibration::{Fitted, fit, read_sets, write_sets};
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, unit};
-use vibrissa::machine::{Senses, TipModelKind, WhiskerScalar, WhiskerVector};
-use vibrissa::percept::{Perception, TipTable};
-use vibrissa::rig::{Rig, Whisker};
-use vibrissa::scene::Scene;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
-use vibrissa::study::calibrate::{Fitted, fit};
+use vibrissa::scenario;
+use vibrissa::scenario::{read_calibration, write_calibration};
+use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactSet};
+use vibrissa_runtime::machine::{Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::percept::{Perception, TipTable};
+use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// A reference whisker with a hinge of this stiffness (N m/rad).
 fn whisker(stiffness: f64) -> Whisker {
@@ -173,14 +174,14 @@ fn a_fit_to_a_grid_is_judged_by_sets_that_it_has_not_seen() {
 #[test]
 fn a_file_gives_back_what_was_written() {
     let calibration = fitted(1.3, |set| set).calibration;
-    assert_eq!(Calibration::from_yaml(&calibration.to_yaml()).unwrap(), calibration);
+    assert_eq!(read_calibration(&write_calibration(&calibration)).unwrap(), calibration);
 }
 
 proptest! {
     #[test]
     fn a_file_gives_back_whatever_it_is_about(about in any::<String>()) {
         let calibration = Calibration::new(about);
-        prop_assert_eq!(Calibration::from_yaml(&calibration.to_yaml()).unwrap(), calibration);
+        prop_assert_eq!(read_calibration(&write_calibration(&calibration)).unwrap(), calibration);
     }
 }
 
@@ -219,7 +220,7 @@ fn a_hinge_beyond_all_that_are_tried_is_not_taken_for_the_nearest_that_is() {
 
 #[test]
 fn what_is_no_calibration_is_refused_and_the_error_says_why() {
-    let good = fitted(1.0, |set| set).calibration.to_yaml();
+    let good = write_calibration(&fitted(1.0, |set| set).calibration);
     let start = |key: &str| good.find(key).unwrap();
     let line = |key: &str| good[start(key)..].lines().next().unwrap().to_owned();
     let bad = [
@@ -236,7 +237,7 @@ fn what_is_no_calibration_is_refused_and_the_error_says_why() {
         (good.replace(&line("  places"), "  places: []"), "`recursive`"),
     ];
     for (text, reason) in bad {
-        let error = Calibration::from_yaml(&text).unwrap_err().to_string();
+        let error = read_calibration(&text).unwrap_err().to_string();
         assert!(error.contains(reason), "{error}");
     }
 }
@@ -244,7 +245,7 @@ fn what_is_no_calibration_is_refused_and_the_error_says_why() {
 #[test]
 fn sets_are_read_as_they_were_written() {
     let sets = sets(1.0);
-    let read = ContactSet::read_all(ContactSet::write_all(&sets).as_bytes()).unwrap();
+    let read = read_sets(write_sets(&sets).as_bytes()).unwrap();
     assert_eq!(read.len(), sets.len());
     for (read, set) in read.iter().zip(&sets) {
         assert!(
@@ -254,7 +255,7 @@ fn sets_are_read_as_they_were_written() {
     }
     let few = "base_angle_urad, y_mm, x_mm\n# measured by hand\n-300, -51, 82\n";
     let contact_base = Vector2::new(0.082, -0.051);
-    let [set] = ContactSet::read_all(few.as_bytes()).unwrap()[..] else { panic!("one set") };
+    let [set] = read_sets(few.as_bytes()).unwrap()[..] else { panic!("one set") };
     assert!((set.contact_base - contact_base).norm() < 1e-12 && set.normal.is_none() && !set.on_shaft);
 }
 
@@ -273,7 +274,7 @@ fn a_line_that_cannot_be_read_is_told() {
         ("x_mm,y_mm,base_angle_urad\n1,2\n", "line 2: every line"),
         ("x_mm,y_mm,base_angle_urad,contact\n1,2,3,edge\n", "line 2: `contact` must be `tip` or `shaft`"),
     ] {
-        let error = ContactSet::read_all(text.as_bytes()).unwrap_err().to_string();
+        let error = read_sets(text.as_bytes()).unwrap_err().to_string();
         assert!(error.starts_with(reason), "{error}");
     }
 }
@@ -344,8 +345,8 @@ stop: {time: 120 s}
 fn a_rig_loads_the_calibration_of_a_whisker_and_says_what_is_wrong_with_it() {
     let calibration = fitted(1.1, |set| set).calibration;
     let source = Source::new("calibrated.yaml", SCENARIO);
-    let text = calibration.to_yaml();
-    let scene = Scene::from_yaml_with(&source, &mut |path| {
+    let text = write_calibration(&calibration);
+    let scene = scenario::read_with(&source, &mut |path| {
         assert_eq!(path, "l0.yaml");
         Ok(text.clone().into_bytes())
     });
@@ -356,7 +357,7 @@ fn a_rig_loads_the_calibration_of_a_whisker_and_says_what_is_wrong_with_it() {
         (Ok(b"vibrissa_calibration: 2\nabout: \xb5m\n".to_vec()), "in line 2, column 8 the byte 0xB5"),
         (Ok(b"vibrissa_calibration: 7\nabout: x\n".to_vec()), "format 7"),
     ] {
-        let faults = Scene::from_yaml_with(&source, &mut |_| bytes.clone()).unwrap_err();
+        let faults = scenario::read_with(&source, &mut |_| bytes.clone()).unwrap_err();
         let shown = terminal(&source, &faults, Colour::Plain);
         assert!(shown.contains(reason) && shown.contains("3:40"), "{shown}");
     }
@@ -367,7 +368,7 @@ fn a_rig_loads_the_calibration_of_a_whisker_and_says_what_is_wrong_with_it() {
 fn a_stage_in_the_simulated_world_finds_the_hinge_that_is_there() {
     let mut rig = Rig::default();
     rig.whiskers[0].hinge.stiffness = 1.25;
-    let sets = vibrissa::study::calibrate::simulated_sets(&rig, 0, 0).unwrap();
+    let sets = vibrissa::calibration::simulated_sets(&rig, &vibrissa::physics::Physics::default(), 0, 0).unwrap();
     assert!((150..=180).contains(&sets.len()), "{}", sets.len());
     let Fitted { calibration, held_out } = fit(&whisker(1.0), &sets, String::new());
     let stiffness = calibration.hinge_stiffness.unwrap();

@@ -6,14 +6,15 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose, Vector2};
-use vibrissa::machine::{Action, Mover, Senses, TipModelKind, Turn, WhiskerScalar, WhiskerVector};
-use vibrissa::motion::Steering;
-use vibrissa::percept::Perception;
-use vibrissa::rig::Rig;
-use vibrissa::run::{BindError, Control};
-use vibrissa::scene::{Scene, WorldKind};
-use vibrissa::signal::{Command, MAX_WHISKERS, Reading, Sample};
+use vibrissa::scenario;
+use vibrissa::scene::WorldKind;
 use vibrissa::study::execute;
+use vibrissa_runtime::control::{BindError, Control};
+use vibrissa_runtime::machine::{Action, Mover, Senses, TipModelKind, Turn, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::motion::Steering;
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 
 use crate::common::program;
 
@@ -149,7 +150,7 @@ fn a_trace_has_the_whiskers_that_the_rig_has() {
         state A { record r0 mark lost r0 steer body along direction(body.yaw) at 50 mm/s turning 0 deg/s
           when fr.touching -> Failure(\"felt ahead\") }";
     let run = |text: &str| {
-        let scene = Scene::from_yaml(&Source::new("t.yaml", text)).unwrap();
+        let scene = scenario::read(&Source::new("t.yaml", text)).unwrap();
         let program = Arc::new(program(policy));
         execute(&scene, program, WorldKind::QuasiStatic, 0, |_| ControlFlow::Continue(())).unwrap().trace
     };

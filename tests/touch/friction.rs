@@ -4,32 +4,33 @@
 use std::f64::consts::FRAC_PI_2;
 
 use vibrissa::geometry::{Path, Point2, Pose, Vector2, circle, rotate};
-use vibrissa::percept::TipCurve;
-use vibrissa::rig::Rig;
-use vibrissa::scene::Solid;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::mujoco::MujocoWorld;
+use vibrissa::physics::Physics;
+use vibrissa::solid::Solid;
+use vibrissa::world::World;
+use vibrissa_runtime::percept::TipCurve;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// Where the wall's face is, which lies along y to the right of the platform (m).
 const FACE: f64 = 0.14;
 
 /// A rig with steps short enough for friction.
-fn rig(friction: f64) -> Rig {
+fn rig(friction: f64) -> (Rig, Physics) {
     let mut rig = Rig::default();
     rig.whiskers.truncate(1);
-    (rig.physics.step, rig.physics.contact_time) = (1.0 / 1800.0, 2.5e-3);
-    (rig.physics.friction, rig.sensing.forces) = (friction, true);
-    rig
+    rig.sensing.forces = true;
+    (rig, Physics { step: 1.0 / 1800.0, contact_time: 2.5e-3, friction, ..Physics::default() })
 }
 
 /// The last second of a drag along the wall at a speed (m/s), during which the whisker is pressed to it on the way.
-fn drag(rig: &Rig, speed: f64, others: &[Solid]) -> Vec<Sample> {
+fn drag((rig, physics): &(Rig, Physics), speed: f64, others: &[Solid]) -> Vec<Sample> {
     let start = Pose { position: Point2::new(FACE, 1.0), heading: -FRAC_PI_2 };
     let wall = Path::from(start).straight(2.0).turn(FRAC_PI_2).straight(0.2).turn(FRAC_PI_2).straight(2.0);
     let mut solids = vec![Solid::inside(wall.close().unwrap()).unwrap()];
     solids.extend_from_slice(others);
     let start = Pose { position: Point2::new(0.0, -0.5), heading: FRAC_PI_2 };
-    let mut world = MujocoWorld::new(rig, &solids, start, 0).unwrap();
+    let mut world = MujocoWorld::new(rig, physics, &solids, start, 0).unwrap();
     let mut last = Vec::new();
     for tick in 0..120 {
         let aside = if tick < 50 { 0.02 } else { 0.0 };
@@ -74,7 +75,7 @@ fn a_wall_beside_other_solids_rubs_like_one_alone() {
 fn the_tip_model_that_reckons_with_the_friction_finds_the_wall() {
     for (friction, unknown) in [(0.1, 0.4e-3), (0.3, 1.2e-3)] {
         let rig = rig(friction);
-        let whisker = &rig.whiskers[0];
+        let whisker = &rig.0.whiskers[0];
         let sample = *drag(&rig, 0.05, &[]).last().unwrap();
         let off = |model: &TipCurve| {
             let contact = rotate(model.contact_base(sample.whiskers[0].base_angle), whisker.direction_body);

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::{BodyScalar, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
-use vibrissa::percept::{LowPass, Perception};
-use vibrissa::rig::Rig;
-use vibrissa::run::Control;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{BodyScalar, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::percept::{LowPass, Perception};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// Samples in a tick.
 const PER_TICK: usize = 10;

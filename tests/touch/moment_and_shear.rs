@@ -7,11 +7,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use vibrissa::geometry::{Pose, Vector2, rotate, unit};
-use vibrissa::machine::{Senses, TipModelKind};
-use vibrissa::mechanics::{Bend, Elastica};
-use vibrissa::percept::{Perception, PerceptionError, Touch};
-use vibrissa::rig::Rig;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::machine::{Senses, TipModelKind};
+use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::percept::{Perception, PerceptionError, Touch};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 fn rig() -> Rig {
     let mut rig = Rig::default();

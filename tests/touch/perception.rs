@@ -8,10 +8,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::machine::{ContourVector, Senses, TipModelKind, WhiskerVector};
-use vibrissa::percept::{LocalContour, LowPass, Perception};
-use vibrissa::rig::Rig;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::machine::{ContourVector, Senses, TipModelKind, WhiskerVector};
+use vibrissa_runtime::percept::{LocalContour, LowPass, Perception};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// The amplitude that a filter gives a sine of unit amplitude at `frequency`, once it has settled: that of the sine which
 /// fits its output best.

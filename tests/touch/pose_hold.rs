@@ -2,12 +2,14 @@
 use std::f64::consts::FRAC_PI_2;
 
 use vibrissa::geometry::{Point2, Pose, Vector2, polygon};
-use vibrissa::machine::Action;
-use vibrissa::motion::Steering;
-use vibrissa::rig::Rig;
-use vibrissa::scene::Solid;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::solid::Solid;
+use vibrissa::world::World;
+use vibrissa_runtime::machine::Action;
+use vibrissa_runtime::motion::Steering;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// Upwards beside the wall, which the unbent right whisker does not touch.
 const START: Pose = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 };
@@ -17,9 +19,10 @@ fn worlds(rig: &Rig) -> Vec<Box<dyn World>> {
     let corners = [(0.13, -1.0), (0.18, -1.0), (0.18, 1.0), (0.13, 1.0)].map(|(x, y)| Point2::new(x, y));
     let solids = [Solid::inside(polygon(&corners).unwrap()).unwrap()];
     #[cfg_attr(not(feature = "sim"), expect(unused_mut, reason = "there is one world only"))]
-    let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(rig, &solids, START, 0).unwrap())];
+    let mut worlds: Vec<Box<dyn World>> =
+        vec![Box::new(QuasiStaticWorld::new(rig, &Physics::default(), &solids, START, 0).unwrap())];
     #[cfg(feature = "sim")]
-    worlds.push(Box::new(vibrissa::world::MujocoWorld::new(rig, &solids, START, 0).unwrap()));
+    worlds.push(Box::new(vibrissa::mujoco::MujocoWorld::new(rig, &Physics::default(), &solids, START, 0).unwrap()));
     worlds
 }
 
@@ -106,10 +109,10 @@ fn holding_the_last_command_goes_on_stopping_and_any_other_command_ends_it() {
     assert!(back.velocity_world.y < 0.0, "{back:?}");
     assert_eq!(steering.command(&Action::Stop, Pose::UNKNOWN), Command::STOP);
     let steer = Action::Steer {
-        mover: vibrissa::machine::Mover::Body,
+        mover: vibrissa_runtime::machine::Mover::Body,
         along_world: Vector2::new(1.0, 0.0),
         speed: 0.05,
-        turn: vibrissa::machine::Turn::Rate(0.0),
+        turn: vibrissa_runtime::machine::Turn::Rate(0.0),
     };
     let going = steering.command(&steer, pose(1e-3));
     assert_eq!(steering.command(&Action::Hold, pose(2e-3)), going);

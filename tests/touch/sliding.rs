@@ -8,11 +8,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::machine::{Senses, TipModelKind, WhiskerScalar};
-use vibrissa::mechanics::{Equilibrium, ShaftChain};
-use vibrissa::percept::{Perception, TipTable};
-use vibrissa::rig::{Rig, Whisker};
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::machine::{Senses, TipModelKind, WhiskerScalar};
+use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain};
+use vibrissa_runtime::percept::{Perception, TipTable};
+use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// The chain's equilibrium, followed from the straight one: first in its base angle, then in the direction of the force.
 fn chain(whisker: &Whisker, base_angle: f64, direction: f64) -> Option<Equilibrium> {

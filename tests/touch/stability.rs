@@ -1,13 +1,16 @@
 //! The energy of a free whisker.
 
 use vibrissa::geometry::{Pose, Vector2};
-use vibrissa::rig::{Integrator, Rig};
-use vibrissa::signal::Command;
-use vibrissa::world::{MujocoWorld, World};
+use vibrissa::mujoco::MujocoWorld;
+use vibrissa::physics::Integrator;
+use vibrissa::physics::Physics;
+use vibrissa::world::World;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::Command;
 
 /// Energies (J), tick by tick, of a rig that was shaken and is then left to itself, its servos braking.
-fn energies(rig: &Rig) -> Vec<f64> {
-    let mut world = MujocoWorld::new(rig, &[], Pose::default(), 0).unwrap();
+fn energies((rig, physics): &(Rig, Physics)) -> Vec<f64> {
+    let mut world = MujocoWorld::new(rig, physics, &[], Pose::default(), 0).unwrap();
     for way in [1.0, -1.0, 1.0] {
         let shake = Command { velocity_world: Vector2::new(0.3 * way, 0.2), yaw_rate: 3.0 * way };
         (0..2).for_each(|_| assert!(world.advance(&shake).is_ok()));
@@ -19,9 +22,8 @@ fn energies(rig: &Rig) -> Vec<f64> {
     (0..60).map(&mut after).collect()
 }
 
-fn rig(step: f64, links: usize, stiffness: f64, damping: f64) -> Rig {
+fn rig(step: f64, links: usize, stiffness: f64, damping: f64) -> (Rig, Physics) {
     let mut rig = Rig::default();
-    rig.physics.step = step;
     rig.sensing.sample_rate = rig.sensing.sample_rate.min(step.recip());
     for whisker in &mut rig.whiskers {
         whisker.shaft.links = links;
@@ -29,7 +31,7 @@ fn rig(step: f64, links: usize, stiffness: f64, damping: f64) -> Rig {
         whisker.shaft.damping *= damping;
         whisker.hinge.damping *= damping;
     }
-    rig
+    (rig, Physics { step, ..Physics::default() })
 }
 
 #[test]
@@ -50,9 +52,9 @@ fn the_energy_of_a_free_whisker_never_grows() {
 /// The check can fail: an explicit integrator, which has no stable step as long as that, gains energy or diverges.
 #[test]
 fn an_integrator_that_is_not_stable_gains_energy_or_says_so() {
-    let mut rig = rig(1.0 / 300.0, 16, 1.0, 0.0);
-    rig.physics.integrator = Integrator::Euler;
-    let mut world = MujocoWorld::new(&rig, &[], Pose::default(), 0).unwrap();
+    let (rig, mut physics) = rig(1.0 / 300.0, 16, 1.0, 0.0);
+    physics.integrator = Integrator::Euler;
+    let mut world = MujocoWorld::new(&rig, &physics, &[], Pose::default(), 0).unwrap();
     let shake = Command { velocity_world: Vector2::new(0.3, 0.0), yaw_rate: 3.0 };
     let mut before = f64::INFINITY;
     let gained = (0..60).any(|tick| {

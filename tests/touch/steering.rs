@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, Vector2, turn_between, unit};
-use vibrissa::machine::{Action, Mover, Turn};
-use vibrissa::motion::Steering;
-use vibrissa::rig::Rig;
-use vibrissa::signal::Command;
+use vibrissa_runtime::machine::{Action, Mover, Turn};
+use vibrissa_runtime::motion::Steering;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::Command;
 
 fn steering() -> (Steering, Rig) {
     let rig = Rig::default();

@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa::mechanics::{Equilibrium, ShaftChain};
-use vibrissa::percept::{TipCurve, TipModelError};
-use vibrissa::rig::{Rig, Whisker};
+use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain};
+use vibrissa_runtime::percept::{TipCurve, TipModelError};
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
 const FORCE: f64 = 165.0 * PI / 180.0;

@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa::machine::{Senses, TipModelKind};
-use vibrissa::percept::{Perception, Touch};
-use vibrissa::rig::Rig;
-use vibrissa::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::machine::{Senses, TipModelKind};
+use vibrissa_runtime::percept::{Perception, Touch};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// What the right whisker tells after one and a half seconds on a straight surface, bent by `base_angle` (rad).
 fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Option<Touch>) {

@@ -5,7 +5,7 @@ mod entity;
 mod pair;
 mod record;
 
-use crate::diagnostic::suggest;
+use vibrissa_runtime::units::suggest;
 
 use super::found::{Outline, Outlines};
 use super::join::join;

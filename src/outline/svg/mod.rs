@@ -12,7 +12,8 @@ use std::collections::HashMap;
 
 use roxmltree::{Document, ParsingOptions};
 
-use crate::diagnostic::{Source, suggest, utf8};
+use crate::diagnostic::{Source, utf8};
+use vibrissa_runtime::units::suggest;
 
 use super::found::{Outline, Outlines};
 use super::{OutlineError, OutlineFault, Request};

@@ -1,6 +1,6 @@
 //! Abstract interpretation: what a condition can be in a region.
 
-use crate::machine::{Block, Op, Register};
+use vibrissa_runtime::machine::{Block, Op, Register};
 
 use super::interval::Interval;
 use super::model::Model;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::{Cause, Failure, Machine, WhiskerScalar};
+use vibrissa_runtime::machine::{Cause, Failure, Machine, WhiskerScalar};
 
 use super::model::Model;
 use super::point::Point;

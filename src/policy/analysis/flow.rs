@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::machine::{Op, Place, Program, Register};
+use vibrissa_runtime::machine::{Op, Place, Program, Register};
 
 /// More values than these are as good as any.
 const VALUE_LIMIT: usize = 16;

@@ -1,8 +1,8 @@
 //! Guards that never or always hold, and times that do nothing.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine;
 use crate::policy::ast;
+use vibrissa_runtime::machine;
 
 use super::interval::Interval;
 use super::model::Edge;

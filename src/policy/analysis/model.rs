@@ -1,10 +1,10 @@
 //! A policy as the analysis sees it: the syntax tree for places and names, the program for meaning.
 
 use crate::diagnostic::Span;
-use crate::machine::{self, Program, Register};
 use crate::policy::ast::{self, File};
 use crate::policy::lower::Lowered;
 use crate::policy::types::{Type, Value};
+use vibrissa_runtime::machine::{self, Program, Register};
 
 use super::flow::Flow;
 use super::interval::Interval;

@@ -2,7 +2,7 @@
 //!
 //! It only ever leaves out values at which the condition is not as wanted.
 
-use crate::machine::{Op, Register};
+use vibrissa_runtime::machine::{Op, Register};
 
 use super::bounds::Bounds;
 use super::interval::Interval;

@@ -1,8 +1,8 @@
 //! Guards that can hold at once and lead elsewhere, with a witness.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::Program;
 use crate::policy::ast::{Expression, Kind};
+use vibrissa_runtime::machine::Program;
 
 use super::model::Edge;
 use super::search::{Goal, Search};

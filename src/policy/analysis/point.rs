@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::geometry::Vector2;
-use crate::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 
 use super::interval::Interval;
 use super::model::Model;

@@ -1,6 +1,6 @@
 //! A region: what every unknown may be.
 
-use crate::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
 
 use super::interval::Interval;
 use super::model::Model;

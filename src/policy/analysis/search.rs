@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use crate::machine::{Register, compute};
+use vibrissa_runtime::machine::{Register, compute};
 
 use super::bounds::Bounds;
 use super::model::{Condition, Model};

@@ -1,7 +1,7 @@
 //! Transitions that are never taken because another always comes before them.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine::{Guard, Program, Register, TIME_SLACK};
+use vibrissa_runtime::machine::{Guard, Program, Register, TIME_SLACK};
 
 use super::guards::delay;
 use super::interval::Interval;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
 
 use super::interval::Interval;
 

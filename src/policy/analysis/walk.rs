@@ -1,6 +1,6 @@
 //! Ways from state to state within one tick.
 
-use crate::machine::CHAIN_LIMIT;
+use vibrissa_runtime::machine::CHAIN_LIMIT;
 
 use super::model::{Edge, Model};
 use super::reach::reachable;

@@ -1,9 +1,9 @@
 //! Witnesses: points made plain, in words.
 
-use crate::machine::{Program, Senses as _, compute};
 use crate::policy::builtins::{Member, MemberSource, members};
 use crate::policy::types::Type;
-use crate::units::{Dimension, format_si, parse_quantity};
+use vibrissa_runtime::machine::{Program, Senses as _, compute};
+use vibrissa_runtime::units::{Dimension, format_si, parse_quantity};
 
 use super::model::Model;
 use super::point::{Point, Reading, plainest};

@@ -1,9 +1,9 @@
 //! Members of whiskers, contours, the body and a run.
 
-use crate::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
 use crate::policy::test::RunFigure;
 use crate::policy::types::Type;
-use crate::units::Dimension;
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::units::Dimension;
 
 /// A member of a whisker, a contour or the body.
 #[derive(Debug, Clone, Copy, PartialEq)]

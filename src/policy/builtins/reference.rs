@@ -9,7 +9,7 @@ use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
 use crate::policy::unit::units_of;
-use crate::units::Dimension;
+use vibrissa_runtime::units::Dimension;
 
 use super::{At, FUNCTIONS, MemberSource, members};
 

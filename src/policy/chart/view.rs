@@ -1,6 +1,6 @@
 //! A part of a chart, or a chart with fewer levels.
 
-use crate::diagnostic::suggest;
+use vibrissa_runtime::units::suggest;
 
 use super::{Chart, Origin, State, Target, Transition};
 

@@ -8,7 +8,7 @@ use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
 use crate::policy::unit::units_of;
-use crate::units::Dimension;
+use vibrissa_runtime::units::Dimension;
 
 use super::context::{Context, Expected, Level, context};
 use super::import::{heading, offered};

@@ -7,7 +7,7 @@
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::Type;
-use crate::units::{Dimension, parse_unit};
+use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;

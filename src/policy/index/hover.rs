@@ -5,7 +5,7 @@ use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
 use crate::policy::description::description;
 use crate::policy::types::Type;
 use crate::policy::unit::units_of;
-use crate::units::{Dimension, format_si, parse_unit};
+use vibrissa_runtime::units::{Dimension, format_si, parse_unit};
 
 use super::Index;
 use super::import::{heading, offered};

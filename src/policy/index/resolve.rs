@@ -6,7 +6,7 @@ use crate::diagnostic::{Source, Span};
 use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::{Type, dimension};
-use crate::units::parse_unit;
+use vibrissa_runtime::units::parse_unit;
 
 use super::declare::place;
 use super::import::Import;

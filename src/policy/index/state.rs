@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::machine::NESTING_LIMIT;
+use vibrissa_runtime::machine::NESTING_LIMIT;
 
 use super::Index;
 use super::candidate::{Candidate, of_word};

@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::policy::builtins::Member;
 use crate::policy::types::Type;
-use crate::units::Dimension;
+use vibrissa_runtime::units::Dimension;
 
 /// What a name that a policy gives stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
+use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
 
 /// The code and the registers of a program in the making.
 #[derive(Debug)]

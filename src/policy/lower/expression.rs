@@ -1,14 +1,14 @@
 //! Expressions.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::Op;
 use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
 use crate::policy::builtins::{self, At, Member, MemberSource};
 use crate::policy::hint::did_you_mean;
 use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
 use crate::policy::unit::{unit_hint, units_of};
-use crate::units::{Dimension, parse_unit};
+use vibrissa_runtime::machine::Op;
+use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::Compiler;
 use super::scope::Scope;

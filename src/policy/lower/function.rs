@@ -1,11 +1,11 @@
 //! Calls: of the language's functions, and of derived values.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::Op;
 use crate::policy::ast::{Argument, Derived, Expression, Name};
 use crate::policy::builtins::Function;
 use crate::policy::types::{Type, Value};
-use crate::units::Dimension;
+use vibrissa_runtime::machine::Op;
+use vibrissa_runtime::units::Dimension;
 
 use super::Compiler;
 use super::scope::Scope;

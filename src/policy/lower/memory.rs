@@ -1,8 +1,8 @@
 //! What is kept from tick to tick: by the machine itself, and by states.
 
-use crate::machine::Block;
 use crate::policy::ast::{Expression, File, Name};
 use crate::policy::types::Value;
+use vibrissa_runtime::machine::Block;
 
 use super::Compiler;
 use super::scope::{Meaning, Scope};

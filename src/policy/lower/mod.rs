@@ -19,7 +19,7 @@ mod test;
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
-use crate::machine::{Program, Register};
+use vibrissa_runtime::machine::{Program, Register};
 
 use super::ast::{Argument, Expression, Name, Statement, TypeName};
 use super::hint::did_you_mean;

@@ -1,10 +1,10 @@
 //! Parameters.
 
 use crate::diagnostic::Diagnostic;
-use crate::machine;
 use crate::policy::ast::{Bound, Parameter};
 use crate::policy::unit::{units_of, written};
-use crate::units::{Dimension, parse_unit};
+use vibrissa_runtime::machine;
+use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::Compiler;
 

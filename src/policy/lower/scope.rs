@@ -1,13 +1,14 @@
 //! Names and what they stand for.
 
-use crate::diagnostic::{Diagnostic, Span, suggest};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::foreign::instead;
 use crate::policy::hint::did_you_mean;
 use crate::policy::standard;
 use crate::policy::types::{Type, Value};
-use crate::units::parse_unit;
+use vibrissa_runtime::units::parse_unit;
+use vibrissa_runtime::units::suggest;
 
 use super::Compiler;
 

@@ -1,10 +1,10 @@
 //! Statements.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{Mark, Op};
 use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::{Type, Value};
+use vibrissa_runtime::machine::{Mark, Op};
 
 use super::scope::{Scope, in_the_standard_library};
 use super::{Commandless, Compiler};

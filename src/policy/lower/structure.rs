@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{self, Block, NESTING_LIMIT, Op, Program};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
 use crate::policy::hint::did_you_mean;
 use crate::policy::load::Files;
 use crate::policy::types::{Type, Value};
-use crate::signal::MAX_WHISKERS;
+use vibrissa_runtime::machine::{self, Block, NESTING_LIMIT, Op, Program};
+use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::hierarchy::Hierarchy;
 use super::scope::{Meaning, Scope};

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{self, Block};
 use crate::policy::ast::{Expression, File, Name, State, Step, Target};
 use crate::policy::foreign::instead_of_target;
 use crate::policy::hint::did_you_mean;
 use crate::policy::types::Value;
+use vibrissa_runtime::machine::{self, Block};
 
 use super::function::count;
 use super::scope::{Meaning, Scope};

@@ -1,11 +1,11 @@
 //! The tests that a policy carries. None of their code is left in the program.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::machine::{Op, Parameter, Register};
 use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test};
 use crate::policy::hint::did_you_mean;
 use crate::policy::test::{Expectation, FigurePlace, PolicyTest, RunFigure};
 use crate::policy::types::Type;
+use vibrissa_runtime::machine::{Op, Parameter, Register};
 
 use super::Compiler;
 use super::scope::Scope;

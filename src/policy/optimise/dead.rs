@@ -1,6 +1,6 @@
 //! What nothing reads is not computed.
 
-use crate::machine::{Effect, Operands};
+use vibrissa_runtime::machine::{Effect, Operands};
 
 use super::draft::Draft;
 

@@ -1,6 +1,6 @@
 //! A program whose code is being shortened.
 
-use crate::machine::{Block, Guard, Op, Program, Register, Target, Transition};
+use vibrissa_runtime::machine::{Block, Guard, Op, Program, Register, Target, Transition};
 
 /// A program whose code is being shortened: operations are struck out, and the rest moves up at the end.
 pub(super) struct Draft {

@@ -1,6 +1,6 @@
 //! One operation for several.
 
-use crate::machine::{Op, Register};
+use vibrissa_runtime::machine::{Op, Register};
 
 use super::draft::Draft;
 

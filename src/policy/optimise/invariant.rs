@@ -1,6 +1,6 @@
 //! What parameters and constants fix is computed once a run.
 
-use crate::machine::{Effect, Operands, Place};
+use vibrissa_runtime::machine::{Effect, Operands, Place};
 
 use super::draft::Draft;
 

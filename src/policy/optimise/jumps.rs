@@ -1,6 +1,6 @@
 //! Jumps lead where they end.
 
-use crate::machine::Op;
+use vibrissa_runtime::machine::Op;
 
 use super::draft::Draft;
 

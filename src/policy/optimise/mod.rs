@@ -14,7 +14,7 @@ mod invariant;
 mod jumps;
 mod reuse;
 
-use crate::machine::{Operands, Program};
+use vibrissa_runtime::machine::{Operands, Program};
 
 use draft::Draft;
 

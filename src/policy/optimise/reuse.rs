@@ -1,6 +1,6 @@
 //! What is known is not computed or asked for again, and copies are read where they come from.
 
-use crate::machine::{Effect, Op, Operands, Place, Register, Role};
+use vibrissa_runtime::machine::{Effect, Op, Operands, Place, Register, Role};
 
 use super::draft::Draft;
 

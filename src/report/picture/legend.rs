@@ -6,12 +6,12 @@ use svg::node::element::{Group, Path, Rectangle};
 use super::error_class::{COLOURS, LIMITS};
 use super::map::{self, OUTLINE, UNTRACED, mark_style, pose_style};
 use super::scale::round_step;
-use crate::machine::Mark;
 use crate::report::number::{mean_std, millimetres};
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
 use crate::run::Trace;
 use crate::score::{RetrievalFigures, Score};
+use vibrissa_runtime::machine::Mark;
 
 /// Height of a line (px).
 const LINE: f64 = 22.0;

@@ -11,13 +11,13 @@ use super::error_class::{COLOURS, class};
 use super::scale::Scale;
 use super::shaft::shaft_body;
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
-use crate::machine::Mark;
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
-use crate::rig::Rig;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
 use crate::score::{Tip, mark_places};
+use vibrissa_runtime::machine::Mark;
+use vibrissa_runtime::rig::Rig;
 
 /// Diameter of an estimate's dot (px).
 pub(super) const DOT: f64 = 5.0;

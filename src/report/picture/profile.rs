@@ -4,9 +4,9 @@ use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Path};
 
 use super::scale::Scale;
-use crate::calibration::{AngleSurface, Calibration, ContactSet};
 use crate::geometry::Vector2;
 use crate::report::style::{self, Anchor, line, px, text};
+use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactSet};
 
 /// Size of the picture, and the frame of the plot within it (px).
 const SIZE: (f64, f64) = (900.0, 620.0);

@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 
 use crate::geometry::{Point2, rotate, unit};
-use crate::mechanics::{Bend, Elastica};
-use crate::rig::Whisker;
 use crate::run::{TickRecord, Trace};
+use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::rig::Whisker;
 
 /// The force's directions (degrees, frame of the base) among which the one is sought that brings the tip to where it was perceived.
 const DIRECTIONS: (f64, f64) = (60.0, 210.0);
@@ -75,8 +75,8 @@ fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>)
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::mechanics::ShaftChain;
-    use crate::rig::Rig;
+    use vibrissa_runtime::mechanics::ShaftChain;
+    use vibrissa_runtime::rig::Rig;
 
     /// Where the ends of a chain's links are when it has the base angle of `bend` under a force in the same direction.
     fn chain(whisker: &Whisker, bend: &Bend) -> Vec<Vector2<f64>> {
@@ -89,7 +89,7 @@ mod tests {
             let angle = bend.base_angle * f64::from(step) / f64::from(steps);
             let guess = if step == 1 {
                 let force = angle * whisker.hinge.stiffness / (shaft.length * bend.force_direction.sin());
-                crate::mechanics::Equilibrium { force, ..near }
+                vibrissa_runtime::mechanics::Equilibrium { force, ..near }
             } else {
                 near
             };

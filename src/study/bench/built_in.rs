@@ -43,7 +43,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::Source;
     use crate::policy::{compile, gather};
-    use crate::scene::Scene;
+    use crate::scenario;
     use crate::study::bench::{THESIS, thesis_figures};
 
     #[test]
@@ -58,7 +58,7 @@ mod tests {
         known.sort();
         assert_eq!(known, there, "list it in SCENARIOS");
         for file in SCENARIOS {
-            let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+            let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
             assert_eq!(format!("scenarios/{}.yaml", scene.name), file.path);
             assert!(thesis_figures(&scene.name).is_some(), "{} is no scene of the thesis", scene.name);
         }

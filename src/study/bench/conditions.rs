@@ -39,14 +39,14 @@ impl Conditions {
 
     /// Makes a scene so.
     pub fn apply(self, scene: &mut Scene) {
-        let rig = &mut scene.rig;
+        let Scene { rig, physics, .. } = scene;
         if self.friction > 0.0 {
-            (rig.physics.friction, rig.sensing.friction) = (self.friction, self.friction);
+            (physics.friction, rig.sensing.friction) = (self.friction, self.friction);
             let period = rig.sensing.sample_rate.recip();
-            let steps = (period / rig.physics.step.min(STEP) - 1e-9).ceil();
-            rig.physics.step = period / steps;
-            rig.physics.contact_time = rig.physics.contact_time.min(CONTACT_TIME);
-            rig.physics.penetration_limit = rig.physics.penetration_limit.max(PENETRATION_LIMIT);
+            let steps = (period / physics.step.min(STEP) - 1e-9).ceil();
+            physics.step = period / steps;
+            physics.contact_time = physics.contact_time.min(CONTACT_TIME);
+            physics.penetration_limit = physics.penetration_limit.max(PENETRATION_LIMIT);
         }
         if self.noise {
             rig.sensing.make_real();

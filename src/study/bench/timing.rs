@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::machine::Program;
 use crate::report::{NONE, Table};
 use crate::scene::{Outcome, Scene, WorldSetup};
 use crate::score::{Score, Statistics};
 use crate::study::processor_time::processor_time;
 use crate::study::{ExecuteError, execute};
+use vibrissa_runtime::machine::Program;
 
 /// How fast one run was.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::machine::{Program, Senses, TipModelKind};
-use crate::percept::Perception;
-use crate::rig::{Rig, Sensing};
-use crate::run::BindError;
 use crate::scene::{Scene, WorldKind};
 use crate::score::{ErrorFigures, Tip};
-use crate::signal::Sample;
 use crate::study::ExecuteError;
 use crate::study::processor_time::processor_time;
 use crate::world::Sensors;
+use vibrissa_runtime::control::BindError;
+use vibrissa_runtime::machine::{Program, Senses, TipModelKind};
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::rig::{Rig, Sensing};
+use vibrissa_runtime::signal::Sample;
 
 use super::row::EstimatorRow;
 use super::tape::Tape;

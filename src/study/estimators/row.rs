@@ -3,9 +3,9 @@
 use crate::report::Document;
 use serde::Serialize;
 
-use crate::machine::TipModelKind;
 use crate::report::{NONE, Table, millimetres};
 use crate::study::TipShares;
+use vibrissa_runtime::machine::TipModelKind;
 
 /// How one tip model did on the samples of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]

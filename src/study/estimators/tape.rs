@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::geometry::Point2;
-use crate::machine::Program;
-use crate::rig::Rig;
-use crate::run::{Control, Run, drive};
+use crate::run::{Run, drive};
 use crate::scene::{Scene, WorldKind};
-use crate::signal::{Command, Sample};
 use crate::study::{ExecuteError, build};
 use crate::world::{Fault, World};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 /// The samples of a run, and what happened in it.
 pub(in crate::study) struct Tape {

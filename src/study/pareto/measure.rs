@@ -7,14 +7,15 @@ use super::row::{Front, ParetoRow};
 use super::setting::{FINE_LINKS, Setting, set_links};
 use super::{Pareto, front};
 use crate::geometry::unit;
-use crate::machine::Program;
-use crate::rig::Rig;
-use crate::run::{BindError, Control, Run, drive};
+use crate::run::{Run, drive};
 use crate::scene::{Scene, WorldKind};
 use crate::score::{Estimate, Score, Statistics};
 use crate::study::estimators::{Tape, judge};
 use crate::study::processor_time::processor_time;
 use crate::study::{Ending, ExecuteError, build};
+use vibrissa_runtime::control::{BindError, Control};
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::rig::Rig;
 
 /// How far behind the scene's start (m) the fine run begins once more.
 const BEHIND: f64 = 1e-3;
@@ -66,7 +67,7 @@ pub fn measure(
         let figures = ratios.zip(seconds).filter(|_| first.ending != Ending::Refused);
         let (scene, world) = setting.apply(scene, world);
         let fine_mm = fine.as_ref().and_then(|fine| first.apart(fine));
-        rows.push(ParetoRow::new(setting, (&scene.rig, world), first, figures, fine_mm));
+        rows.push(ParetoRow::new(setting, &scene, world, first, figures, fine_mm));
     }
     mark(&mut rows);
     Ok(Pareto {

@@ -3,8 +3,7 @@
 use crate::report::Document;
 use serde::Serialize;
 
-use crate::rig::Rig;
-use crate::scene::WorldKind;
+use crate::scene::{Scene, WorldKind};
 use crate::score::Statistics;
 use crate::study::Ending;
 
@@ -103,13 +102,14 @@ impl ParetoRow {
     /// The row of a setting, which makes this of rig and world; with the statistics of its relative and its absolute times (s).
     pub(super) fn new(
         setting: &Setting,
-        (rig, world): (&Rig, WorldKind),
+        scene: &Scene,
+        world: WorldKind,
         first: &Measured,
         figures: Option<(Statistics, Statistics)>,
         fine_mm: Option<f64>,
     ) -> Self {
         let is_mujoco = world == WorldKind::Mujoco;
-        let physics = &rig.physics;
+        let Scene { rig, physics, .. } = scene;
         let (ratios, seconds) = figures.unzip();
         Self {
             setting: setting.to_string(),

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use crate::machine::TipModelKind;
-use crate::rig::{Integrator, Rig, Solver};
+use crate::physics::{Integrator, Physics, Solver};
 use crate::scene::{Scene, WorldKind};
+use vibrissa_runtime::machine::TipModelKind;
+use vibrissa_runtime::rig::Rig;
 
 /// What a setting has that the scenario has not.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,10 +92,10 @@ impl Setting {
             singles.chain(WorldKind::ALL.map(World)).chain([NoCalmSteps, BendInAir]).map(|change| vec![change]);
         let all = [Self::unchanged(), Self::fine()].into_iter();
         let all = all.chain(singles.chain(steps_with).chain(together).map(Self));
-        let mut seen: Vec<(Rig, WorldKind)> = Vec::new();
+        let mut seen: Vec<(Rig, Physics, WorldKind)> = Vec::new();
         let is_new = |setting: &Self| {
             let (scene, world) = setting.apply(scene, world);
-            let about = (scene.rig, world);
+            let about = (scene.rig, scene.physics, world);
             let is_new = (cfg!(feature = "sim") || world != WorldKind::Mujoco) && !seen.contains(&about);
             seen.push(about);
             is_new
@@ -110,17 +111,17 @@ impl Setting {
     /// The scene and the world with the changes.
     pub(super) fn apply(&self, scene: &Scene, world: WorldKind) -> (Scene, WorldKind) {
         let (mut scene, mut world) = (scene.clone(), world);
-        let rig = &mut scene.rig;
+        let Scene { rig, physics, .. } = &mut scene;
         for change in &self.0 {
             match *change {
                 Change::World(kind) => world = kind,
                 Change::Links(links) => set_links(rig, links),
-                Change::Step(step) => set_step(rig, step),
-                Change::HardContacts => rig.physics.contact_time = rig.physics.step,
-                Change::NoCalmSteps => rig.physics.calm_step = rig.physics.step,
-                Change::BendInAir => rig.physics.rigid_in_air = false,
-                Change::Integrator(integrator) => rig.physics.integrator = integrator,
-                Change::Solver(solver) => rig.physics.solver = solver,
+                Change::Step(step) => set_step(rig, physics, step),
+                Change::HardContacts => physics.contact_time = physics.step,
+                Change::NoCalmSteps => physics.calm_step = physics.step,
+                Change::BendInAir => physics.rigid_in_air = false,
+                Change::Integrator(integrator) => physics.integrator = integrator,
+                Change::Solver(solver) => physics.solver = solver,
                 Change::TipModel(kind) => rig.sensing.forces |= kind == TipModelKind::MomentAndShear,
             }
         }
@@ -153,14 +154,14 @@ pub(super) fn set_links(rig: &mut Rig, links: usize) {
     }
 }
 
-fn set_step(rig: &mut Rig, step: f64) {
+fn set_step(rig: &mut Rig, physics: &mut Physics, step: f64) {
     // A whole number, though rounded.
     let parts = |period: f64| (period / step - 1e-9).ceil().max(1.0);
     let sensing = &mut rig.sensing;
     sensing.sample_rate = sensing.sample_rate.min(sensing.control_rate * parts(sensing.control_rate.recip()));
     let sample = sensing.sample_rate.recip();
-    rig.physics.step = sample / parts(sample);
-    rig.physics.calm_step = rig.physics.step;
+    physics.step = sample / parts(sample);
+    physics.calm_step = physics.step;
 }
 
 impl fmt::Display for Setting {
@@ -191,19 +192,20 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
     use crate::diagnostic::Source;
+    use crate::scenario;
     use crate::study::bench::SCENARIOS;
 
     #[test]
     fn every_setting_is_another_and_its_steps_make_up_samples_and_ticks() {
         let whole = |parts: f64| (parts - parts.round()).abs() < 1e-9 && parts > 0.5;
         for file in [SCENARIOS[0], SCENARIOS[4]] {
-            let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+            let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
             let settings = Setting::all(&scene, WorldKind::default());
             assert_eq!(settings[..2], [Setting::unchanged(), Setting::fine()]);
             let mut names: Vec<_> = settings.iter().map(ToString::to_string).collect();
             for setting in &settings {
-                let rig = setting.apply(&scene, WorldKind::default()).0.rig;
-                assert!(whole(1.0 / (rig.physics.step * rig.sensing.sample_rate)), "{setting}");
+                let Scene { rig, physics, .. } = setting.apply(&scene, WorldKind::default()).0;
+                assert!(whole(1.0 / (physics.step * rig.sensing.sample_rate)), "{setting}");
                 assert!(whole(rig.sensing.sample_rate / rig.sensing.control_rate), "{setting}");
             }
             names.sort();

@@ -3,8 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::geometry::{Contour, ContourError, Point2, Pose, ShapeError, Vector2, circle, polygon};
-use crate::rig::Rig;
-use crate::scene::{Scene, Solid, SolidError, Stop, WorldKind};
+use crate::physics::Physics;
+use crate::scene::{Scene, Stop, WorldKind};
+use crate::solid::{Solid, SolidError};
+use vibrissa_runtime::rig::Rig;
 
 /// A scene that strains a world, and how the platform is driven through it.
 #[derive(Debug, Clone)]
@@ -68,6 +70,7 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
         name: name.to_owned(),
         description: String::new(),
         rig: Rig::default(),
+        physics: Physics::default(),
         solids: vec![Solid::inside(object.clone())?],
         truth: object.into(),
         start: Pose { position: Point2::origin(), heading: FRAC_PI_2 },
@@ -84,10 +87,10 @@ pub(super) fn disk_beside() -> Result<Contour, CaseError> {
     Ok(circle(Point2::new(REACH - DEEP + 0.2, 0.25), 0.2)?)
 }
 
-/// Gives a rig another step (s); where it is longer than a sample, samples become as long.
-pub(super) fn set_step(rig: &mut Rig, step: f64) {
-    rig.physics.step = step;
-    let sensing = &mut rig.sensing;
+/// Gives a scene another step (s); where it is longer than a sample, samples become as long.
+pub(super) fn set_step(scene: &mut Scene, step: f64) {
+    scene.physics.step = step;
+    let sensing = &mut scene.rig.sensing;
     sensing.sample_rate = sensing.sample_rate.min(step.recip());
     sensing.filter_cutoff = sensing.filter_cutoff.min(0.4 * sensing.sample_rate);
 }
@@ -116,10 +119,10 @@ impl List {
     }
 
     /// A disk beside the way, with other settings of the rig.
-    fn rig(&mut self, name: String, change: impl FnOnce(&mut Rig)) -> Result<(), CaseError> {
+    fn settings_of(&mut self, name: String, change: impl FnOnce(&mut Scene)) -> Result<(), CaseError> {
         let mut scene = scene("", disk_beside()?, 6.0)?;
         scene.name = name;
-        change(&mut scene.rig);
+        change(&mut scene);
         self.add(&scene, Drive::Straight(SPEED, 0.0));
         Ok(())
     }
@@ -127,26 +130,26 @@ impl List {
     fn settings(&mut self) -> Result<(), CaseError> {
         for parts in [160_u32, 60, 30, 10, 5, 3, 2, 1] {
             let step = 1.0 / (30.0 * f64::from(parts));
-            self.rig(format!("steps of {:.2} ms", 1e3 * step), |rig| set_step(rig, step))?;
+            self.settings_of(format!("steps of {:.2} ms", 1e3 * step), |scene| set_step(scene, step))?;
         }
         for links in [4, 8, 40, 80] {
-            self.rig(format!("{links} links"), |rig| set_links(rig, links))?;
+            self.settings_of(format!("{links} links"), |scene| set_links(&mut scene.rig, links))?;
         }
         for factor in [0.01, 0.1, 10.0, 100.0] {
-            self.rig(format!("{factor} times as stiff"), |rig| stiffen(rig, factor))?;
-            self.rig(format!("{factor} times as stiff, 80 links, steps of 33 ms"), |rig| {
-                set_links(rig, 80);
-                stiffen(rig, factor);
-                set_step(rig, 1.0 / 30.0);
+            self.settings_of(format!("{factor} times as stiff"), |scene| stiffen(&mut scene.rig, factor))?;
+            self.settings_of(format!("{factor} times as stiff, 80 links, steps of 33 ms"), |scene| {
+                set_links(&mut scene.rig, 80);
+                stiffen(&mut scene.rig, factor);
+                set_step(scene, 1.0 / 30.0);
             })?;
         }
-        self.rig("no damping".to_owned(), |rig| {
-            for whisker in &mut rig.whiskers {
+        self.settings_of("no damping".to_owned(), |scene| {
+            for whisker in &mut scene.rig.whiskers {
                 (whisker.shaft.damping, whisker.hinge.damping) = (0.0, 0.0);
             }
         })?;
-        self.rig("contacts of 1 us".to_owned(), |rig| rig.physics.contact_time = 1e-6)?;
-        self.rig("a friction of 1".to_owned(), |rig| rig.physics.friction = 1.0)
+        self.settings_of("contacts of 1 us".to_owned(), |scene| scene.physics.contact_time = 1e-6)?;
+        self.settings_of("a friction of 1".to_owned(), |scene| scene.physics.friction = 1.0)
     }
 
     fn speeds(&mut self) -> Result<(), CaseError> {

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::Source;
-use crate::machine::Program;
 use crate::policy::{compile, gather};
 use crate::report::{Hashes, Identity, RunResult};
 use crate::score::Score;
 use crate::study::bench::DEFAULT_POLICY;
 use crate::study::{Ending, execute};
-use crate::units::Dimension;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::units::Dimension;
 
 use super::case::{Drive, StressCase};
 use super::stability::StabilityCase;

@@ -1,11 +1,12 @@
 //! The largest step that a world bears.
 
 use crate::geometry::Vector2;
-use crate::rig::{Integrator, Rig};
+use crate::physics::{Integrator, Physics};
 use crate::scene::{Scene, WorldKind};
-use crate::signal::Command;
 use crate::study::{ExecuteError, build};
 use crate::world::{Fault, World};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::Command;
 
 use super::case::{CaseError, disk_beside, scene, set_links, set_step, stiffen};
 
@@ -17,6 +18,7 @@ pub struct StabilityCase {
     /// The world.
     pub world: WorldKind,
     rig: Rig,
+    physics: Physics,
 }
 
 /// Ticks a second at which steps are tried, and the most steps a tick: the shortest step is 0.1 ms.
@@ -32,25 +34,25 @@ impl StabilityCase {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut cases = Vec::new();
-        let mut add = |name: String, world, change: &dyn Fn(&mut Rig)| {
+        let mut add = |name: String, world, change: &dyn Fn(&mut Rig, &mut Physics)| {
             let mut rig = Rig::default();
-            // What is shaken in the air is to bend there.
-            rig.physics.rigid_in_air = false;
-            change(&mut rig);
-            cases.push(Self { name, world, rig });
+            // The shafts must bend when they are shaken in the air.
+            let mut physics = Physics { rigid_in_air: false, ..Physics::default() };
+            change(&mut rig, &mut physics);
+            cases.push(Self { name, world, rig, physics });
         };
         for integrator in Integrator::ALL {
             let others: &[usize] = if integrator == Integrator::default() { &[8, 40] } else { &[] };
             for &links in [16].iter().chain(others) {
-                add(format!("{}, {links} links", integrator.name()), WorldKind::Mujoco, &|rig| {
-                    rig.physics.integrator = integrator;
+                add(format!("{}, {links} links", integrator.name()), WorldKind::Mujoco, &|rig, physics| {
+                    physics.integrator = integrator;
                     set_links(rig, links);
                 });
             }
         }
         for world in WorldKind::ALL {
             for factor in [0.01, 0.1, 1.0, 10.0, 100.0] {
-                add(format!("{factor} times as stiff"), world, &|rig| stiffen(rig, factor));
+                add(format!("{factor} times as stiff"), world, &|rig, _| stiffen(rig, factor));
             }
         }
         cases
@@ -83,10 +85,10 @@ impl StabilityCase {
 
     fn is_stable(&self, scene: &Scene, step: f64) -> bool {
         let mut scene = scene.clone();
-        scene.rig = self.rig.clone();
+        (scene.rig, scene.physics) = (self.rig.clone(), self.physics.clone());
         // A sample a step, so that every number of steps makes up a tick.
         scene.rig.sensing.sample_rate = step.recip();
-        set_step(&mut scene.rig, step);
+        set_step(&mut scene, step);
         let shaken = self.world_of(&scene, false).is_ok_and(|mut world| calms_down(world.as_mut()).unwrap_or(false));
         shaken && self.world_of(&scene, true).is_ok_and(|mut world| passes(world.as_mut()).is_ok())
     }

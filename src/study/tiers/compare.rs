@@ -6,11 +6,12 @@ use std::sync::Arc;
 use super::row::{Apart, TierRow};
 use super::tier::Tier;
 use super::track::{Instant, Track};
-use crate::machine::Program;
-use crate::run::{Control, Run, drive};
+use crate::run::{Run, drive};
 use crate::scene::Scene;
 use crate::score::Estimate;
 use crate::study::{ExecuteError, build};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
 
 /// Runs a policy in a scene in a tier, the `reference`, and compares others with it.
 ///

@@ -3,8 +3,8 @@
 use crate::geometry::{Point2, Pose, wrap};
 use crate::run::Trace;
 use crate::scene::Scene;
-use crate::signal::Command;
 use crate::study::{ExecuteError, build};
+use vibrissa_runtime::signal::Command;
 
 use super::tier::Tier;
 

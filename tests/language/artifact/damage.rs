@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use sha2::{Digest, Sha256};
-use vibrissa::machine::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC};
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC};
 
 use super::{erratic, policies};
 

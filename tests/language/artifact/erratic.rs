@@ -4,9 +4,11 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use vibrissa::geometry::{Point2, Pose, Vector2};
-use vibrissa::machine::{BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector};
-use vibrissa::motion::Steering;
-use vibrissa::rig::Rig;
+use vibrissa_runtime::machine::{
+    BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
+};
+use vibrissa_runtime::motion::Steering;
+use vibrissa_runtime::rig::Rig;
 
 /// Numbers that go wrong easily, among some that do not.
 const NUMBERS: [f64; 14] =

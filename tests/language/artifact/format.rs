@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use serde::de::DeserializeOwned;
-use vibrissa::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, WhiskerVector};
 
 use crate::snapshots::snapshots;
 

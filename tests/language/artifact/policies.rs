@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::machine::Artifact;
 use vibrissa::policy::{compile_with_warnings, gather};
+use vibrissa_runtime::machine::Artifact;
 
 /// A policy that reads, computes and does a bit of everything.
 pub(crate) const EVERYTHING: &str = r#"

@@ -1,8 +1,8 @@
 //! What goes in comes out.
 
-use vibrissa::machine::{Artifact, MAGIC};
 use vibrissa::policy::compile;
-use vibrissa::units::Dimension;
+use vibrissa_runtime::machine::{Artifact, MAGIC};
+use vibrissa_runtime::units::Dimension;
 
 use super::{erratic, policies};
 

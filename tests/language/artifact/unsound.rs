@@ -1,6 +1,8 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
-use vibrissa::machine::{Artifact, ArtifactError, Guard, Mark, Op, Program, State, Target, Transition, WhiskerScalar};
+use vibrissa_runtime::machine::{
+    Artifact, ArtifactError, Guard, Mark, Op, Program, State, Target, Transition, WhiskerScalar,
+};
 
 use super::{erratic, policies};
 

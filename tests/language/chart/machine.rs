@@ -1,10 +1,10 @@
 //! A chart shows what the machine is.
 
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::{self, Program};
 use vibrissa::policy::chart::{Chart, Guard, Origin, Target};
 use vibrissa::policy::{chart, compile};
 use vibrissa::report::{chart_dot, chart_mermaid, chart_svg};
+use vibrissa_runtime::machine::{self, Program};
 
 use super::charts::{HARD, NESTED, THESIS, chart_of, into};
 

@@ -1,6 +1,6 @@
 //! What states in states mean, by example.
 
-use vibrissa::machine::{Action, ActionPart, Failure, Flaw, Guard};
+use vibrissa_runtime::machine::{Action, ActionPart, Failure, Flaw, Guard};
 
 use crate::common::{Feel, Script, program, run, states};
 

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::Failure;
 use vibrissa::policy::compile;
+use vibrissa_runtime::machine::Failure;
 
 use super::oracle::{run_both, touches};
 use super::tree::{Features, Tree, trees};

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
-use vibrissa::machine::{Action, Artifact, Machine, Program};
 use vibrissa::policy::{compile, compile_with_warnings, format};
+use vibrissa_runtime::machine::{Action, Artifact, Machine, Program};
 
 use super::interpreter::{Done, Interpreter};
 use super::tree::{Features, RATE, Tree, trees};

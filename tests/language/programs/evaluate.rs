@@ -1,7 +1,9 @@
 //! Expressions and statements, interpreted over their trees, with names looked up as they are met.
 
 use vibrissa::geometry::{Vector2, rotate, wrap};
-use vibrissa::machine::{Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{
+    Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
+};
 
 use super::interpreter::Interpreter;
 use super::tree::{Arguments, Derived, Expression, Law, Statement, Steer};

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-use vibrissa::machine::{Action, ActionPart, Cause, Failure, Flaw, Senses, Turn};
+use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, Flaw, Senses, Turn};
 
 use super::evaluate::{Place, Value};
 use super::filter::Filter;

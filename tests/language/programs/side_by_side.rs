@@ -8,8 +8,8 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::Vector2;
-use vibrissa::machine::{self, Action, Machine};
 use vibrissa::policy::compile;
+use vibrissa_runtime::machine::{self, Action, Machine};
 
 use super::generate::programs;
 use super::interpreter::{Done, Interpreter};

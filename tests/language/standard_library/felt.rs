@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, unit};
-use vibrissa::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 
 /// A whisker that is felt as a test says: 0 is on the right, 1 on the left.
 #[derive(Debug, Clone, Copy)]

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::geometry::{Point2, Vector2};
-use vibrissa::machine::{Action, Machine, Mover, Turn};
 use vibrissa::policy::compile;
+use vibrissa_runtime::machine::{Action, Machine, Mover, Turn};
 
 use super::felt::Felt;
 

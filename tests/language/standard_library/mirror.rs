@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, Vector2, turn_between, unit};
-use vibrissa::machine::{Mover, Turn};
+use vibrissa_runtime::machine::{Mover, Turn};
 
 use super::felt::{Felt, Whisker, flipped};
 use super::law::{commanded, is_near, place, vector};

@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa::machine::{Mover, Turn};
-use vibrissa::motion::Steering;
-use vibrissa::rig::Rig;
+use vibrissa_runtime::machine::{Mover, Turn};
+use vibrissa_runtime::motion::Steering;
+use vibrissa_runtime::rig::Rig;
 
 use super::felt::{Felt, swiping};
 use super::guard::holds;

@@ -1,7 +1,7 @@
 //! The laws for going along surfaces.
 
 use vibrissa::geometry::{Pose, Vector2, unit};
-use vibrissa::machine::{Action, Mover, Turn};
+use vibrissa_runtime::machine::{Action, Mover, Turn};
 
 use super::felt::{Felt, Whisker, swiping};
 use super::law::{commanded, is_near, machine};

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
-use vibrissa::scene::{Scene, WorldKind};
+use vibrissa::scenario;
+use vibrissa::scene::WorldKind;
 use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS, Timing, TimingRow, timing_table};
 use vibrissa::study::stress::{Drive, StabilityCase, StressRow, StressTask, stress_cases, stress_tables};
-use vibrissa::study::sweep::{Answer, Worker, answer};
 use vibrissa::study::{Ending, engine_version};
+use vibrissa::sweep::{Answer, Worker, answer};
 
 use super::program::vibrissa;
 
@@ -63,7 +64,7 @@ fn the_quasi_static_world_bears_every_step() {
 #[test]
 fn times_are_medians_of_the_runs_and_a_count_of_none_is_refused() {
     let file = SCENARIOS[0];
-    let scene = Scene::from_yaml(&Source::new(file.path, file.text)).unwrap();
+    let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
     let source = Source::new(DEFAULT_POLICY.path, DEFAULT_POLICY.text);
     let program = compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap();
     let taken = Timing::take(&scene, &Arc::new(program), WorldKind::QuasiStatic.into(), 0).unwrap();

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::Point2;
+use vibrissa::scenario;
 use vibrissa::scene::Scene;
 
 /// Reads a scenario's text, its files from the folder of the example.
 fn scene(text: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/outlines");
     let files = &mut |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
-    Scene::from_yaml_with(&Source::new("gripper.yaml", text), files).unwrap()
+    scenario::read_with(&Source::new("gripper.yaml", text), files).unwrap()
 }
 
 #[test]
@@ -70,7 +71,7 @@ fn meshes_that_touch_or_overlap_are_one_object() {
                     {outline: {file: handle.stl, unit: 1 mm, height: 10 mm}}, {outline: {file: plug.svg, unit: 1 mm}}]";
     let rest = "start: {position: [-1 m, 72 mm], heading: 90 deg}\nstop: {time: 1 s}";
     let text = format!("name: meshes\nobjects: {objects}\n{rest}\n");
-    let scene = Scene::from_yaml_with(&Source::new("meshes.yaml", text), &mut |path| files(path)).unwrap();
+    let scene = scenario::read_with(&Source::new("meshes.yaml", text), &mut |path| files(path)).unwrap();
     let [whole, disk] = scene.solids.as_slice() else { panic!("{} solids", scene.solids.len()) };
     let outline = whole.outline();
     // Head and handle side by side, what stands out of the plug, and what stands out of that.

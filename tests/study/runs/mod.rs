@@ -6,7 +6,7 @@ use std::time::Duration;
 use vibrissa::geometry::{Point2, Pose, Vector2, unit};
 use vibrissa::run::{Run, TickRecord, Trace};
 use vibrissa::scene::Outcome;
-use vibrissa::signal::{Command, MAX_WHISKERS};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// Time between ticks (s).
 const PERIOD: f64 = 1.0 / 30.0;

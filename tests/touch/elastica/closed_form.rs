@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, rotate};
-use vibrissa::mechanics::Elastica;
+use vibrissa_runtime::mechanics::Elastica;
 
 use crate::elastica::whisker::{any, any_tapered, bent, force_unit, moment_unit, with_ratio};
 

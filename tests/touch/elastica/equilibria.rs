@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector4;
 use proptest::prelude::*;
 use vibrissa::geometry::unit;
-use vibrissa::mechanics::{Bend, Elastica};
-use vibrissa::rig::Whisker;
+use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any_tapered, cut, moment_unit, tip_moment};
 

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa::mechanics::{Bend, Equilibrium, ShaftChain};
-use vibrissa::rig::Whisker;
+use vibrissa_runtime::mechanics::{Bend, Equilibrium, ShaftChain};
+use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any_tapered, bent, with_ratio};
 

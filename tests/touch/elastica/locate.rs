@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, unit};
-use vibrissa::mechanics::{Bend, Elastica, Equilibrium, LocateError, ShaftChain};
-use vibrissa::rig::Whisker;
+use vibrissa_runtime::mechanics::{Bend, Elastica, Equilibrium, LocateError, ShaftChain};
+use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any, any_tapered, cut, tip_moment};
 
@@ -212,7 +212,7 @@ proptest! {
 
 #[test]
 fn without_readings_nothing_touches_and_without_numbers_nothing_is_said() {
-    let elastica = Elastica::new(&vibrissa::rig::Rig::default().whiskers[0]);
+    let elastica = Elastica::new(&vibrissa_runtime::rig::Rig::default().whiskers[0]);
     assert_eq!(locate(&elastica, 0.0, 0.0), Err(LocateError::NoContact));
     for (base_angle, shear) in [(f64::NAN, 1e-3), (1e-4, f64::NAN), (f64::INFINITY, 0.0), (1e-4, f64::NEG_INFINITY)] {
         assert_eq!(locate(&elastica, base_angle, shear), Err(LocateError::NotFinite));
@@ -221,7 +221,7 @@ fn without_readings_nothing_touches_and_without_numbers_nothing_is_said() {
 
 #[test]
 fn readings_that_no_touch_has_are_told_from_those_of_one() {
-    let whisker = vibrissa::rig::Rig::default().whiskers.remove(1);
+    let whisker = vibrissa_runtime::rig::Rig::default().whiskers.remove(1);
     let elastica = Elastica::new(&whisker);
     // A force at the very base bends nothing.
     assert_eq!(locate(&elastica, 0.0, 1e-3), Err(LocateError::NoSolution));
@@ -236,7 +236,7 @@ fn readings_that_no_touch_has_are_told_from_those_of_one() {
 /// What the simulator's chain feels at its base is what an elastica feels that is touched some hundredths of a millimetre off.
 #[test]
 fn the_tip_of_a_chain_is_located_the_better_the_more_links_it_has() {
-    let mut whisker = vibrissa::rig::Rig::default().whiskers.remove(1);
+    let mut whisker = vibrissa_runtime::rig::Rig::default().whiskers.remove(1);
     let elastica = Elastica::new(&whisker);
     for (direction, base_angle) in [(2.88, 1e-4), (2.88, 3e-4), (2.4, 3e-4), (2.0, 1e-4)] {
         let bend = elastica.solve_tip(base_angle, direction, &elastica.straight()).unwrap();

@@ -1,8 +1,8 @@
 //! Whiskers to be bent.
 
 use proptest::prelude::*;
-use vibrissa::mechanics::{Bend, Elastica};
-use vibrissa::rig::{Rig, Whisker};
+use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 /// A whisker whose hinge is `ratio` times as stiff as its shaft, `EI / L`.
 pub(crate) fn with_ratio(length: f64, radius: f64, ratio: f64) -> Whisker {

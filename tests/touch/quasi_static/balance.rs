@@ -5,9 +5,11 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Point2, Pose, Vector2, polygon, unit};
-use vibrissa::rig::{Rig, Whisker};
-use vibrissa::signal::{Command, Reading, Sample};
-use vibrissa::world::{Fault, QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::world::{Fault, World};
+use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::signal::{Command, Reading, Sample};
 
 use super::scene::{START, command, drive, one_whisker, outlines, solids};
 
@@ -121,7 +123,7 @@ proptest! {
         let rig = one_whisker();
         let (name, outline) = outlines().swap_remove(which);
         let outlines = [outline];
-        let mut world = QuasiStaticWorld::new(&rig, &solids(outlines.clone()), START, 0).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids(outlines.clone()), START, 0).unwrap();
         for (command, ticks) in commands {
             let mut resting = None;
             for command in std::iter::repeat_n(command, ticks).chain(std::iter::repeat_n(Command::STOP, 30)) {
@@ -152,7 +154,7 @@ fn a_whisker_rests_with_its_first_link_on_a_corner() {
     let (along, right) = (unit(base.heading), unit(base.heading - PI / 2.0));
     let at = |ahead: f64, aside: f64| base.position + ahead * along + aside * right;
     let spike = polygon(&[at(3e-3, 1e-3), at(0.06, 0.05), at(0.06, 0.02)]).unwrap();
-    let mut world = QuasiStaticWorld::new(&rig, &solids([spike]), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([spike]), START, 0).unwrap();
     let command = command(5e-3 * right.x, 5e-3 * right.y, 0.0);
     drive(&mut world, &command, 30).unwrap();
     for _ in 0..90 {
@@ -175,7 +177,7 @@ fn a_whisker_that_a_pin_has_bent_comes_to_rest() {
         (0.05683, 0.03978, -0.424, 41),
     ];
     let (_, pin) = outlines().swap_remove(1);
-    let mut world = QuasiStaticWorld::new(&one_whisker(), &solids([pin]), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&one_whisker(), &Physics::default(), &solids([pin]), START, 0).unwrap();
     for (x, y, yaw_rate, ticks) in ways {
         drive(&mut world, &command(x, y, yaw_rate), ticks).unwrap();
         drive(&mut world, &Command::STOP, 30).unwrap();

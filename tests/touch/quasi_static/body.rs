@@ -2,13 +2,15 @@
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Point2, Segment, polygon};
-use vibrissa::rig::Rig;
-use vibrissa::world::{Fault, QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::world::{Fault, World};
+use vibrissa_runtime::rig::Rig;
 
 use super::scene::{START, command, drive, one_whisker, outlines, points, solids};
 
 /// A wall 20 mm before the nose, out of the whiskers' reach.
-fn wall_ahead() -> Vec<vibrissa::scene::Solid> {
+fn wall_ahead() -> Vec<vibrissa::solid::Solid> {
     solids([polygon(&points(&[(0.1, 0.2), (0.1, 0.3), (-0.1, 0.3), (-0.1, 0.2)])).unwrap()])
 }
 
@@ -19,7 +21,7 @@ fn bare() -> Rig {
 
 #[test]
 fn a_body_that_runs_into_a_wall_is_seen_and_stays_there_and_one_that_passes_is_not() {
-    let mut world = QuasiStaticWorld::new(&Rig::default(), &wall_ahead(), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&Rig::default(), &Physics::default(), &wall_ahead(), START, 0).unwrap();
     let touched: Vec<bool> = (0..90)
         .map(|_| {
             world.advance(&command(0.0, 0.02, 0.0)).unwrap();
@@ -31,7 +33,7 @@ fn a_body_that_runs_into_a_wall_is_seen_and_stays_there_and_one_that_passes_is_n
     let nose = drive(&mut world, &command(0.0, 0.02, 0.0), 1).unwrap().body.position.y + 0.108;
     assert!((nose - 0.2).abs() < 1e-6, "{nose}");
 
-    let mut world = QuasiStaticWorld::new(&Rig::default(), &wall_ahead(), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&Rig::default(), &Physics::default(), &wall_ahead(), START, 0).unwrap();
     for _ in 0..60 {
         world.advance(&command(0.0, -0.02, 0.0)).unwrap();
         assert!(!world.body_touches());
@@ -42,9 +44,9 @@ fn a_body_that_runs_into_a_wall_is_seen_and_stays_there_and_one_that_passes_is_n
 fn a_body_that_is_forced_into_a_wall_crashes() {
     let mut rig = Rig::default();
     rig.platform.servo = 1e-3;
-    let mut world = QuasiStaticWorld::new(&rig, &wall_ahead(), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &wall_ahead(), START, 0).unwrap();
     let fault = drive(&mut world, &command(0.0, 1.0, 0.0), 30).unwrap_err();
-    assert!(matches!(fault, Fault::Crash { depth, .. } if depth > rig.physics.penetration_limit), "{fault}");
+    assert!(matches!(fault, Fault::Crash { depth, .. } if depth > Physics::default().penetration_limit), "{fault}");
 }
 
 proptest! {
@@ -57,7 +59,7 @@ proptest! {
     ) {
         let rig = bare();
         let (name, outline) = outlines().swap_remove(which);
-        let mut world = QuasiStaticWorld::new(&rig, &solids([outline.clone()]), START, 0).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([outline.clone()]), START, 0).unwrap();
         for (x, y, yaw, ticks) in commands {
             for _ in 0..ticks {
                 let body = match world.advance(&command(x, y, yaw)) {
@@ -88,7 +90,7 @@ type Way = (f64, f64, f64, usize);
 /// first two links cannot give way.
 fn is_hardly_moved(outline: &Contour, ways: &[Way]) -> Result<(), String> {
     let (rig, tick) = (one_whisker(), 1.0 / 30.0);
-    let mut world = QuasiStaticWorld::new(&rig, &solids([outline.clone()]), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([outline.clone()]), START, 0).unwrap();
     let mut before = START;
     for &(x, y, yaw, ticks) in ways {
         for _ in 0..ticks {

@@ -3,10 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, circle, polygon, unit};
-use vibrissa::mechanics::Elastica;
-use vibrissa::rig::Whisker;
-use vibrissa::signal::Command;
-use vibrissa::world::{QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::world::World;
+use vibrissa_runtime::mechanics::Elastica;
+use vibrissa_runtime::rig::Whisker;
+use vibrissa_runtime::signal::Command;
 
 use super::scene::{START, command, one_whisker, outlines, points, solids};
 
@@ -124,7 +126,7 @@ impl<'s> Penalised<'s> {
 fn both(outlines: &[Contour], way: &[(Command, usize)]) -> Vec<(f64, f64)> {
     let mut rig = one_whisker();
     rig.whiskers[0].hinge.damping = 0.0;
-    let mut world = QuasiStaticWorld::new(&rig, &solids(outlines.to_vec()), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids(outlines.to_vec()), START, 0).unwrap();
     let whisker = &rig.whiskers[0];
     let mut penalised = Penalised::new(whisker, outlines);
     let mut angles = Vec::new();
@@ -181,7 +183,7 @@ fn what_is_touched_is_where_the_exact_elastica_says() {
     rig.whiskers[0].hinge.damping = 0.0;
     let elastica = Elastica::new(&rig.whiskers[0]);
     for (name, outline) in outlines().into_iter().filter(|(name, _)| ["disk", "wall", "pin", "wedge"].contains(name)) {
-        let mut world = QuasiStaticWorld::new(&rig, &solids([outline.clone()]), START, 0).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([outline.clone()]), START, 0).unwrap();
         let (mut guess, mut checked) = (elastica.straight(), 0);
         for tick in 0..65 {
             let sample = *world.advance(&command(0.0, 0.08, 0.0)).unwrap().last().unwrap();

@@ -3,10 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, circle, polygon, rounded_rectangle};
-use vibrissa::rig::Rig;
-use vibrissa::scene::Solid;
-use vibrissa::signal::{Command, Sample};
-use vibrissa::world::{Fault, QuasiStaticWorld, World};
+use vibrissa::quasi_static::QuasiStaticWorld;
+use vibrissa::solid::Solid;
+use vibrissa::world::{Fault, World};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
 
 pub(crate) const START: Pose = Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 };
 

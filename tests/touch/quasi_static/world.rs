@@ -1,19 +1,21 @@
 //! What every world owes a loop.
 
-use vibrissa::rig::Rig;
-use vibrissa::signal::Command;
-use vibrissa::world::{Fault, QuasiStaticError, QuasiStaticWorld, World};
+use vibrissa::physics::Physics;
+use vibrissa::quasi_static::{QuasiStaticError, QuasiStaticWorld};
+use vibrissa::world::{Fault, World};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::Command;
 
 use super::scene::{START, command, drive, one_whisker, outlines, solids};
 
-fn disk() -> Vec<vibrissa::scene::Solid> {
+fn disk() -> Vec<vibrissa::solid::Solid> {
     solids([outlines().swap_remove(0).1])
 }
 
 #[test]
 fn servos_follow_a_command_with_their_time_constant() {
     let rig = Rig::default();
-    let mut world = QuasiStaticWorld::new(&rig, &[], START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &[], START, 0).unwrap();
     let servo = rig.platform.servo;
     for _ in 0..60 {
         for sample in world.advance(&command(0.03, -0.02, 0.5)).unwrap() {
@@ -27,7 +29,7 @@ fn servos_follow_a_command_with_their_time_constant() {
 
 #[test]
 fn a_tick_gives_one_sample_a_sample_period() {
-    let mut world = QuasiStaticWorld::new(&Rig::default(), &[], START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&Rig::default(), &Physics::default(), &[], START, 0).unwrap();
     let mut times = Vec::new();
     for _ in 0..3 {
         times.extend(world.advance(&Command::STOP).unwrap().iter().map(|sample| sample.time));
@@ -43,7 +45,7 @@ fn the_same_seed_gives_the_same_samples_and_another_seed_other_noise() {
     let mut rig = Rig::default();
     (rig.sensing.angle_noise, rig.sensing.angle_resolution) = (1e-6, 2e-7);
     let run = |seed| {
-        let mut world = QuasiStaticWorld::new(&rig, &disk(), START, seed).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &disk(), START, seed).unwrap();
         drive(&mut world, &command(0.01, 0.05, -0.1), 100).unwrap()
     };
     assert_eq!(run(1), run(1));
@@ -57,13 +59,13 @@ fn a_base_angle_is_late_by_the_hinges_time_constant() {
     let reading = |damping: f64, ticks: usize| {
         let mut rig = one_whisker();
         rig.whiskers[0].hinge.damping = damping;
-        let mut world = QuasiStaticWorld::new(&rig, &disk(), START, 0).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &disk(), START, 0).unwrap();
         drive(&mut world, &command(0.0, 0.05, 0.0), ticks).unwrap().whiskers[0].base_angle
     };
     // A third of a tick at a time, the readings with a damper are those without it, earlier by 10 ms: three samples.
     let mut rig = one_whisker();
     rig.whiskers[0].hinge.damping = 0.0;
-    let mut world = QuasiStaticWorld::new(&rig, &disk(), START, 0).unwrap();
+    let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &disk(), START, 0).unwrap();
     let mut free = Vec::new();
     for _ in 0..75 {
         free.extend(
@@ -77,20 +79,20 @@ fn a_base_angle_is_late_by_the_hinges_time_constant() {
 
 #[test]
 fn friction_and_a_start_in_a_solid_are_told_before_a_run() {
-    let mut rig = Rig::default();
-    rig.physics.friction = 0.1;
-    let refused = QuasiStaticWorld::new(&rig, &disk(), START, 0).map(|_| ()).unwrap_err();
+    let physics = Physics { friction: 0.1, ..Physics::default() };
+    let refused = QuasiStaticWorld::new(&Rig::default(), &physics, &disk(), START, 0).map(|_| ()).unwrap_err();
     assert!(refused.to_string().contains("`mujoco`"), "{refused}");
     let mut there = START;
     there.position.x = 0.05;
-    let refused = QuasiStaticWorld::new(&Rig::default(), &disk(), there, 0).map(|_| ()).unwrap_err();
+    let refused =
+        QuasiStaticWorld::new(&Rig::default(), &Physics::default(), &disk(), there, 0).map(|_| ()).unwrap_err();
     assert_eq!(refused, QuasiStaticError::Start { part: "the whisker `r0`".to_owned() });
 }
 
 #[test]
 fn absurd_commands_end_in_a_typed_fault_or_in_numbers() {
     for (x, yaw) in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (1e9, 0.0), (1.0, 1e6), (-3.0, 40.0)] {
-        let mut world = QuasiStaticWorld::new(&one_whisker(), &disk(), START, 0).unwrap();
+        let mut world = QuasiStaticWorld::new(&one_whisker(), &Physics::default(), &disk(), START, 0).unwrap();
         for _ in 0..60 {
             match world.advance(&command(x, 0.05, yaw)) {
                 Ok(samples) => assert!(samples.iter().all(|sample| sample.whiskers[0].base_angle.is_finite())),
@@ -107,13 +109,14 @@ fn absurd_commands_end_in_a_typed_fault_or_in_numbers() {
 fn a_whisker_that_slips_off_a_corner_springs_and_one_that_slides_does_not() {
     let corners = [(0.1, 0.16), (0.2, 0.16), (0.2, 0.21), (0.1, 0.21)];
     let block = solids([vibrissa::geometry::polygon(&super::scene::points(&corners)).unwrap()]);
-    let mut rig = one_whisker();
-    // A whisker that springs wants short steps.
-    (rig.physics.step, rig.physics.contact_time) = (1.0 / 1800.0, 1.25e-3);
-    let ticks_that_spring = |solids: &[vibrissa::scene::Solid]| {
-        let mut worlds: Vec<Box<dyn World>> = vec![Box::new(QuasiStaticWorld::new(&rig, solids, START, 0).unwrap())];
+    let rig = one_whisker();
+    // A whisker that slips off needs short steps.
+    let physics = Physics { step: 1.0 / 1800.0, contact_time: 1.25e-3, ..Physics::default() };
+    let ticks_that_spring = |solids: &[vibrissa::solid::Solid]| {
+        let mut worlds: Vec<Box<dyn World>> =
+            vec![Box::new(QuasiStaticWorld::new(&rig, &physics, solids, START, 0).unwrap())];
         #[cfg(feature = "sim")]
-        worlds.push(Box::new(vibrissa::world::MujocoWorld::pruned(&rig, solids, START, 0).unwrap()));
+        worlds.push(Box::new(vibrissa::mujoco::MujocoWorld::pruned(&rig, &physics, solids, START, 0).unwrap()));
         let count = |world: &mut Box<dyn World>| {
             let ticks = (0..150).filter(|_| {
                 world.advance(&command(0.0, 0.05, 0.0)).unwrap();

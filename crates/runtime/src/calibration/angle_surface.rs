@@ -1,0 +1,157 @@
+//! The base angle as a polynomial in the place of the touch.
+
+use std::f64::consts::{PI, SQRT_2};
+
+use serde::Deserialize;
+
+use super::contact_set::ContactSet;
+use super::least_squares;
+use crate::geometry::Vector2;
+
+/// The order of the polynomial.
+const ORDER: usize = 5;
+/// Its coefficients.
+const COUNT: usize = (ORDER + 1) * (ORDER + 2) / 2;
+/// How much nearer than a mesh is wide a place may be to another to be left out.
+const APART: f64 = 0.25;
+
+/// The base angle that a touch by the tip makes, as a polynomial of order five in its place: `z = f(x, y)`, for a bend to the left.
+///
+/// For a touch by the tip the place says all, since a place has one shape of the shaft. It holds between the places that it was fitted to,
+/// which fill a crescent and not their hull: where a place lies in the hull of those that are within reach of it. A straight way to all of
+/// them leads along a net, whose meshes are no wider than a step from place to place that cannot be avoided; who reaches from corner to
+/// corner of such a mesh, and no farther, leaves no hole between them, and does not go beyond the outermost.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AngleSurface {
+    /// The middle of the places (m, frame of the base), and the distance (m) that is taken for 1.
+    pub centre: [f64; 2],
+    /// See `centre`.
+    pub scale: f64,
+    /// Coefficients (rad) of 1, v, v², …, u, u v, …, u⁵ for the place (u, v) from the centre.
+    pub coefficients: [f64; COUNT],
+    /// Standard deviation of the sets' base angles about it (rad).
+    pub spread: f64,
+    /// How far off (m) the places are that one between them needs: the diagonal of the widest mesh of their net.
+    pub reach: f64,
+    /// The places (m, frame of the base), but for those that are nearer to another than a quarter of a mesh.
+    pub places: Vec<[f64; 2]>,
+}
+
+impl AngleSurface {
+    /// The polynomial that comes nearest to sets of touches by the tip. `None` if they are too few, or all near one line.
+    #[must_use]
+    pub fn fit(sets: &[ContactSet]) -> Option<Self> {
+        let places: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
+        let least = APART * widest_mesh(&places);
+        let mut kept: Vec<Vector2> = Vec::new();
+        for place in &places {
+            if kept.iter().all(|other| (place - other).norm() >= least) {
+                kept.push(*place);
+            }
+        }
+        let reach = SQRT_2 * widest_mesh(&kept);
+        let centre = places.iter().sum::<Vector2>() / places.len() as f64;
+        let scale = places.iter().map(|place| (place - centre).norm()).fold(0.0, f64::max);
+        let places = kept.into_iter().map(Into::into).collect();
+        let mut surface = Self { centre: centre.into(), scale, coefficients: [0.0; COUNT], spread: 0.0, reach, places };
+        let rows: Vec<_> =
+            sets.iter().map(|set| (surface.basis(set.contact_base).map(|term| term[0]), set.base_angle, 1.0)).collect();
+        surface.coefficients = least_squares::fit(&rows)?;
+        let square = |set: &ContactSet| (surface.at(set.contact_base).0 - set.base_angle).powi(2);
+        surface.spread = (sets.iter().map(square).sum::<f64>() / sets.len() as f64).sqrt();
+        Some(surface)
+    }
+
+    /// The base angle (rad) of a touch at a place (m, frame of the base), and its change with the place (rad/m).
+    #[must_use]
+    pub fn at(&self, place: Vector2) -> (f64, Vector2) {
+        let mut sums = [0.0; 3];
+        for (coefficient, term) in self.coefficients.iter().zip(self.basis(place)) {
+            for (sum, part) in sums.iter_mut().zip(term) {
+                *sum += coefficient * part;
+            }
+        }
+        (sums[0], Vector2::new(sums[1], sums[2]) / self.scale)
+    }
+
+    /// Whether it holds at a place (m, frame of the base): between places within reach of it, or as near to one as those that were left out.
+    #[must_use]
+    pub fn contains(&self, place: Vector2) -> bool {
+        let (far, near) = (self.reach.powi(2), (APART / SQRT_2 * self.reach).powi(2));
+        // Seen from the place, how far to the left and to the right of the first the others are: it is in their hull if that is half a
+        // turn together.
+        let mut seen: Option<(Vector2, f64, f64)> = None;
+        for &known in &self.places {
+            let off = Vector2::from(known) - place;
+            let square = off.norm_squared();
+            if square <= near {
+                return true;
+            }
+            if square <= far {
+                let (first, left, right) = seen.get_or_insert((off, 0.0, 0.0));
+                let angle = first.perp(&off).atan2(first.dot(&off));
+                *left = left.max(angle);
+                *right = right.max(-angle);
+                if *left + *right >= PI {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// The terms of the polynomial with their changes by u and v.
+    fn basis(&self, place: Vector2) -> [[f64; 3]; COUNT] {
+        let [u, v] = <[f64; 2]>::from((place - Vector2::from(self.centre)) / self.scale);
+        let powers = |value: f64| {
+            let mut powers = [1.0; ORDER + 1];
+            for index in 1..=ORDER {
+                powers[index] = powers[index - 1] * value;
+            }
+            powers
+        };
+        let (us, vs) = (powers(u), powers(v));
+        // The change of a power.
+        let slope = |powers: &[f64], order: usize| order.checked_sub(1).map_or(0.0, |less| order as f64 * powers[less]);
+        let mut terms = [[0.0; 3]; COUNT];
+        let orders = (0..=ORDER).flat_map(|i| (0..=ORDER - i).map(move |j| (i, j)));
+        for (term, (i, j)) in terms.iter_mut().zip(orders) {
+            *term = [us[i] * vs[j], slope(&us, i) * vs[j], us[i] * slope(&vs, j)];
+        }
+        terms
+    }
+
+    /// Whether it is a surface: finite, and near places that are.
+    pub(super) fn is_sound(&self) -> bool {
+        let numbers = self.coefficients.iter().chain(&self.centre).chain(self.places.iter().flatten());
+        let positive = |number: f64| number.is_finite() && number > 0.0;
+        numbers.clone().all(|number| number.is_finite())
+            && positive(self.scale)
+            && positive(self.reach)
+            && self.spread.is_finite()
+            && self.spread >= 0.0
+            && (1..=ContactSet::MOST).contains(&self.places.len())
+    }
+}
+
+/// The longest step of the net of the shortest ways from place to place that holds all of them together (Prim, Bell System Technical
+/// Journal 36 (1957), 1389).
+fn widest_mesh(places: &[Vector2]) -> f64 {
+    let mut outside: Vec<(Vector2, f64)> = places.iter().map(|place| (*place, f64::INFINITY)).collect();
+    let (mut newest, mut widest) = (outside.pop().map(|(place, _)| place), 0.0_f64);
+    while let Some(place) = newest {
+        let mut nearest = (0, f64::INFINITY);
+        for (index, (other, step)) in outside.iter_mut().enumerate() {
+            *step = step.min((*other - place).norm());
+            if *step < nearest.1 {
+                nearest = (index, *step);
+            }
+        }
+        newest = (!outside.is_empty()).then(|| outside.swap_remove(nearest.0).0);
+        if newest.is_some() {
+            widest = widest.max(nearest.1);
+        }
+    }
+    widest
+}

@@ -1,0 +1,13 @@
+//! Points, vectors, angles and poses in the plane.
+
+mod angle;
+mod pose;
+
+pub use angle::{turn_between, wrap};
+pub use pose::{Pose, perpendicular, rotate, unit};
+
+/// A point in the plane (m).
+pub type Point2 = nalgebra::Point2<f64>;
+
+/// A vector in the plane.
+pub type Vector2 = nalgebra::Vector2<f64>;

@@ -1,0 +1,261 @@
+//! What a machine is doing: its active states, its memory, its times.
+
+use std::sync::Arc;
+
+use super::action::{Action, Flaw};
+use super::evaluate::{compute, evaluate};
+use super::failsafe::{Cause, Failsafe};
+use super::op::Block;
+use super::program::{Guard, Program, Target, Transition, guards};
+use super::senses::Senses;
+use super::tick::{CHAIN_LIMIT, Failure};
+use super::way::Way;
+
+/// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
+pub const TIME_SLACK: f64 = 1e-9;
+
+/// What a machine is doing. The program is the same at every call.
+#[derive(Debug, Clone)]
+pub(super) struct Activity {
+    registers: Vec<f64>,
+    active: Way,
+    has_begun: bool,
+    /// When each state was entered last (s).
+    entered_at: Vec<f64>,
+    /// For every state, which of the states directly in it was active last.
+    last_inner: Vec<Option<usize>>,
+    /// For every guard with a duration, since when its condition has held.
+    holding_since: Vec<Option<f64>>,
+}
+
+impl Activity {
+    /// What a machine does that is about to enter `state`, with `registers` as its memory.
+    pub(super) fn new(program: &Program, state: usize, registers: Vec<f64>) -> Self {
+        Self {
+            registers,
+            active: Way::to(program, state),
+            has_begun: false,
+            entered_at: vec![0.0; program.states.len()],
+            last_inner: vec![None; program.states.len()],
+            holding_since: vec![None; program.timers],
+        }
+    }
+
+    /// Index of the innermost active state.
+    pub(super) fn state(&self) -> usize {
+        self.active.innermost()
+    }
+
+    /// One tick, as [`Machine::tick`](super::Machine::tick) describes it.
+    pub(super) fn tick<S: Senses>(
+        &mut self,
+        program: &Program,
+        senses: &mut S,
+        action: &mut Action,
+    ) -> (Result<(), Failure>, Option<Failsafe>) {
+        let now = senses.time();
+        if !self.has_begun {
+            self.has_begun = true;
+            self.compute(program, &program.start, senses);
+            self.compute(program, &program.entry, senses);
+            self.enter(program, None, (self.state(), false), now, senses);
+        }
+        let mut due = self.due(program, None, now, senses);
+        for taken in 0..=CHAIN_LIMIT {
+            if due.is_none() {
+                due = self.due_within(program, now, senses);
+            }
+            match due.take() {
+                None => {
+                    self.compute(program, &program.body, senses);
+                    return match self.act(program, 0, senses, action) {
+                        Ok(()) => (Ok(()), None),
+                        Err((state, flaw)) => self.leave(program, (state, Cause::NotFinite(flaw)), now, senses, action),
+                    };
+                }
+                Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
+                Some((from, Target::State { state, arguments, resume })) if taken < CHAIN_LIMIT => {
+                    self.take(program, from, (*state, arguments, *resume), now, senses);
+                }
+                Some((_, Target::State { .. })) => {}
+            }
+        }
+        self.leave(program, (self.state(), Cause::Chain), now, senses, action)
+    }
+
+    /// What is due of the active states' transitions, from the outermost state to the innermost.
+    fn due_within<'p, S: Senses>(
+        &mut self,
+        program: &'p Program,
+        now: f64,
+        senses: &mut S,
+    ) -> Option<(Option<usize>, &'p Target)> {
+        (0..self.active.states().len())
+            .find_map(|level| self.due(program, Some(self.active.states()[level]), now, senses))
+    }
+
+    /// Goes to a target of a state's transition, or of one that belongs to none.
+    fn take<S: Senses>(
+        &mut self,
+        program: &Program,
+        from: Option<usize>,
+        (target, arguments, resume): (usize, &Block, bool),
+        now: f64,
+        senses: &mut S,
+    ) {
+        let stays = program.stays(from, target);
+        for left in program.outward(self.state()).take_while(|&left| Some(left) != stays) {
+            self.compute(program, &program.states[left].exit, senses);
+        }
+        self.compute(program, arguments, senses);
+        self.enter(program, stays, (target, resume), now, senses);
+    }
+
+    /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
+    /// was in last, and so on.
+    fn enter<S: Senses>(
+        &mut self,
+        program: &Program,
+        stays: Option<usize>,
+        (target, resume): (usize, bool),
+        now: f64,
+        senses: &mut S,
+    ) {
+        let (way, first) = (Way::to(program, target), stays.map_or(0, |stays| program.outward(stays).count()));
+        for &state in &way.states()[first..] {
+            self.enter_one(program, state, now, senses);
+        }
+        while let Some((initial, arguments)) = &program.states[self.state()].initial {
+            let inner = match self.last_inner[self.state()] {
+                Some(last) if resume => last,
+                _ => {
+                    self.compute(program, arguments, senses);
+                    *initial
+                }
+            };
+            self.enter_one(program, inner, now, senses);
+        }
+    }
+
+    fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
+        let state = &program.states[index];
+        self.active = Way::to(program, index);
+        self.entered_at[index] = now;
+        if let Some(parent) = state.parent {
+            self.last_inner[parent] = Some(index);
+        }
+        for transition in &state.transitions {
+            if let Guard::When { lasting: Some((_, timer)), .. } = transition.guard {
+                self.holding_since[timer] = None;
+            }
+        }
+        self.compute(program, &state.entry, senses);
+    }
+
+    /// What the active states do, but for the `from` outermost: the last action that one of them gives, or to hold. If it is not
+    /// finite, the state that gave it and the number.
+    fn act<S: Senses>(
+        &mut self,
+        program: &Program,
+        from: usize,
+        senses: &mut S,
+        action: &mut Action,
+    ) -> Result<(), (usize, Flaw)> {
+        *action = Action::Hold;
+        let mut giver = self.state();
+        for &state in &self.active.states()[from..] {
+            if evaluate(&program.code, &program.states[state].body, &mut self.registers, senses, action) {
+                giver = state;
+            }
+        }
+        if action.is_finite() {
+            return Ok(());
+        }
+        action.flaw().map_or(Ok(()), |flaw| Err((giver, flaw)))
+    }
+
+    /// Runs code that gives no action.
+    fn compute<S: Senses>(&mut self, program: &Program, block: &Block, senses: &mut S) {
+        compute(&program.code, block, &mut self.registers, senses);
+    }
+
+    /// Leaves the active state by the failsafe of the state in which the machine cannot go on. The states entered only act:
+    /// whatever they would do next has time until the next tick.
+    fn leave<S: Senses>(
+        &mut self,
+        program: &Program,
+        (stuck, cause): (usize, Cause),
+        now: f64,
+        senses: &mut S,
+        action: &mut Action,
+    ) -> (Result<(), Failure>, Option<Failsafe>) {
+        let went = match program.failsafe_of(stuck) {
+            None => return (Err(cause.failure(&program.states[stuck].name)), None),
+            Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
+            Some((from, Target::State { state, arguments, resume })) => {
+                self.take(program, from, (*state, arguments, *resume), now, senses);
+                let have_acted = match cause {
+                    Cause::NotFinite(_) => {
+                        program.stays(from, *state).map_or(0, |stays| program.outward(stays).count())
+                    }
+                    // Nothing has acted yet.
+                    Cause::Chain => {
+                        self.compute(program, &program.body, senses);
+                        0
+                    }
+                };
+                let acted = self.act(program, have_acted, senses, action);
+                acted.map_err(|(state, flaw)| Cause::NotFinite(flaw).failure(&program.states[state].name))
+            }
+        };
+        (went, Some(Failsafe { left: stuck, cause }))
+    }
+
+    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds. If that has
+    /// led where it leads already, the others wait, but for a failure. Every guard is looked at, so that the timers of the later ones run.
+    fn due<'p, S: Senses>(
+        &mut self,
+        program: &'p Program,
+        from: Option<usize>,
+        now: f64,
+        senses: &mut S,
+    ) -> Option<(Option<usize>, &'p Target)> {
+        let (transitions, since) = match from {
+            None => (&program.always, 0.0),
+            Some(state) => (&program.states[state].transitions, self.entered_at[state]),
+        };
+        self.compute(program, &guards(transitions), senses);
+        let (mut first, mut failure): (Option<&Target>, Option<&Target>) = (None, None);
+        for Transition { guard, target } in transitions {
+            if self.holds(guard, now - since, now) {
+                first = first.or(Some(target));
+                if let Target::Failure(_) = target {
+                    failure = failure.or(Some(target));
+                }
+            }
+        }
+        let target = match first? {
+            Target::State { state, .. } if program.is_settled(from, *state, self.state()) => failure?,
+            target => target,
+        };
+        Some((from, target))
+    }
+
+    /// Whether a guard holds, which has been computed, and whose state has been active for the time `active` (s).
+    #[inline]
+    fn holds(&mut self, guard: &Guard, active: f64, now: f64) -> bool {
+        match *guard {
+            Guard::When { truth, lasting, .. } => {
+                let holds = self.registers[usize::from(truth)] > 0.5;
+                let Some((duration, timer)) = lasting else { return holds };
+                let since = &mut self.holding_since[timer];
+                if !holds {
+                    *since = None;
+                    return false;
+                }
+                now - *since.get_or_insert(now) >= self.registers[usize::from(duration)] - TIME_SLACK
+            }
+            Guard::After { time, .. } => active >= self.registers[usize::from(time)] - TIME_SLACK,
+        }
+    }
+}

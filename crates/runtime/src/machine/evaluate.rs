@@ -1,0 +1,247 @@
+//! The evaluator: runs a block of code over the registers.
+
+use std::cmp::Ordering;
+
+use crate::geometry::{Vector2, rotate, turn_between, unit, wrap};
+
+use super::action::{Action, Mover, Turn};
+use super::op::{Block, Op, Register, Wide};
+use super::senses::Senses;
+use super::stateful;
+
+/// Runs `block` of `code`; says whether it gave an action, which then replaces `action`. Of several, the last one stays.
+///
+/// An action is written where it is to be, because moving one about costs as much as several operations.
+#[expect(clippy::too_many_lines, reason = "one arm an operation")]
+pub(super) fn evaluate<S: Senses>(
+    code: &[Op],
+    block: &Block,
+    registers: &mut [f64],
+    senses: &mut S,
+    action: &mut Action,
+) -> bool {
+    let mut file = File(registers);
+    let mut has_acted = false;
+    // A jump goes on with what lies ahead; taking operations off a slice spares the check of an index for each.
+    let code = &code[..block.end as usize];
+    let mut ahead = code[block.start as usize..].iter();
+    while let Some(&op) = ahead.next() {
+        match op {
+            Op::Copy { to, a } => file.put(to, file.at(a)),
+            Op::CopyVector { to, a } => file.put_vector(to, file.vector(a)),
+            Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
+            Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
+            Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
+            // Not `mul_add`, which rounds once.
+            Op::MultiplyAdd { to, a, b, c } => file.put(to, file.at(a) * file.at(b) + file.at(c)),
+            Op::Divide { to, a, b } => file.put(to, file.at(a) / file.at(b)),
+            Op::Negate { to, a } => file.put(to, -file.at(a)),
+            Op::Absolute { to, a } => file.put(to, file.at(a).abs()),
+            Op::Sign { to, a } => file.put(to, sign(file.at(a))),
+            Op::SquareRoot { to, a } => file.put(to, file.at(a).sqrt()),
+            Op::Minimum { to, a, b } => file.put(to, minimum(file.at(a), file.at(b))),
+            Op::Maximum { to, a, b } => file.put(to, maximum(file.at(a), file.at(b))),
+            Op::Clamp { to, a, low, high } => {
+                file.put(to, minimum(maximum(file.at(a), file.at(low)), file.at(high)));
+            }
+            Op::Sine { to, a } => file.put(to, file.at(a).sin()),
+            Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
+            Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
+            Op::Floor { to, a } => file.put(to, file.at(a).floor()),
+            Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
+            Op::Turn { to, a, b } => file.put(to, turn_between(file.at(a), file.at(b))),
+            Op::Less { to, a, b } => file.put_truth(to, file.at(a) < file.at(b)),
+            Op::LessOrEqual { to, a, b } => file.put_truth(to, file.at(a) <= file.at(b)),
+            #[expect(clippy::float_cmp, reason = "the language's == is exact; it compares truths and whiskers")]
+            Op::Equal { to, a, b } => file.put_truth(to, file.at(a) == file.at(b)),
+            Op::And { to, a, b } => file.put_truth(to, file.truth(a) && file.truth(b)),
+            Op::Or { to, a, b } => file.put_truth(to, file.truth(a) || file.truth(b)),
+            Op::Not { to, a } => file.put_truth(to, !file.truth(a)),
+            Op::AddVectors { to, a, b } => file.put_vector(to, file.vector(a) + file.vector(b)),
+            Op::SubtractVectors { to, a, b } => file.put_vector(to, file.vector(a) - file.vector(b)),
+            Op::NegateVector { to, a } => file.put_vector(to, -file.vector(a)),
+            Op::MultiplyVector { to, a, b } => file.put_vector(to, file.vector(a) * file.at(b)),
+            Op::DivideVector { to, a, b } => file.put_vector(to, file.vector(a) / file.at(b)),
+            Op::Blend { to, a, b, share } => {
+                let share = file.at(share);
+                file.put_vector(to, file.vector(a) * (1.0 - share) + file.vector(b) * share);
+            }
+            Op::Distance { to, a, b } => file.put(to, (file.vector(a) - file.vector(b)).norm()),
+            Op::Dot { to, a, b } => {
+                let (a, b) = (file.vector(a), file.vector(b));
+                file.put(to, a.x * b.x + a.y * b.y);
+            }
+            Op::Norm { to, a } => file.put(to, file.vector(a).norm()),
+            Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
+            Op::Angle { to, a } => {
+                let vector = file.vector(a);
+                file.put(to, vector.y.atan2(vector.x));
+            }
+            Op::Direction { to, a } => file.put_vector(to, direction(file.at(a))),
+            Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),
+            Op::Time { to } => file.put(to, senses.time()),
+            Op::Body { to, quantity } => file.put(to, senses.body(quantity)),
+            Op::BodyPosition { to } => file.put_vector(to, senses.body_position()),
+            Op::Whisker { to, whisker, quantity } => file.put(to, senses.whisker(file.index(whisker), quantity)),
+            Op::WhiskerSize { to, whisker, quantity } => {
+                file.put(to, senses.whisker(file.index(whisker), quantity).abs());
+            }
+            Op::WhiskerVector { to, whisker, quantity } => {
+                file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
+            }
+            Op::TipAt { to, whisker, a } => file.put_vector(to, senses.tip_at(file.index(whisker), file.at(a))),
+            Op::ContourAt { to, whisker, a, quantity } => {
+                file.put_vector(to, senses.contour_at(file.index(whisker), file.at(a), quantity));
+            }
+            Op::LowPass { to, a, b, memory } => {
+                let filtered = stateful::low_pass(file.memory(memory), senses.time(), file.at(a), file.at(b));
+                let value = file.keep(memory, filtered);
+                file.put(to, value);
+            }
+            Op::Pid { to, a, gains, memory } => {
+                let gains = [0, 1, 2, 3].map(|gain| file.at(gains + gain));
+                let output = stateful::pid(file.memory(memory), senses.time(), file.at(a), gains);
+                let value = file.keep(memory, output);
+                file.put(to, value);
+            }
+            Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
+            Op::JumpUnless { a, target } => {
+                if !file.truth(a) {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessLess { a, b, target } => {
+                // Of what is not a number nothing is less, and it is less than nothing.
+                let is_less = file.at(a) < file.at(b);
+                if !is_less {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::JumpUnlessBoth { a, b, target } => {
+                if !(file.truth(a) && file.truth(b)) {
+                    ahead = code[target as usize..].iter();
+                }
+            }
+            Op::Jump { target } => ahead = code[target as usize..].iter(),
+            Op::Record { whisker } => senses.record(file.index(whisker)),
+            Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
+            Op::SteerBodyFacing { along, speed, heading } => {
+                *action = file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading)));
+                has_acted = true;
+            }
+            Op::SteerBodyTurning { along, speed, rate } => {
+                *action = file.steer(Mover::Body, along, speed, Turn::Rate(file.at(rate)));
+                has_acted = true;
+            }
+            Op::SteerWhiskerFacing { whisker, along, speed, heading } => {
+                let mover = Mover::Whisker(file.index(whisker));
+                *action = file.steer(mover, along, speed, Turn::Facing(file.at(heading)));
+                has_acted = true;
+            }
+            Op::SteerWhiskerTurning { whisker, along, speed, rate } => {
+                let mover = Mover::Whisker(file.index(whisker));
+                *action = file.steer(mover, along, speed, Turn::Rate(file.at(rate)));
+                has_acted = true;
+            }
+            Op::Hold => {
+                *action = Action::Hold;
+                has_acted = true;
+            }
+            Op::Stop => {
+                *action = Action::Stop;
+                has_acted = true;
+            }
+        }
+    }
+    has_acted
+}
+
+/// Runs code that only computes.
+pub fn compute<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) {
+    evaluate(code, block, registers, senses, &mut Action::Hold);
+}
+
+/// The registers, read and written as what the code takes them for.
+struct File<'a>(&'a mut [f64]);
+
+impl File<'_> {
+    fn at(&self, register: Register) -> f64 {
+        self.0[usize::from(register)]
+    }
+
+    fn put(&mut self, register: Register, value: f64) {
+        self.0[usize::from(register)] = value;
+    }
+
+    fn memory<const N: usize>(&self, register: Register) -> [f64; N] {
+        let start = usize::from(register);
+        std::array::from_fn(|offset| self.0[start + offset])
+    }
+
+    /// Writes a stateful operation's memory back, and gives its value.
+    fn keep<const N: usize>(&mut self, register: Register, (memory, value): ([f64; N], f64)) -> f64 {
+        let start = usize::from(register);
+        self.0[start..start + N].copy_from_slice(&memory);
+        value
+    }
+
+    fn truth(&self, register: Register) -> bool {
+        self.at(register) > 0.5
+    }
+
+    fn put_truth(&mut self, register: Register, truth: bool) {
+        self.put(register, f64::from(u8::from(truth)));
+    }
+
+    fn vector(&self, register: Wide) -> Vector2 {
+        Vector2::new(self.at(register), self.at(register + 1))
+    }
+
+    fn put_vector(&mut self, register: Wide, vector: Vector2) {
+        self.put(register, vector.x);
+        self.put(register + 1, vector.y);
+    }
+
+    /// A whisker's index.
+    fn index(&self, register: Register) -> usize {
+        /// Added to a small whole number, this leaves that number in the lowest bits.
+        const UNIT_IN_LAST_PLACE: f64 = (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
+        // Half of what reading a whisker costs would be a cast, which has a meaning for every number; this is for indices.
+        let [lowest, ..] = (self.at(register) + UNIT_IN_LAST_PLACE).to_le_bytes();
+        usize::from(lowest)
+    }
+
+    fn steer(&self, mover: Mover, along: Wide, speed: Register, turn: Turn) -> Action {
+        Action::Steer { mover, along_world: self.vector(along), speed: self.at(speed), turn }
+    }
+}
+
+/// The lesser of two numbers, and of equal ones the second (a zero has a sign); not a number if either is not, so that a bad
+/// sample is never hidden.
+fn minimum(a: f64, b: f64) -> f64 {
+    match a.partial_cmp(&b) {
+        Some(Ordering::Less) => a,
+        Some(_) => b,
+        None => f64::NAN,
+    }
+}
+
+/// The greater of two numbers, and of equal ones the second; not a number if either is not.
+fn maximum(a: f64, b: f64) -> f64 {
+    match a.partial_cmp(&b) {
+        Some(Ordering::Greater) => a,
+        Some(_) => b,
+        None => f64::NAN,
+    }
+}
+
+/// The unit vector in the direction of an angle. By itself, so that sine and cosine stay one call: among the other operations
+/// the compiler would share the call of each with theirs.
+#[inline(never)]
+fn direction(angle: f64) -> Vector2 {
+    unit(angle)
+}
+
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}

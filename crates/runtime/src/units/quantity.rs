@@ -1,0 +1,174 @@
+//! A number with its unit.
+
+use super::unit::{Unit, UnitError, parse_unit};
+use super::{Dimension, format_si};
+use std::fmt;
+use std::ops::Range;
+use thiserror::Error;
+
+/// A number with its unit, as written, and its value in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity {
+    /// The value in SI units and radians; always finite.
+    pub value_si: f64,
+    /// What it measures.
+    pub dimension: Dimension,
+    /// The unit it is written in; `None` for a plain number.
+    pub unit: Option<Unit>,
+}
+
+impl fmt::Display for Quantity {
+    /// Writes the quantity in a convenient unit, as [`format_si`] does.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&format_si(self.value_si, self.dimension))
+    }
+}
+
+/// Why a text is not a quantity. Ranges are byte ranges of the text that was given.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum QuantityError {
+    /// The text does not begin with a number.
+    #[error("a quantity begins with a number")]
+    Number {
+        /// The part that is no number.
+        range: Range<usize>,
+    },
+    /// The number or its value in SI units is too large to hold.
+    #[error("the number is too large")]
+    TooLarge {
+        /// The number.
+        range: Range<usize>,
+    },
+    /// The number is fine, its unit is not.
+    #[error(transparent)]
+    Unit(#[from] UnitError),
+}
+
+impl QuantityError {
+    /// The byte range of the fault.
+    #[must_use]
+    pub fn range(&self) -> Range<usize> {
+        match self {
+            Self::Number { range } | Self::TooLarge { range } => range.clone(),
+            Self::Unit(error) => error.range(),
+        }
+    }
+
+    /// What to write instead.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Number { .. } => "write a number and its unit, such as 50 mm".to_owned(),
+            Self::TooLarge { .. } => "write a finite number, such as 50 mm".to_owned(),
+            Self::Unit(error) => error.hint(),
+        }
+    }
+}
+
+/// Reads a quantity: a decimal number and, for all but plain numbers, a [unit](parse_unit). A space between the two is
+/// usual and not required.
+///
+/// # Errors
+/// [`QuantityError`], with the place of the fault.
+///
+/// ```
+/// use vibrissa_runtime::units::{Dimension, parse_quantity};
+/// let width = parse_quantity("50 mm").unwrap();
+/// assert_eq!((width.value_si, width.dimension), (0.05, Dimension::LENGTH));
+/// ```
+pub fn parse_quantity(text: &str) -> Result<Quantity, QuantityError> {
+    let start = text.len() - text.trim_start().len();
+    let end = start + number_length(&text[start..]);
+    let behind = text[end..].trim_start();
+    let unit_start = text.len() - behind.len();
+    let Ok(value) = text[start..end].parse::<f64>() else {
+        return Err(QuantityError::Number { range: start..text.trim_end().len().max(start) });
+    };
+    let unit = if behind.is_empty() {
+        None
+    } else {
+        Some(parse_unit(behind.trim_end()).map_err(|error| error.shifted(unit_start))?)
+    };
+    let value_si = unit.map_or(value, |unit| unit.to_si(value));
+    if !value_si.is_finite() {
+        return Err(QuantityError::TooLarge { range: start..end });
+    }
+    Ok(Quantity { value_si, dimension: unit.map_or(Dimension::NUMBER, Unit::dimension), unit })
+}
+
+/// Bytes of the decimal number that the text begins with. An `e` belongs to it only with digits behind.
+fn number_length(text: &str) -> usize {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let sign = |from: usize| usize::from(text[from..].starts_with(['+', '-']));
+    let mut end = sign(0);
+    end += digits(end);
+    if text[end..].starts_with('.') {
+        end += 1 + digits(end + 1);
+    }
+    if text[end..].starts_with(['e', 'E']) {
+        let exponent = end + 1 + sign(end + 1);
+        match digits(exponent) {
+            0 => {}
+            count => end = exponent + count,
+        }
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use proptest::prelude::*;
+
+    fn value(text: &str) -> f64 {
+        parse_quantity(text).unwrap().value_si
+    }
+
+    #[test]
+    #[allow(clippy::float_cmp, reason = "the conversion is to be exact")]
+    fn a_value_is_the_nearest_to_the_decimal_that_was_written() {
+        assert_eq!(value("72 mm"), 0.072);
+        assert_eq!(value("-20 urad"), -2e-5);
+        assert_eq!(value("100 GPa"), 1e11);
+        assert_eq!(value("95%"), 0.95);
+        assert_eq!(value("1.5e-1 kHz"), 150.0);
+        assert_eq!(value("105 deg"), 105_f64.to_radians());
+        assert_eq!(value("7"), 7.0);
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_with_its_place() {
+        assert_eq!(parse_quantity(" wide "), Err(QuantityError::Number { range: 1..5 }));
+        assert_eq!(parse_quantity("nan mm"), Err(QuantityError::Number { range: 0..6 }));
+        assert_eq!(parse_quantity(""), Err(QuantityError::Number { range: 0..0 }));
+    }
+
+    #[test]
+    fn an_infinite_number_is_refused() {
+        assert_eq!(parse_quantity("1e999 mm"), Err(QuantityError::TooLarge { range: 0..5 }));
+        assert_eq!(parse_quantity("1e300 GPa"), Err(QuantityError::TooLarge { range: 0..5 }));
+    }
+
+    #[test]
+    fn the_fault_of_a_unit_is_placed_within_the_whole_text() {
+        assert_eq!(parse_quantity("50 mm/sec").unwrap_err().range(), 6..9);
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_panics_and_every_error_lies_within_it(text in "[ .e0-9a-z+-]{0,12}|\\PC{0,12}") {
+            if let Err(error) = parse_quantity(&text) {
+                prop_assert!(text.get(error.range()).is_some(), "{error:?}");
+            }
+        }
+
+        #[test]
+        fn a_formatted_value_reads_back(value in -1e4_f64..1e4, unit in prop::sample::select(&["mm", "deg", "ms", "N m/rad"])) {
+            let quantity = parse_quantity(&format!("{value} {unit}")).unwrap();
+            let back = parse_quantity(&quantity.to_string()).unwrap();
+            prop_assert_eq!(back.dimension, quantity.dimension);
+            prop_assert!((back.value_si - quantity.value_si).abs() <= 1e-5 * quantity.value_si.abs());
+        }
+    }
+}

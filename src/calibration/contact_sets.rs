@@ -1,0 +1,103 @@
+//! Files of contact sets, as comma-separated values.
+
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+use vibrissa_runtime::calibration::ContactSet;
+
+use crate::geometry::Vector2;
+
+/// Why sets cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {reason}")]
+pub struct SetsError {
+    line: u64,
+    reason: String,
+}
+
+/// The columns of a file of sets: those that must be there, and those that may.
+const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
+const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
+/// How far from the base a place may be (mm), and the greatest base angle (µrad): no hinge turns by more than half a turn.
+const FARTHEST: f64 = 1e4;
+const GREATEST_ANGLE: f64 = 1e6 * PI;
+/// The greatest direction (degrees), either way.
+const FULL_TURN: f64 = 360.0;
+
+/// Reads sets from a text of comma-separated values: a header with the names of columns, in any order, and a set a line.
+/// There must be `x_mm`, `y_mm` and `base_angle_urad`, and may be `normal_deg` and `contact`, which is `tip` or `shaft`.
+///
+/// # Errors
+/// [`SetsError`] with the first line that cannot be used.
+pub fn read_sets(bytes: &[u8]) -> Result<Vec<ContactSet>, SetsError> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
+    let refusal = |error: &csv::Error| SetsError {
+        line: error.position().map_or(1, csv::Position::line),
+        reason: "every line must be UTF-8 text with as many values as the header has names".to_owned(),
+    };
+    let header = reader.headers().map_err(|error| refusal(&error))?.clone();
+    let known = |name: &str| NEEDED.contains(&name) || OPTIONAL.contains(&name);
+    let at_top = |reason| SetsError { line: 1, reason };
+    if let Some(name) = header.iter().find(|name| !known(name)) {
+        let names = NEEDED.iter().chain(&OPTIONAL).copied().collect::<Vec<_>>().join(", ");
+        return Err(at_top(format!("there is no column `{name}`; columns are {names}")));
+    }
+    if let Some(name) = NEEDED.iter().find(|name| !header.iter().any(|found| found == **name)) {
+        return Err(at_top(format!("the column `{name}` is missing")));
+    }
+    let mut seen = BTreeSet::new();
+    if let Some(name) = header.iter().find(|name| !seen.insert(*name)) {
+        return Err(at_top(format!("the column `{name}` is there twice; take one out")));
+    }
+    let column = |name: &str| header.iter().position(|found| found == name);
+    let mut sets = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| refusal(&error))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        if sets.len() == ContactSet::MOST {
+            return Err(SetsError {
+                line,
+                reason: format!("there are more than {} sets; leave some out", ContactSet::MOST),
+            });
+        }
+        sets.push(read(&record, &column).map_err(|reason| SetsError { line, reason })?);
+    }
+    Ok(sets)
+}
+
+fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Result<ContactSet, String> {
+    let field = |name: &str| column(name).and_then(|index| record.get(index)).unwrap_or_default().to_owned();
+    let number = |name: &str, most: f64| {
+        let number: Option<f64> = field(name).parse().ok().filter(|number: &f64| number.abs() <= most);
+        number
+            .ok_or_else(|| format!("`{name}` must be a number from -{most:.0} to {most:.0}, and is `{}`", field(name)))
+    };
+    let normal = match field("normal_deg").as_str() {
+        "" => None,
+        _ => Some(number("normal_deg", FULL_TURN)?.to_radians()),
+    };
+    let on_shaft = match field("contact").as_str() {
+        "" | "tip" => false,
+        "shaft" => true,
+        other => return Err(format!("`contact` must be `tip` or `shaft`, and is `{other}`")),
+    };
+    let contact_base = Vector2::new(number("x_mm", FARTHEST)?, number("y_mm", FARTHEST)?) * 1e-3;
+    let base_angle = number("base_angle_urad", GREATEST_ANGLE)? * 1e-6;
+    Ok(ContactSet { contact_base, base_angle, normal, on_shaft })
+}
+
+/// Sets as such a text.
+#[must_use]
+pub fn write_sets(sets: &[ContactSet]) -> String {
+    let mut text = String::from("x_mm,y_mm,base_angle_urad,normal_deg,contact\n");
+    for ContactSet { contact_base, base_angle, normal, on_shaft } in sets {
+        let (x, y, angle) = (1e3 * contact_base.x, 1e3 * contact_base.y, 1e6 * base_angle);
+        let normal = normal.map_or_else(String::new, |normal| format!("{:.3}", normal.to_degrees()));
+        let contact = if *on_shaft { "shaft" } else { "tip" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{x:.4},{y:.4},{angle:.4},{normal},{contact}");
+    }
+    text
+}

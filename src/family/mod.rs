@@ -1,0 +1,51 @@
+//! Families of scenes, drawn by chance: geometry that nobody tuned a policy for.
+//!
+//! A draw is the text of a scenario, read as any other, so that what is drawn is checked, can be printed and can be run by
+//! itself. It depends on nothing but the family's name, the seed and its number.
+
+mod concave_corner;
+mod convex_corner;
+mod dice;
+mod draw;
+mod layout;
+mod outline;
+mod place;
+mod polygon;
+mod run;
+mod smooth_curve;
+mod table;
+mod tally;
+mod thin_wall;
+mod tunnel_mouth;
+mod two_objects;
+mod zigzag_tunnel;
+
+pub use draw::{Draw, NoDraw, SPEEDS};
+pub use run::FamilyRun;
+pub use table::families_table;
+pub use tally::FamilyTally;
+
+use dice::Dice;
+use layout::Layout;
+
+/// Scenes of one kind.
+#[derive(Debug, Clone, Copy)]
+pub struct Family {
+    /// Its name: letters and `-`.
+    pub name: &'static str,
+    /// What its scenes are like.
+    pub about: &'static str,
+    lay: fn(&mut Dice) -> Layout,
+}
+
+/// All families.
+pub const FAMILIES: [Family; 8] = [
+    convex_corner::FAMILY,
+    concave_corner::FAMILY,
+    smooth_curve::FAMILY,
+    polygon::FAMILY,
+    thin_wall::FAMILY,
+    two_objects::FAMILY,
+    zigzag_tunnel::FAMILY,
+    tunnel_mouth::FAMILY,
+];

@@ -1,0 +1,359 @@
+//! The MuJoCo model of a rig before solids, as MJCF.
+//!
+//! The platform is one body on two slides and a hinge, driven by velocity servos. Every whisker is a chain of rigid links on
+//! planar hinges whose springs stand for the shaft's bending stiffness. The springs follow the trapezoid rule: `EI / l`
+//! between two links of length `l`, and twice that at the root, where only half a link bends; sixteen links then come within
+//! 0.1 % of the elastica's base moment. Where the wire tapers, each link is as thick as it is in its middle.
+//!
+//! A cable is laid out as MuJoCo's composite of that name: its first link is clamped to the base, the others are on ball joints,
+//! and MuJoCo's plugin for cables takes the place of the springs.
+
+use std::fmt::{self, Write};
+
+use crate::geometry::{Point2, Pose, Vector2};
+use crate::physics::{Physics, ShaftModel, Solver, link_inertia};
+use vibrissa_runtime::rig::{Platform, Rig, Whisker};
+
+use super::contacts::{Contacts, hold};
+use super::prune::Scope;
+use crate::solid::{Part, Solid};
+
+/// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
+const HALF_HEIGHT: f64 = 0.01;
+/// How far (m) the corner of a prism that is farthest from the middle lies lower than that would be. In one plane, hundreds of corners
+/// would make the search for faces slow, and after it the one for the corner that is farthest in a direction.
+const DOME: f64 = 1e-3;
+
+/// Mass (kg) and moment of inertia (kg m²) of a whisker's base. The suspension's inertia is the hinge's armature; the body only needs
+/// enough to be a body.
+const BASE_MASS: f64 = 1e-6;
+const BASE_INERTIA: f64 = 1e-9;
+
+/// The name of MuJoCo's plugin for cables.
+const CABLE: &str = "mujoco.elasticity.cable";
+
+/// Young's modulus over the shear modulus, for a Poisson's ratio of 0.3. Nothing twists in the plane, whatever this is.
+const YOUNG_OVER_SHEAR: f64 = 2.6;
+
+/// Writes the MuJoCo model of `rig` at `start` before `solids`.
+///
+/// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
+/// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
+/// the shaft, of which a cable has no joint `w.0`, but an instance `w` of the plugin; the geom `object`, or where the solids have
+/// several convex parts the geoms `object/0`, `object/1`, …; the keyframe `start`.
+#[must_use]
+pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> String {
+    mjcf_within(rig, physics, solids, start, &Scope::whole(rig, solids))
+}
+
+/// The same, with what `scope` says alone. A rigid whisker is one body, without joints and geoms; the other names stay as they are.
+#[must_use]
+pub fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, scope: &Scope) -> String {
+    let parts = named_parts(solids, scope);
+    let mut xml = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_model(&mut xml, rig, physics, &parts, start, scope);
+    xml
+}
+
+/// The parts of solids that are there, ascending, and what the model calls their geoms.
+fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
+    let all = solids.iter().flat_map(Solid::parts).count();
+    let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
+    let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
+    parts.map(|(index, part)| (name(index), part)).collect()
+}
+
+/// The names in the model of the geoms of the parts that `scope` has, ascending by the parts' indices.
+pub fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
+    named_parts(solids, scope).into_iter().map(|(name, _)| name)
+}
+
+fn write_model(
+    xml: &mut String,
+    rig: &Rig,
+    physics: &Physics,
+    parts: &[(String, &Part)],
+    start: Pose,
+    scope: &Scope,
+) -> fmt::Result {
+    writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
+    writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false" usethread="false"/>"#)?;
+    // A handful of contacts: conjugate gradients reach the same solution as Newton's method, to a millionth, and need not
+    // factor a matrix of all joints for it. The dual solver would be faster still, but delays the servos by a step. With a
+    // pyramid for the friction cone a tip that slides at a small coefficient chatters; with the exact cone it does not.
+    writeln!(
+        xml,
+        r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 0" jacobian="dense">"#,
+        physics.step,
+        physics.integrator.name(),
+        physics.solver.name(),
+        hold(physics),
+        tolerance(physics)
+    )?;
+    // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
+    writeln!(xml, r#"    <flag island="disable"/>"#)?;
+    writeln!(xml, r"  </option>")?;
+    if physics.shafts == ShaftModel::Cable {
+        write_extension(xml, rig, scope)?;
+    }
+    let contacts = Contacts::with(parts.len(), physics, scope);
+    contacts.write_defaults(xml, physics)?;
+    write_assets(xml, &rig.platform, parts)?;
+    writeln!(xml, r"  <worldbody>")?;
+    for (name, part) in parts {
+        write_part(xml, name, part, contacts)?;
+    }
+    write_platform(xml, rig, physics, contacts, scope)?;
+    writeln!(xml, r"  </worldbody>")?;
+    if !parts.is_empty() {
+        contacts.write_pairs(xml, rig, physics, scope, parts)?;
+    }
+    write_actuators(xml, &rig.platform)?;
+    if rig.sensing.forces {
+        writeln!(xml, r"  <sensor>")?;
+        for whisker in &rig.whiskers {
+            writeln!(xml, r#"    <force name="{0}" site="{0}"/>"#, whisker.name)?;
+        }
+        writeln!(xml, r"  </sensor>")?;
+    }
+    write_start(xml, rig, physics, start, scope)?;
+    writeln!(xml, r"</mujoco>")
+}
+
+fn write_extension(xml: &mut String, rig: &Rig, scope: &Scope) -> fmt::Result {
+    writeln!(xml, "  <extension>\n    <plugin plugin=\"{CABLE}\">")?;
+    for (_, whisker) in scope.flexible(rig) {
+        let young = whisker.shaft.young_modulus;
+        writeln!(xml, r#"      <instance name="{}">"#, whisker.name)?;
+        for (key, value) in [("twist", young / YOUNG_OVER_SHEAR), ("bend", young)] {
+            writeln!(xml, r#"        <config key="{key}" value="{value}"/>"#)?;
+        }
+        writeln!(xml, "      </instance>")?;
+    }
+    writeln!(xml, "    </plugin>\n  </extension>")
+}
+
+/// The attribute of the engine's options that ends the projected solver's search. A tip that is handed over from one part of a wall to the
+/// next touches both, and at the engine's own 1e-8 that takes some 70 rounds, for a force that hardly changes any more.
+fn tolerance(physics: &Physics) -> &'static str {
+    if physics.solver == Solver::ProjectedGaussSeidel { r#" tolerance="1e-6""# } else { "" }
+}
+
+fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]) -> fmt::Result {
+    writeln!(xml, r"  <asset>")?;
+    write_prism(xml, "platform", &platform.outline_body())?;
+    for (name, part) in parts {
+        if let Part::Prism { outline } = part {
+            write_prism(xml, name, outline)?;
+        }
+    }
+    writeln!(xml, r"  </asset>")
+}
+
+/// Writes an upright prism whose ends are domes.
+fn write_prism(xml: &mut String, name: &str, outline: &[Point2]) -> fmt::Result {
+    let sum = outline.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords);
+    let middle = Point2::from(sum / outline.len() as f64);
+    // Points of a circle, lowered by the square of their distance, would lie in one plane again.
+    let from_middle =
+        |corner: &Point2| (corner - middle).dot(&Vector2::new(corner.x - middle.x, 2.0 * (corner.y - middle.y)));
+    let farthest = outline.iter().map(from_middle).fold(f64::MIN_POSITIVE, f64::max);
+    write!(xml, r#"    <mesh name="{name}" vertex=""#)?;
+    for corner in outline {
+        let (x, y, top) = (corner.x, corner.y, HALF_HEIGHT - DOME * from_middle(corner) / farthest);
+        write!(xml, "{x} {y} {} {x} {y} {top} ", -top)?;
+    }
+    writeln!(xml, r#""/>"#)
+}
+
+fn write_part(xml: &mut String, name: &str, part: &Part, contacts: Contacts) -> fmt::Result {
+    let mask = contacts.of_part();
+    match part {
+        Part::Cylinder { centre, radius } => writeln!(
+            xml,
+            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" {mask}/>"#,
+            centre.x, centre.y
+        ),
+        Part::Prism { .. } => writeln!(xml, r#"    <geom name="{name}" type="mesh" mesh="{name}" {mask}/>"#),
+    }
+}
+
+fn write_platform(xml: &mut String, rig: &Rig, physics: &Physics, contacts: Contacts, scope: &Scope) -> fmt::Result {
+    let Platform { mass, inertia, .. } = rig.platform;
+    writeln!(xml, r#"    <body name="platform/body">"#)?;
+    writeln!(xml, r#"      <inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/x" type="slide" axis="1 0 0"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/y" type="slide" axis="0 1 0"/>"#)?;
+    writeln!(xml, r#"      <joint name="platform/yaw" type="hinge" axis="0 0 1"/>"#)?;
+    let mask = contacts.of_rig();
+    writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" {mask}/>"#)?;
+    for (index, whisker) in rig.whiskers.iter().enumerate() {
+        // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
+        writeln!(
+            xml,
+            r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
+            whisker.base_body.x, whisker.base_body.y, whisker.direction_body
+        )?;
+        if scope.is_rigid(index) {
+            write_rigid(xml, whisker)?;
+        } else {
+            write_whisker(xml, whisker, physics.shafts, mask)?;
+        }
+    }
+    writeln!(xml, r"    </body>")
+}
+
+/// Writes a whisker that neither bends nor touches: its mass alone, where it is while the whisker is straight.
+fn write_rigid(xml: &mut String, whisker: &Whisker) -> fmt::Result {
+    let shaft = &whisker.shaft;
+    let links = || (0..shaft.links).map(|link| (shaft.link_mass(link), (link as f64 + 0.5) * shaft.link_length()));
+    let mass = BASE_MASS + links().map(|(mass, _)| mass).sum::<f64>();
+    let centre = links().map(|(mass, along)| mass * along).sum::<f64>() / mass;
+    let of_links =
+        links().enumerate().map(|(link, (mass, along))| link_inertia(shaft, link) + mass * (along - centre).powi(2));
+    let inertia = BASE_INERTIA + BASE_MASS * centre * centre + of_links.sum::<f64>();
+    writeln!(
+        xml,
+        r#"        <inertial pos="{centre} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#
+    )?;
+    writeln!(xml, r#"        <site name="{}"/>"#, whisker.name)?;
+    writeln!(xml, "      </body>")
+}
+
+fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &str) -> fmt::Result {
+    let (name, shaft, hinge) = (&whisker.name, &whisker.shaft, &whisker.hinge);
+    let length = shaft.link_length();
+    writeln!(
+        xml,
+        r#"        <inertial pos="0 0 0" mass="{BASE_MASS:e}" diaginertia="{BASE_INERTIA:e} {BASE_INERTIA:e} {BASE_INERTIA:e}"/>"#
+    )?;
+    writeln!(
+        xml,
+        r#"        <joint name="{name}" type="hinge" axis="0 0 1" stiffness="{}" damping="{}" armature="{}"/>"#,
+        hinge.stiffness, hinge.damping, hinge.armature
+    )?;
+    writeln!(xml, r#"        <site name="{name}"/>"#)?;
+    for (link, stiffness) in shaft.joint_stiffnesses().enumerate() {
+        let at = if link == 0 { 0.0 } else { length };
+        let (mass, inertia) = (shaft.link_mass(link), link_inertia(shaft, link));
+        writeln!(
+            xml,
+            r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
+            length / 2.0
+        )?;
+        let damping = stiffness * shaft.damping;
+        match model {
+            ShaftModel::Chain => writeln!(
+                xml,
+                r#"          <joint name="{name}.{link}" type="hinge" axis="0 0 1" stiffness="{stiffness}" damping="{damping}"/>"#
+            )?,
+            ShaftModel::Cable => {
+                if link > 0 {
+                    let armature = hinge.armature;
+                    writeln!(
+                        xml,
+                        r#"          <joint name="{name}.{link}" type="ball" damping="{damping}" armature="{armature}"/>"#
+                    )?;
+                }
+                writeln!(xml, r#"          <plugin instance="{name}"/>"#)?;
+            }
+        }
+        writeln!(
+            xml,
+            r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" {mask}/>"#,
+            shaft.link_radius(link)
+        )?;
+    }
+    writeln!(xml, "      {}</body>", "</body>".repeat(shaft.links))
+}
+
+fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
+    writeln!(xml, r"  <actuator>")?;
+    for (joint, inertia) in
+        [("platform/x", platform.mass), ("platform/y", platform.mass), ("platform/yaw", platform.inertia)]
+    {
+        // A velocity servo of gain k on an inertia J follows with the time constant J / k.
+        writeln!(xml, r#"    <velocity name="{joint}" joint="{joint}" kv="{}"/>"#, inertia / platform.servo)?;
+    }
+    writeln!(xml, r"  </actuator>")
+}
+
+fn write_start(xml: &mut String, rig: &Rig, physics: &Physics, start: Pose, scope: &Scope) -> fmt::Result {
+    let straight = scope.flexible(rig).map(|(_, whisker)| match (physics.shafts, whisker.shaft.links) {
+        (ShaftModel::Chain, links) => " 0".repeat(1 + links),
+        (ShaftModel::Cable, links) => format!(" 0{}", " 1 0 0 0".repeat(links.saturating_sub(1))),
+    });
+    writeln!(
+        xml,
+        "  <keyframe>\n    <key name=\"start\" qpos=\"{} {} {}{}\"/>\n  </keyframe>",
+        start.position.x,
+        start.position.y,
+        start.heading,
+        straight.collect::<String>()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::physics::LEAST_INERTIA;
+
+    /// The values of an attribute, in the order of the model.
+    fn values<'x>(xml: &'x str, attribute: &str) -> Vec<&'x str> {
+        let opening = format!(" {attribute}=\"");
+        xml.split(&opening).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
+    }
+
+    #[test]
+    fn no_name_of_a_whisker_can_be_taken_already() {
+        let mut rig = Rig::default();
+        for (whisker, name) in rig.whiskers.iter_mut().zip(["world", "object"]) {
+            name.clone_into(&mut whisker.name);
+        }
+        rig.sensing.forces = true;
+        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+        for element in ["<body", "<joint", "<geom", "<site", "<force", "<velocity"] {
+            let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
+            let mut names = values(&tags, "name");
+            if element == "<body" {
+                names.push("world");
+            }
+            let count = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), count, "{element}: {names:?}");
+        }
+    }
+
+    #[test]
+    fn a_tapered_whisker_gets_thinner_lighter_and_softer_from_link_to_link() {
+        let mut rig = Rig::default();
+        rig.whiskers.truncate(1);
+        rig.whiskers[0].shaft.tip_radius = Some(0.025e-3);
+        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+        for (element, attribute) in
+            [("<geom name=\"r0.", "size"), ("<inertial pos=\"0.003", "mass"), ("<joint name=\"r0.", "stiffness")]
+        {
+            let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
+            let values: Vec<f64> = values(&tags, attribute).iter().map(|value| value.parse().unwrap()).collect();
+            assert_eq!(values.len(), 16, "{element}");
+            assert!(values.windows(2).all(|pair| pair[1] < pair[0]), "{element}: {values:?}");
+        }
+    }
+
+    #[test]
+    fn every_inertia_of_a_thin_wire_is_one_that_the_engine_takes() {
+        for (radius, links) in [(0.06e-3, 16), (0.075e-3, 64), (0.02e-3, 64)] {
+            let mut rig = Rig::default();
+            (rig.whiskers[0].shaft.radius, rig.whiskers[0].shaft.links) = (radius, links);
+            let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+            for inertias in values(&xml, "diaginertia") {
+                let moments: Vec<f64> = inertias.split(' ').map(|moment| moment.parse().unwrap()).collect();
+                let [x, y, z] = moments[..] else { panic!("three moments, found {inertias}") };
+                assert!(x.min(y).min(z) >= LEAST_INERTIA && x + y >= z && y + z >= x && z + x >= y, "{inertias}");
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! The simulator MuJoCo: its model of a scene, the pruning of the model, and the world.
+//!
+//! The model and the pruning need no library. The world is behind the feature `sim`.
+
+mod contacts;
+#[cfg(feature = "sim")]
+mod engine;
+#[cfg(feature = "sim")]
+mod library;
+#[cfg(feature = "sim")]
+mod lookout;
+#[cfg(feature = "sim")]
+mod messages;
+mod mjcf;
+#[cfg(feature = "sim")]
+mod plugin;
+mod prune;
+#[cfg(feature = "sim")]
+mod pruner;
+#[cfg(feature = "sim")]
+mod world;
+
+#[cfg(feature = "sim")]
+pub use library::LibraryError;
+#[cfg(feature = "sim")]
+pub use messages::engine_version;
+pub use mjcf::{mjcf, mjcf_within, part_names};
+#[cfg(feature = "sim")]
+pub use plugin::PluginError;
+pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
+#[cfg(feature = "sim")]
+pub use world::{MujocoError, MujocoWorld};

@@ -1,0 +1,183 @@
+//! What is left out of a run, and why.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::geometry::{Pose, unit};
+use crate::physics::Physics;
+use crate::scene::WorldKind;
+use crate::solid::Solid;
+use vibrissa_runtime::rig::{Rig, Whisker};
+
+use super::reach::{Reach, may_be_rigid};
+
+/// What becomes of something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It is left out, and the run is the same without it.
+    LeftOut,
+    /// It stays.
+    Kept,
+    /// A setting of the physics makes it less, and the run a little different.
+    Setting,
+}
+
+/// A decision about a part of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Decision {
+    /// What becomes of it.
+    pub verdict: Verdict,
+    /// What it is about.
+    pub subject: String,
+    /// What it saves; nothing where something stays.
+    pub saves: Option<String>,
+    /// Why it is safe, or why it stays.
+    pub why: String,
+}
+
+/// What is left out of a run and what stays, decided from the scenario and what the policy reads.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Pruning {
+    /// The decisions.
+    pub decisions: Vec<Decision>,
+}
+
+impl Pruning {
+    /// The decisions about a rig that starts at `start` before `solids` in a world, under a policy that binds the whiskers with these
+    /// names. Counts are those at the start.
+    #[must_use]
+    pub fn new(
+        rig: &Rig,
+        physics: &Physics,
+        solids: &[Solid],
+        start: Pose,
+        bound: &[String],
+        world: WorldKind,
+    ) -> Self {
+        let mut decisions = Vec::new();
+        match world {
+            WorldKind::Mujoco => in_mujoco(&mut decisions, rig, physics, solids, start),
+            WorldKind::QuasiStatic => decisions.push(Decision {
+                verdict: Verdict::LeftOut,
+                subject: "pieces of outlines that no whisker is near".to_owned(),
+                saves: Some("a tree of their boxes is asked for those that are near".to_owned()),
+                why: "a link touches only what is as near as it is long".to_owned(),
+            }),
+        }
+        whiskers(&mut decisions, rig, bound);
+        Self { decisions }
+    }
+}
+
+fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) {
+    let reach = Reach::new(rig, solids);
+    let parts = solids.iter().flat_map(Solid::parts).count();
+    let near = if reach.is_windowed() { reach.parts_about(start.position).len() } else { parts };
+    if reach.is_windowed() {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: "parts of solids out of reach".to_owned(),
+            saves: Some(format!("{} of {parts} geoms at the start", parts - near)),
+            why: "the rig cannot get to them before the model is built anew with what is then near".to_owned(),
+        });
+    } else {
+        decisions.push(Decision {
+            verdict: Verdict::Kept,
+            subject: format!("all parts of solids, of which there are {parts}"),
+            saves: None,
+            why: "they are so few that building models with fewer of them would take longer".to_owned(),
+        });
+    }
+    let links: usize = rig.whiskers.iter().map(|whisker| whisker.shaft.links).sum();
+    let touchable: usize = rig.whiskers.iter().map(|whisker| near_straight(&reach, whisker, &start)).sum();
+    decisions.push(Decision {
+        verdict: Verdict::LeftOut,
+        subject: "contacts of links and parts that are not near each other".to_owned(),
+        saves: Some(format!("{} of {} pairs at the start", links * near - touchable, links * near)),
+        why: "what is near is looked up anew before anything of the rig has gone 2 mm; by then nothing else can touch"
+            .to_owned(),
+    });
+    if !rig.sensing.forces {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: "forces at the bases of whiskers".to_owned(),
+            saves: Some(format!("{} sensors, and a pass of the dynamics in every sample", rig.whiskers.len())),
+            why: "the rig does not sense them".to_owned(),
+        });
+    }
+    if physics.rigid_in_air {
+        let is_rigid = |whisker: &&_| may_be_rigid(whisker, reach.clearance(whisker, &start), 0.0, false);
+        let freedom = |whisker: &Whisker| 1 + physics.shafts.degrees_of_freedom(whisker.shaft.links);
+        let joints: usize = rig.whiskers.iter().filter(is_rigid).map(freedom).sum();
+        let all = 3 + rig.whiskers.iter().map(freedom).sum::<usize>();
+        decisions.push(Decision {
+            verdict: Verdict::Setting,
+            subject: "`rigid_in_air`: whiskers that hang at rest in the air do not bend".to_owned(),
+            saves: Some(format!("{joints} of {all} degrees of freedom at the start")),
+            why: "they read less than a hundredth of the contact threshold; but the last digits of the platform's way change, and \
+                  policies make more of that where they decide"
+                .to_owned(),
+        });
+    }
+    let steps = (1.0 / (rig.sensing.sample_rate * physics.step)).round().max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
+    let together = physics.steps_in_calm(steps as usize);
+    if together > 1 {
+        decisions.push(Decision {
+            verdict: Verdict::Setting,
+            subject: "`calm_step`: short steps while no whisker moves fast".to_owned(),
+            saves: Some(format!("{} of {together} steps", together - 1)),
+            why: "what slides needs no more; a long step after which something is fast is done again in short ones"
+                .to_owned(),
+        });
+    }
+}
+
+/// How many pairs of a link and a part are near each other while a whisker is straight.
+fn near_straight(reach: &Reach, whisker: &Whisker, body: &Pose) -> usize {
+    let (base, direction) = (body.point_to_world(whisker.base_body), body.heading + whisker.direction_body);
+    let start = |link: usize| base + link as f64 * whisker.shaft.link_length() * unit(direction);
+    reach.near_links(whisker, (0..whisker.shaft.links).map(|link| (start(link), direction)), 0.0).count()
+}
+
+fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {
+    for whisker in rig.whiskers.iter().filter(|whisker| !bound.contains(&whisker.name)) {
+        decisions.push(Decision {
+            verdict: Verdict::LeftOut,
+            subject: format!("perception of `{}`", whisker.name),
+            saves: Some("its filter, its tip model and its contour, in every tick".to_owned()),
+            why: "the policy does not bind it".to_owned(),
+        });
+        decisions.push(Decision {
+            verdict: Verdict::Kept,
+            subject: format!("the whisker `{}`", whisker.name),
+            saves: None,
+            why: "the policy does not bind it, but what it touches pushes the platform, and a contact that is too deep ends the run"
+                .to_owned(),
+        });
+    }
+}
+
+impl fmt::Display for Pruning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, Decision { verdict, subject, saves, why }) in self.decisions.iter().enumerate() {
+            let verdict = match verdict {
+                Verdict::LeftOut => "left out",
+                Verdict::Kept => "kept",
+                Verdict::Setting => "setting",
+            };
+            let line = if index > 0 { "\n" } else { "" };
+            write!(f, "{line}{verdict:<10}{subject}")?;
+            if let Some(saves) = saves {
+                write!(f, "\n          saves: {saves}")?;
+            }
+            write!(f, "\n          why: {why}")?;
+        }
+        Ok(())
+    }
+}

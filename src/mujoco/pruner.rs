@@ -1,0 +1,134 @@
+//! Keeping the model to what is in reach.
+
+use super::{Reach, Scope, is_gentle, may_be_rigid};
+use crate::geometry::{Point2, Pose};
+use crate::physics::Physics;
+use crate::solid::Solid;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::Command;
+
+use super::engine::Engine;
+use super::lookout::Lookout;
+use super::world::MujocoError;
+
+/// A whisker in the air is at rest when its hinge reads less than this share of the contact threshold,
+const REST: f64 = 0.01;
+/// and nothing of it moves faster than this (m/s) against its base: as fast as such a reading's ringing is.
+const REST_SPEED: f64 = 2e-3;
+/// How much farther than by its velocities a platform may go in a tick, as a share, and besides (m).
+const TRAVEL: (f64, f64) = (0.5, 1e-3);
+/// What keeps the model to what is in reach.
+pub(super) struct Pruner {
+    /// For how many pairs of what may touch a model has room at first, where parts and contacts out of reach are left out; else it is
+    /// only a matter of rigid whiskers.
+    room: Option<usize>,
+    reach: Reach,
+    solids: Vec<Solid>,
+    physics: Physics,
+    /// The middle of the window in which the parts of the model are all that can be reached.
+    window: Option<Point2>,
+    /// Other models of the same parts and with the same room, with other whiskers rigid.
+    others: Vec<Engine>,
+    lookout: Lookout,
+}
+
+impl Pruner {
+    pub(super) fn new(rig: &Rig, physics: &Physics, solids: &[Solid], room: Option<usize>) -> Self {
+        Self {
+            room,
+            reach: Reach::new(rig, solids),
+            solids: solids.to_vec(),
+            physics: physics.clone(),
+            window: None,
+            others: Vec::new(),
+            lookout: Lookout::default(),
+        }
+    }
+
+    /// The model to begin with.
+    pub(super) fn first(&mut self, rig: &Rig, start: Pose) -> Result<Engine, MujocoError> {
+        let mut scope = Scope::whole(rig, &self.solids);
+        for (index, whisker) in rig.whiskers.iter().enumerate() {
+            let is_rigid =
+                self.physics.rigid_in_air && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
+            scope = scope.with_rigid(index, is_rigid);
+        }
+        if let Some(room) = self.room {
+            scope = scope.with_room(room);
+            if self.reach.is_windowed() {
+                scope = scope.with_parts(self.reach.parts_about(start.position));
+                self.window = Some(start.position);
+            }
+        }
+        Engine::new(rig, &self.physics, &self.solids, start, scope)
+    }
+
+    /// Makes the model fit for the next tick under `command`.
+    pub(super) fn fit(&mut self, rig: &Rig, engine: &mut Engine, command: &Command) -> Result<(), MujocoError> {
+        let body = engine.body();
+        let (velocity, yaw_rate) = engine.body_velocity();
+        let period = rig.sensing.control_rate.recip();
+        let speed = velocity.norm().max(command.velocity_world.norm());
+        let turning = yaw_rate.abs().max(command.yaw_rate.abs());
+        let travel = |radius: f64| (1.0 + TRAVEL.0) * period * (speed + radius * turning) + TRAVEL.1;
+        let mut scope = engine.scope.clone();
+        for (index, whisker) in rig.whiskers.iter().enumerate() {
+            let travel = travel(whisker.base_body.coords.norm());
+            let clearance = self.reach.clearance(whisker, &body);
+            let is_rigid = engine.scope.is_rigid(index);
+            let stays = self.physics.rigid_in_air
+                && may_be_rigid(whisker, clearance, travel, is_rigid)
+                && is_gentle(rig, whisker, command, velocity, yaw_rate)
+                && (is_rigid || is_at_rest(rig, engine, index));
+            scope = scope.with_rigid(index, stays);
+        }
+        if let Some(centre) = self.window
+            && !self.reach.is_within(body.position, centre, travel(0.0))
+        {
+            let centre = self.reach.window_ahead(body.position, command.velocity_world);
+            self.window = Some(centre);
+            scope = scope.with_parts(self.reach.parts_about(centre));
+        }
+        if scope != engine.scope {
+            self.replace(rig, engine, scope)?;
+        }
+        Ok(())
+    }
+
+    /// Lets the engine look for contacts of what is near where it is now, and of nothing else.
+    pub(super) fn look(&mut self, rig: &Rig, engine: &mut Engine) -> Result<(), MujocoError> {
+        let Some(room) = engine.scope.room() else { return Ok(()) };
+        let Some(pairs) = self.lookout.changed(rig, &self.reach, engine) else { return Ok(()) };
+        if pairs.len() <= room {
+            engine.look_for(pairs);
+            return Ok(());
+        }
+        let scope = engine.scope.clone().with_room(2 * pairs.len());
+        self.replace(rig, engine, scope)?;
+        self.look(rig, engine)
+    }
+
+    fn replace(&mut self, rig: &Rig, engine: &mut Engine, scope: Scope) -> Result<(), MujocoError> {
+        self.lookout.forget();
+        if !scope.is_like(&engine.scope) {
+            self.others.clear();
+        }
+        let known = self.others.iter().position(|other| other.scope == scope);
+        let mut next = match known {
+            Some(index) => self.others.swap_remove(index),
+            None => Engine::new(rig, &self.physics, &self.solids, engine.body(), scope)?,
+        };
+        next.resume(engine);
+        let last = std::mem::replace(engine, next);
+        if last.scope.is_like(&engine.scope) {
+            self.others.push(last);
+        }
+        Ok(())
+    }
+}
+
+/// Whether a whisker hangs in the air as still as if it were rigid.
+fn is_at_rest(rig: &Rig, engine: &Engine, whisker: usize) -> bool {
+    let reading = engine.angles(whisker).next().map_or(0.0, f64::abs);
+    reading < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
+}

@@ -1,0 +1,306 @@
+//! A rig before solids, simulated by MuJoCo.
+
+use crate::geometry::{Point2, Pose, unit};
+use crate::physics::{Physics, ShaftModel};
+use crate::solid::Solid;
+use crate::world::{Fault, SPRINGING, World};
+use crate::world::{Sensors, whole};
+use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::signal::{Command, Sample};
+
+use super::engine::Engine;
+use super::library::LibraryError;
+use super::messages::{WARNINGS, prepare_engine};
+use super::plugin::{PluginError, load_cable_plugin};
+use super::pruner::Pruner;
+
+/// For how many pairs of what may touch a pruned model has room at first.
+const ROOM: usize = 64;
+
+/// Why a MuJoCo world could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum MujocoError {
+    /// MuJoCo refused the generated model.
+    #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
+    Model(String),
+    /// The cables of the rig need a plugin, which cannot be had.
+    #[error(transparent)]
+    Plugin(#[from] PluginError),
+    /// MuJoCo's library cannot be used.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
+}
+
+/// A rig before solids, simulated by MuJoCo.
+///
+/// The same rig, solids, start, seed and commands give the same samples, bit for bit.
+pub struct MujocoWorld {
+    engine: Engine,
+    pruner: Pruner,
+    rig: Rig,
+    physics: Physics,
+    steps_per_sample: usize,
+    /// How many steps are taken in one while all whiskers are calm.
+    steps_in_calm: usize,
+    samples_per_tick: usize,
+    samples: Vec<Sample>,
+    steps_done: u64,
+    sensors: Sensors,
+    body_touched: bool,
+    /// Of every whisker, whether it sprang since the last tick.
+    sprung: Vec<bool>,
+}
+
+impl MujocoWorld {
+    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise. All parts and links are
+    /// there all the time.
+    ///
+    /// # Errors
+    /// [`MujocoError`] when MuJoCo refuses the model.
+    pub fn new(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
+        Self::with(rig, physics, solids, start, seed, None)
+    }
+
+    /// The same, but looks only at parts of solids and links that are in reach.
+    ///
+    /// # Errors
+    /// [`MujocoError`] when MuJoCo refuses the model.
+    pub fn pruned(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
+        Self::with(rig, physics, solids, start, seed, Some(ROOM))
+    }
+
+    fn with(
+        rig: &Rig,
+        physics: &Physics,
+        solids: &[Solid],
+        start: Pose,
+        seed: u64,
+        room: Option<usize>,
+    ) -> Result<Self, MujocoError> {
+        prepare_engine()?;
+        if physics.shafts == ShaftModel::Cable {
+            load_cable_plugin()?;
+        }
+        let mut pruner = Pruner::new(rig, physics, solids, room);
+        let engine = pruner.first(rig, start)?;
+        let sensing = &rig.sensing;
+        let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
+        let steps_per_sample = whole(1.0 / (sensing.sample_rate * physics.step));
+        Ok(Self {
+            engine,
+            pruner,
+            steps_per_sample,
+            steps_in_calm: physics.steps_in_calm(steps_per_sample),
+            samples_per_tick,
+            samples: Vec::with_capacity(samples_per_tick),
+            steps_done: 0,
+            sensors: Sensors::new(sensing, seed),
+            body_touched: false,
+            sprung: vec![false; rig.whiskers.len()],
+            rig: rig.clone(),
+            physics: physics.clone(),
+        })
+    }
+
+    /// Where a whisker (by its index in the rig) is touched, as the simulation has it: the place (m, world frame), half as deep as the
+    /// contact, and the length of the shaft from the base to there (m). Of several contacts it is the deepest. No sensor reports
+    /// this: it is for who measures with a ruler, never for policies.
+    #[must_use]
+    pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
+        let shaft = &self.rig.whiskers[whisker].shaft;
+        let (place, link) = self.engine.deepest(whisker, shaft.links)?;
+        let (start, direction) = self.engine.links(&self.rig, whisker).nth(link)?;
+        let along = (place - start).dot(&unit(direction)).clamp(0.0, shaft.link_length());
+        Some((place, link as f64 * shaft.link_length() + along))
+    }
+
+    /// The energy (J) in the springs and in the motion of platform and whiskers. No sensor reports this: it is for tests of the simulation.
+    ///
+    /// # Errors
+    /// [`Fault::Model`] when MuJoCo refuses a model with room for more contacts.
+    pub fn energy(&mut self) -> Result<f64, Fault> {
+        self.refresh()?;
+        Ok(self.engine.energy())
+    }
+
+    fn time(&self) -> f64 {
+        self.steps_done as f64 * self.physics.step
+    }
+
+    /// Takes so many steps in one.
+    fn step(&mut self, steps: usize) -> Result<(), Fault> {
+        self.engine.step(steps as f64 * self.physics.step);
+        self.steps_done += steps as u64;
+        // First: after a silent reset, contacts are those of another place.
+        self.engine.warning().map_or(Ok(()), |cause| self.diverged(cause))?;
+        for (depth, is_body) in self.engine.contacts() {
+            let (time, limit) = (self.time(), self.physics.penetration_limit);
+            self.body_touched |= is_body && depth >= 0.0;
+            if depth > limit {
+                return Err(if is_body {
+                    Fault::Crash { time, depth }
+                } else {
+                    Fault::Penetration { time, depth, limit }
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether no whisker moves fast, and the body touches nothing. A calm whisker goes a third of a millimetre in a step of 3.3 ms.
+    fn is_calm(&self) -> bool {
+        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_springing(whisker))
+    }
+
+    fn is_springing(&self, whisker: usize) -> bool {
+        self.engine.speed(&self.rig, whisker) >= SPRINGING
+    }
+
+    fn diverged(&self, cause: &'static str) -> Result<(), Fault> {
+        Err(Fault::Diverged { time: self.time(), cause })
+    }
+
+    /// Lets the time of a sample pass.
+    fn pass(&mut self) -> Result<(), Fault> {
+        let mut done = 0;
+        while done < self.steps_per_sample {
+            if self.steps_in_calm == 1 || !self.passes_calmly()? {
+                for _ in 0..self.steps_in_calm {
+                    self.pruner.look(&self.rig, &mut self.engine)?;
+                    self.step(1)?;
+                    for whisker in 0..self.sprung.len() {
+                        self.sprung[whisker] |= self.is_springing(whisker);
+                    }
+                }
+            }
+            done += self.steps_in_calm;
+        }
+        Ok(())
+    }
+
+    /// Takes several steps in one, unless a whisker is not calm before or after. What springs off an edge is at metres a second, and on
+    /// the next surface, within a millisecond or two: so it is what comes out that tells.
+    fn passes_calmly(&mut self) -> Result<bool, Fault> {
+        if !self.is_calm() {
+            return Ok(false);
+        }
+        self.pruner.look(&self.rig, &mut self.engine)?;
+        self.engine.keep();
+        self.step(self.steps_in_calm)?;
+        let is_calm = self.is_calm();
+        if !is_calm {
+            self.engine.back();
+            self.steps_done -= self.steps_in_calm as u64;
+        }
+        Ok(is_calm)
+    }
+
+    /// Refreshes the engine, which looks for contacts where the last step has led: of what is near there, however far that is.
+    fn refresh(&mut self) -> Result<(), Fault> {
+        self.pruner.look(&self.rig, &mut self.engine)?;
+        self.engine.refresh();
+        Ok(())
+    }
+
+    fn sample(&mut self) -> Result<Sample, Fault> {
+        if self.rig.sensing.forces {
+            self.refresh()?;
+        }
+        let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
+        for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
+            reading.base_angle = self.sensors.read(self.engine.angles(index).next().unwrap_or(0.0));
+            if self.rig.sensing.forces {
+                let (axial, shear) = self.engine.base_forces(index);
+                (reading.axial, reading.shear) =
+                    (Some(self.sensors.read_force(axial)), Some(self.sensors.read_force(shear)));
+            }
+        }
+        Ok(sample)
+    }
+}
+
+impl World for MujocoWorld {
+    fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
+        self.pruner.fit(&self.rig, &mut self.engine, command)?;
+        self.engine.command(command.velocity_world, command.yaw_rate);
+        self.body_touched = false;
+        self.sprung.fill(false);
+        self.samples.clear();
+        for _ in 0..self.samples_per_tick {
+            self.pass()?;
+            let sample = self.sample()?;
+            self.samples.push(sample);
+        }
+        if !self.engine.is_finite() {
+            self.diverged(WARNINGS[3])?;
+        }
+        Ok(&self.samples)
+    }
+
+    fn body_touches(&self) -> bool {
+        self.body_touched
+    }
+
+    fn springs(&self, whisker: usize) -> bool {
+        self.sprung[whisker]
+    }
+
+    fn tip(&self, whisker: usize) -> Point2 {
+        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
+        let body = self.engine.body();
+        let rigid = (body.point_to_world(*base_body), body.heading + direction_body);
+        let last = self.engine.links(&self.rig, whisker).last();
+        last.map_or_else(
+            || rigid.0 + shaft.length * unit(rigid.1),
+            |(start, direction)| start + shaft.link_length() * unit(direction),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::geometry::{Vector2, circle, polygon};
+
+    /// The platform's right whisker is drawn along a disk and plucked over the teeth of a comb behind it, and back; at that it springs from
+    /// tooth to tooth.
+    #[test]
+    fn models_that_are_replaced_within_a_tick_for_more_room_change_no_bit() {
+        let tooth =
+            |y: f64| polygon(&[(0.11, y), (0.3, y), (0.3, y + 2e-3), (0.11, y + 2e-3)].map(|(x, y)| Point2::new(x, y)));
+        let outlines = std::iter::once(circle(Point2::new(0.2, 0.15), 0.1));
+        let outlines = outlines.chain((0..10).map(|index| tooth(0.3 + 0.012 * f64::from(index))));
+        let solids: Vec<_> = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap()).collect();
+        let start = Pose { position: Point2::new(0.0, 0.0), heading: FRAC_PI_2 };
+        let mut rig = Rig::default();
+        let physics = Physics { penetration_limit: 5e-3, ..Physics::default() };
+        for forces in [false, true] {
+            rig.sensing.forces = forces;
+            let run = |room| {
+                let mut world = MujocoWorld::with(&rig, &physics, &solids, start, 0, room).unwrap();
+                let mut readings = Vec::new();
+                for (ticks, speed) in [(120, 0.12), (60, -0.12)] {
+                    let command = Command { velocity_world: Vector2::new(0.0, speed), yaw_rate: 0.0 };
+                    for _ in 0..ticks {
+                        for sample in world.advance(&command).unwrap() {
+                            let Pose { position, heading } = sample.body;
+                            let whiskers = sample.whiskers.iter();
+                            let forces = |force: Option<f64>| force.unwrap_or_default();
+                            let of_whisker = whiskers.flat_map(|r| [r.base_angle, forces(r.axial), forces(r.shear)]);
+                            readings.extend([position.x, position.y, heading].into_iter().chain(of_whisker));
+                        }
+                    }
+                }
+                (readings.into_iter().map(f64::to_bits).collect::<Vec<_>>(), world.engine.scope.room())
+            };
+            let (whole, _) = run(None);
+            let (grown, room) = run(Some(1));
+            assert!(room > Some(2), "there were never more pairs than room: {room:?}");
+            let first = whole.iter().zip(&grown).position(|(a, b)| a != b);
+            assert!(first.is_none(), "forces: {forces}; number {first:?} of {}", whole.len());
+        }
+    }
+}

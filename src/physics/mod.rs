@@ -1,0 +1,15 @@
+//! The settings of a simulation: integrator, contact solver, steps, and the model of the shafts.
+
+mod inertia;
+mod integrator;
+mod physics;
+mod preset;
+mod shaft_model;
+mod solver;
+
+pub use inertia::{LEAST_INERTIA, link_inertia};
+pub use integrator::Integrator;
+pub use physics::Physics;
+pub use preset::Preset;
+pub use shaft_model::ShaftModel;
+pub use solver::Solver;

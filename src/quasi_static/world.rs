@@ -1,0 +1,171 @@
+//! The quasi-static world.
+
+use crate::geometry::{Point2, Pose, Vector2};
+use crate::physics::Physics;
+use crate::scene::{Overlap, overlap};
+use crate::solid::Solid;
+use crate::world::{Fault, SPRINGING, World};
+use crate::world::{Sensors, whole};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::signal::{Command, Sample};
+
+use super::carriage::Carriage;
+use super::surface::Surfaces;
+use super::whisker::{Follower, Lost};
+
+/// Why a quasi-static world could not be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum QuasiStaticError {
+    /// There is friction.
+    #[error(
+        "the quasi-static world has no friction, and `physics.friction` is {friction}; leave it out, or run in the world `mujoco`"
+    )]
+    Friction {
+        /// The coefficient.
+        friction: f64,
+    },
+    /// The rig stands in something.
+    #[error("{part} is in a solid, or touches it, where the run starts; start elsewhere")]
+    Start {
+        /// The part of the rig that is.
+        part: String,
+    },
+}
+
+/// A rig before solids whose whiskers are in static equilibrium at every sample.
+#[derive(Debug)]
+pub struct QuasiStaticWorld {
+    rig: Rig,
+    penetration_limit: f64,
+    surfaces: Surfaces,
+    carriage: Carriage,
+    whiskers: Vec<Follower>,
+    period: f64,
+    samples_per_tick: usize,
+    samples: Vec<Sample>,
+    samples_done: u64,
+    sensors: Sensors,
+    body_touched: bool,
+    /// Of every whisker, whether it sprang since the last tick.
+    sprung: Vec<bool>,
+}
+
+impl QuasiStaticWorld {
+    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise.
+    ///
+    /// # Errors
+    /// [`QuasiStaticError`] when the rig has what this world has not.
+    pub fn new(
+        rig: &Rig,
+        physics: &Physics,
+        solids: &[Solid],
+        start: Pose,
+        seed: u64,
+    ) -> Result<Self, QuasiStaticError> {
+        let friction = physics.friction;
+        if friction > 0.0 {
+            return Err(QuasiStaticError::Friction { friction });
+        }
+        if let Some(overlap) = solids.iter().find_map(|solid| overlap(rig, &start, solid.outline())) {
+            let part = match overlap {
+                Overlap::Platform => "the platform".to_owned(),
+                Overlap::Whisker(index) => format!("the whisker `{}`", rig.whiskers[index].name),
+            };
+            return Err(QuasiStaticError::Start { part });
+        }
+        let sensing = &rig.sensing;
+        let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
+        let base = |whisker: &vibrissa_runtime::rig::Whisker| Pose {
+            position: start.point_to_world(whisker.base_body),
+            heading: start.heading + whisker.direction_body,
+        };
+        Ok(Self {
+            surfaces: Surfaces::new(solids),
+            carriage: Carriage::at_rest(start, &rig.platform, physics),
+            whiskers: rig.whiskers.iter().map(|whisker| Follower::new(whisker, base(whisker))).collect(),
+            period: sensing.sample_rate.recip(),
+            samples_per_tick,
+            samples: Vec::with_capacity(samples_per_tick),
+            samples_done: 0,
+            sensors: Sensors::new(sensing, seed),
+            body_touched: false,
+            sprung: vec![false; rig.whiskers.len()],
+            rig: rig.clone(),
+            penetration_limit: physics.penetration_limit,
+        })
+    }
+
+    fn time(&self) -> f64 {
+        self.samples_done as f64 * self.period
+    }
+
+    fn step(&mut self, command: &Command) -> Result<(), Fault> {
+        let centre = self.carriage.pose.position;
+        let (mut force, mut moment) = (Vector2::zeros(), 0.0);
+        for whisker in &self.whiskers {
+            force += whisker.force();
+            moment += (whisker.base() - centre).perp(&whisker.force());
+        }
+        let touch = self.carriage.go(command, (force, moment), self.period, &self.surfaces);
+        self.samples_done += 1;
+        let (body, time) = (self.carriage.pose, self.time());
+        if !body.is_finite() {
+            return Err(Fault::Diverged { time, cause: "a command is too large or not a number" });
+        }
+        self.body_touched |= touch.is_some();
+        let limit = self.penetration_limit;
+        if let Some(depth) = touch.filter(|&depth| depth > limit) {
+            return Err(Fault::Crash { time, depth });
+        }
+        let parts = self.rig.whiskers.iter().zip(&mut self.sprung);
+        for (whisker, (part, sprung)) in self.whiskers.iter_mut().zip(parts) {
+            let position: Point2 = body.point_to_world(part.base_body);
+            let base = Pose { position, heading: body.heading + part.direction_body };
+            whisker.follow(base, self.period, &self.surfaces, limit).map_err(|lost| match lost {
+                Lost::Inside(depth) => Fault::Penetration { time, depth, limit },
+                Lost::Restless => Fault::Diverged { time, cause: "a whisker finds no rest; go slower" },
+            })?;
+            *sprung |= whisker.went() > SPRINGING * self.period;
+        }
+        Ok(())
+    }
+
+    fn sample(&mut self) -> Sample {
+        let mut sample = Sample { time: self.time(), body: self.carriage.pose, whiskers: Default::default() };
+        for (whisker, reading) in self.whiskers.iter().zip(&mut sample.whiskers) {
+            reading.base_angle = self.sensors.read(whisker.base_angle());
+            if self.rig.sensing.forces {
+                let force = whisker.force_base();
+                (reading.axial, reading.shear) =
+                    (Some(self.sensors.read_force(force.x)), Some(self.sensors.read_force(force.y)));
+            }
+        }
+        sample
+    }
+}
+
+impl World for QuasiStaticWorld {
+    fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
+        self.body_touched = false;
+        self.sprung.fill(false);
+        self.samples.clear();
+        for _ in 0..self.samples_per_tick {
+            self.step(command)?;
+            let sample = self.sample();
+            self.samples.push(sample);
+        }
+        Ok(&self.samples)
+    }
+
+    fn body_touches(&self) -> bool {
+        self.body_touched
+    }
+
+    fn springs(&self, whisker: usize) -> bool {
+        self.sprung[whisker]
+    }
+
+    fn tip(&self, whisker: usize) -> Point2 {
+        self.whiskers[whisker].tip()
+    }
+}

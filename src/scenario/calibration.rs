@@ -1,0 +1,95 @@
+//! The file of a calibration.
+
+use std::fmt::Write;
+
+use serde::Deserialize;
+use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, UnsoundCalibration};
+
+/// The format that is written and read.
+const FORMAT: u32 = 2;
+
+/// The keys of a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    #[serde(rename = "vibrissa_calibration")]
+    format: u32,
+    about: String,
+    hinge_stiffness: Option<f64>,
+    one_channel: Option<ContactCurve>,
+    recursive: Option<AngleSurface>,
+}
+
+/// The key that files of all formats have.
+#[derive(Deserialize)]
+struct Heading {
+    #[serde(rename = "vibrissa_calibration")]
+    format: u32,
+}
+
+/// Why a calibration cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CalibrationError {
+    /// The text is no calibration.
+    #[error("it is no calibration: {0}")]
+    Syntax(String),
+    /// It is in another format.
+    #[error("it is in format {found}, this program reads format {FORMAT}; calibrate with this program")]
+    Format {
+        /// The format it is in.
+        found: u32,
+    },
+    /// A value cannot be used.
+    #[error(transparent)]
+    Value(#[from] UnsoundCalibration),
+}
+
+/// Reads a calibration from the text of its file.
+///
+/// # Errors
+/// [`CalibrationError`] if the text cannot be read, or a value cannot be used.
+pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
+    let read: Document = match serde_yaml::from_str(text) {
+        Ok(read) => read,
+        // Another format may have keys that are unknown here.
+        Err(error) => match serde_yaml::from_str(text) {
+            Ok(Heading { format: found }) if found != FORMAT => return Err(CalibrationError::Format { found }),
+            _ => return Err(CalibrationError::Syntax(error.to_string())),
+        },
+    };
+    let Document { format, about, hinge_stiffness, one_channel, recursive } = read;
+    if format != FORMAT {
+        return Err(CalibrationError::Format { found: format });
+    }
+    let calibration = Calibration { about, hinge_stiffness, one_channel, recursive };
+    calibration.check()?;
+    Ok(calibration)
+}
+
+/// The text of the file of a calibration.
+#[must_use]
+pub fn write_calibration(calibration: &Calibration) -> String {
+    let mut text = format!(
+        "# A whisker's calibration, in metres, radians and newtons; a rig loads it by `calibration: FILE`.\n\
+         vibrissa_calibration: {}\nabout: {}\n",
+        FORMAT,
+        // What is in quotes in JSON is so in YAML.
+        serde_json::Value::from(calibration.about.as_str())
+    );
+    // Writing to a string cannot fail.
+    if let Some(stiffness) = calibration.hinge_stiffness {
+        let _ = writeln!(text, "hinge_stiffness: {stiffness:?}");
+    }
+    if let Some(ContactCurve { range, x, y, covariance }) = &calibration.one_channel {
+        let _ =
+            write!(text, "one_channel:\n  range: {range:?}\n  x: {x:?}\n  y: {y:?}\n  covariance: {covariance:?}\n");
+    }
+    if let Some(AngleSurface { centre, scale, coefficients, spread, reach, places }) = &calibration.recursive {
+        let _ = write!(
+            text,
+            "recursive:\n  centre: {centre:?}\n  scale: {scale:?}\n  coefficients: {coefficients:?}\n  \
+             spread: {spread:?}\n  reach: {reach:?}\n  places: {places:?}\n"
+        );
+    }
+    text
+}

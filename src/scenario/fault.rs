@@ -1,0 +1,142 @@
+//! What the YAML parser refuses, as diagnostics; and the codes of all faults of scenarios and sweeps.
+
+use super::node::{Node, Placed, span_of};
+use crate::diagnostic::{Diagnostic, Source, Span};
+use serde_yaml::options::{DuplicateKeyPolicy, NonFiniteFloatPolicy};
+use serde_yaml::{Error, Location, MessageFormatter, UserMessageFormatter};
+
+/// The text is no YAML.
+pub(crate) const SYNTAX: &str = "S0001";
+/// There is nothing in the text.
+pub(crate) const EMPTY: &str = "S0002";
+/// A key stands twice in a mapping.
+pub(crate) const DUPLICATE_KEY: &str = "S0003";
+/// The text holds several documents.
+pub(crate) const DOCUMENTS: &str = "S0004";
+/// The text is too large, or its aliases make it so.
+pub(crate) const TOO_LARGE: &str = "S0005";
+/// A key that the format does not know.
+pub(crate) const UNKNOWN_KEY: &str = "S0101";
+/// A key is missing.
+pub(crate) const MISSING_KEY: &str = "S0102";
+/// A value is of the wrong type.
+pub(crate) const TYPE: &str = "S0103";
+/// A word that is none of the possible ones.
+pub(crate) const CHOICE: &str = "S0104";
+/// A number has no unit.
+pub(crate) const BARE_NUMBER: &str = "S0201";
+/// A text is no number with a unit.
+pub(crate) const QUANTITY: &str = "S0202";
+/// A unit that does not exist.
+pub(crate) const UNIT: &str = "S0203";
+/// A unit measures something else than is due.
+pub(crate) const DIMENSION: &str = "S0204";
+/// A number is out of its range.
+pub(crate) const RANGE: &str = "S0301";
+/// A shape that cannot be.
+pub(crate) const SHAPE: &str = "S0302";
+/// Rates and times do not go together.
+pub(crate) const TIMING: &str = "S0303";
+/// The rig starts in the object.
+pub(crate) const OVERLAP: &str = "S0304";
+/// A name that is not fit to be one.
+pub(crate) const NAME: &str = "S0305";
+/// The rig does not hang together.
+pub(crate) const RIG: &str = "S0306";
+/// A file cannot be read.
+pub(crate) const FILE: &str = "S0401";
+/// What a file holds is no outline.
+pub(crate) const OUTLINE: &str = "S0402";
+/// This build cannot read what a file holds.
+pub(crate) const NOT_BUILT: &str = "S0403";
+/// A sweep would do the same run twice.
+pub(crate) const REPEATED: &str = "S0501";
+/// A policy does not take what a sweep gives it.
+pub(crate) const UNFIT: &str = "S0502";
+/// What a sweep varies is settled by something else in it.
+pub(crate) const ENTANGLED: &str = "S0503";
+
+/// A scenario has a few dozen nodes; one that traces a shape has some thousands.
+const MAX_NODES: usize = 50_000;
+const MAX_BYTES: usize = 1 << 20;
+
+/// Parses a text, which is a `what`, into its tree. With a duplicate key the tree holds its first value, and comes with the fault.
+pub(crate) fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
+    if source.text.len() > MAX_BYTES {
+        let message = format!("the {what} is larger than 1 MiB");
+        let fault = Diagnostic::error(TOO_LARGE, message, Span::default(), "of this file");
+        return Err(vec![fault.hint(format!("a {what} is a page of text: is this the right file?"))]);
+    }
+    let parse = |duplicate_keys| {
+        let options = serde_yaml::options! {
+            budget: serde_yaml::budget! { max_nodes: MAX_NODES, max_depth: 32 },
+            duplicate_keys: duplicate_keys,
+            non_finite_float_policy: NonFiniteFloatPolicy::AsString,
+            with_snippet: false,
+        };
+        serde_yaml::from_str_with_options(&source.text, options)
+    };
+    match parse(DuplicateKeyPolicy::Error) {
+        Ok(tree) => Ok((tree, Vec::new())),
+        Err(error) => {
+            let faults = vec![diagnose(source, what, &error)];
+            let is_duplicate = matches!(error, Error::DuplicateMappingKey { .. });
+            let tree = if is_duplicate { parse(DuplicateKeyPolicy::FirstWins).ok() } else { None };
+            tree.map_or(Err(faults.clone()), |tree| Ok((tree, faults)))
+        }
+    }
+}
+
+fn diagnose(source: &Source, what: &str, error: &Error) -> Diagnostic {
+    let span = error.location().map_or(Span::default(), |location| place(source, location));
+    let cause = if let Error::AliasError { error, .. } = error { error } else { error };
+    match cause {
+        Error::DuplicateMappingKey { key, .. } => {
+            let key = key.as_deref().unwrap_or(source.slice(span));
+            Diagnostic::error(DUPLICATE_KEY, format!("`{key}` is there twice"), span, "the second one")
+                .hint("a key or a name stands once in its mapping: take one out, or rename it")
+        }
+        Error::MultipleDocuments { .. } => {
+            let message = format!("a file holds one {what}");
+            Diagnostic::error(DOCUMENTS, message, span, "a second document begins here")
+                .hint("put it into a file of its own, or take the line `---` out")
+        }
+        Error::Budget { .. }
+        | Error::AliasReplayCounterOverflow { .. }
+        | Error::AliasReplayLimitExceeded { .. }
+        | Error::AliasExpansionLimitExceeded { .. }
+        | Error::AliasReplayStackDepthExceeded { .. } => Diagnostic::error(
+            TOO_LARGE,
+            format!("the {what} is too large or too deeply nested"),
+            span,
+            "the limit is passed here",
+        )
+        .hint(format!("a {what} has at most {MAX_NODES} values, those that aliases repeat included")),
+        Error::RecursiveReferencesRequireWeakTypes { .. } => {
+            Diagnostic::error(SYNTAX, "an alias stands inside what it stands for", span, "this goes round for ever")
+                .hint("write the value out")
+        }
+        Error::UnknownAnchor { .. } => {
+            Diagnostic::error(SYNTAX, "an alias stands for nothing", span, "there is no such anchor above")
+                .hint("mark the value that is meant with `&name`, or write it out here")
+        }
+        _ => Diagnostic::error(SYNTAX, "this is not valid YAML", span, UserMessageFormatter.format_message(cause))
+            .hint("look at this line and the one above it: indentation, brackets, quotes, a `:` too many or too few"),
+    }
+}
+
+/// The place of a parser's location, which may know only line and column.
+fn place(source: &Source, location: Location) -> Span {
+    if location.span().byte_offset().is_some() {
+        return span_of(location);
+    }
+    let index = |number: u64| usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
+    let mut lines = source.text.split_inclusive('\n');
+    let line_start: usize = lines.by_ref().take(index(location.line())).map(str::len).sum();
+    let line = lines.next().unwrap_or_default();
+    let (start, length) = line
+        .char_indices()
+        .nth(index(location.column()))
+        .map_or((line.len(), 0), |(start, character)| (start, character.len_utf8()));
+    Span::new(line_start + start, line_start + start + length)
+}

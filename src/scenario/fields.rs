@@ -1,0 +1,97 @@
+//! The keys of one mapping.
+
+use super::fault;
+use super::key::Key;
+use super::node::{Entry, Node, Placed};
+use super::reader::Reader;
+use crate::diagnostic::{Diagnostic, Span};
+use vibrissa_runtime::units::suggest;
+
+/// The keys of one mapping while it is read. Asking for a key makes it known; [`finish`](Self::finish) reports the keys
+/// that nobody asked for and those that somebody needs and that are not there.
+#[must_use = "unknown and missing keys are reported by `finish`"]
+pub(crate) struct Fields<'n> {
+    /// What the mapping describes, with its article.
+    what: &'static str,
+    /// Where the mapping as a whole is pointed at.
+    place: Span,
+    entries: &'n [Entry],
+    known: Vec<&'static str>,
+    missing: Vec<(&'static str, String)>,
+}
+
+impl<'n> Fields<'n> {
+    /// The keys of `node`, which describes `what` (with its article) and belongs to the key at `place`.
+    pub(crate) fn of(reader: &mut Reader<'_>, node: &'n Placed<Node>, what: &'static str, place: Span) -> Option<Self> {
+        let Node::Mapping(entries) = &node.value else {
+            let hint = format!("{what} is written as keys with values, `key: value`, indented below its own key");
+            reader.wrong_type(node, "a mapping", hint);
+            return None;
+        };
+        Some(Self { what, place, entries, known: Vec::new(), missing: Vec::new() })
+    }
+
+    /// The entry of a key, if it is there.
+    pub(crate) fn entry(&mut self, name: &'static str) -> Option<&'n Entry> {
+        self.known.push(name);
+        self.entries.iter().find(|entry| entry.key.value == name)
+    }
+
+    /// The entry of a key that must be there; `example` shows a value of it.
+    pub(crate) fn required(&mut self, name: &'static str, example: &str) -> Option<&'n Entry> {
+        let entry = self.entry(name);
+        if entry.is_none() {
+            self.missing.push((name, format!("{name}: {example}")));
+        }
+        entry
+    }
+
+    /// The number of a key that must be there.
+    pub(crate) fn number(&mut self, reader: &mut Reader<'_>, key: &Key) -> Option<Placed<f64>> {
+        let entry = self.required(key.name, key.example)?;
+        reader.number(&entry.value, key)
+    }
+
+    /// The number of a key that may be left out: puts it into `target`, and gives its place.
+    pub(crate) fn set(&mut self, reader: &mut Reader<'_>, key: &Key, target: &mut f64) -> Option<Span> {
+        let entry = self.entry(key.name)?;
+        let number = reader.number(&entry.value, key)?;
+        *target = number.value;
+        Some(number.span)
+    }
+
+    /// Reports unknown and missing keys.
+    pub(crate) fn finish(mut self, reader: &mut Reader<'_>) {
+        let is_there = |name: &str| self.entries.iter().any(|entry| entry.key.value == name);
+        let absent: Vec<&str> = self.known.iter().copied().filter(|name| !is_there(name)).collect();
+        for Entry { key, .. } in self.entries {
+            if self.known.contains(&key.value.as_str()) {
+                continue;
+            }
+            let message = format!("{} has no key `{}`", self.what, key.value);
+            let mut diagnostic = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, "unknown key");
+            if let Some(meant) = suggest(&key.value, absent.iter().copied()) {
+                diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
+                // Telling that the misspelt key is missing as well would be the same fault twice.
+                self.missing.retain(|(name, _)| *name != meant);
+            }
+            reader.report(diagnostic.hint(format!("the keys are {}", list(&self.known, "and"))));
+        }
+        for (name, example) in self.missing {
+            let message = format!("{} needs `{name}`", self.what);
+            let diagnostic =
+                Diagnostic::error(fault::MISSING_KEY, message, self.place, format!("`{name}` is missing here"));
+            reader.report(diagnostic.hint(format!("add it, such as `{example}`")));
+        }
+    }
+}
+
+/// Words in backticks as a list in a sentence.
+pub(crate) fn list(words: &[impl AsRef<str>], conjunction: &str) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
+    match quoted.split_last() {
+        None => String::new(),
+        Some((only, [])) => only.clone(),
+        Some((last, rest)) => format!("{} {conjunction} {last}", rest.join(", ")),
+    }
+}

@@ -1,0 +1,32 @@
+//! Paths of files.
+
+use std::path::Path;
+
+use super::fault;
+use super::node::{Node, Placed};
+use super::reader::Reader;
+use crate::diagnostic::Diagnostic;
+use crate::scene::FileReference;
+
+/// Reads a path, relative to the text that it stands in. Its last part without the ending is the file's name.
+pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<FileReference> {
+    let path = reader.text(node)?;
+    let Some(name) = Path::new(&path.value).file_stem().and_then(|name| name.to_str()) else {
+        let message = match path.value.as_str() {
+            "" => "the path of a file is empty".to_owned(),
+            other => format!("`{other}` is no path of a file"),
+        };
+        let fault = Diagnostic::error(fault::NAME, message, path.span, "must lead from this file to another");
+        reader.report(fault.hint("for example `../policies/vibrissa.fsm`"));
+        return None;
+    };
+    Some(FileReference { name: name.to_owned(), path: path.value.into(), span: path.span })
+}
+
+/// A file that cannot be read, as an error at the place that names it.
+#[must_use]
+pub fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
+    let message = format!("cannot read `{}`", file.path.display());
+    let fault = Diagnostic::error(fault::FILE, message, file.span, reason);
+    fault.hint("a path leads from the folder of this file to the other")
+}

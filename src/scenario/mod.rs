@@ -1,0 +1,76 @@
+//! The YAML format of a scenario: from text to a checked [`Scene`].
+//!
+//! The parser gives a tree in which every node knows its place; reading walks the tree, and puts what is wrong on a list
+//! instead of stopping at it. Checks that take several values together come last and run on what could be read.
+
+mod budget;
+mod calibration;
+mod change;
+mod expect;
+pub(crate) mod fault;
+mod fields;
+mod file;
+mod key;
+mod node;
+mod number;
+mod object;
+mod objects;
+mod outline;
+mod path;
+mod polar;
+mod reader;
+mod rig;
+mod scene;
+mod start;
+mod stop;
+#[cfg(test)]
+mod tests;
+mod timing;
+mod tunnel;
+mod whisker;
+
+pub use calibration::{CalibrationError, read_calibration, write_calibration};
+pub(crate) use change::{Change, quoted, read as read_changed};
+pub(crate) use fields::Fields;
+pub(crate) use file::reference;
+pub use file::unreadable;
+pub(crate) use node::{Entry, Node, Placed};
+pub(crate) use reader::Reader;
+pub(crate) use scene::{name, root_place};
+
+use crate::diagnostic::{Diagnostic, Source};
+use crate::scene::Scene;
+
+/// Gives the bytes of a file by its path, which is relative to the scenario's, or says why it cannot. It need not read more of
+/// one than tells that there are more than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT).
+pub type Files<'f> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'f;
+
+/// Reads a scenario that needs no other file.
+///
+/// # Errors
+/// Everything that is wrong with it, up to [`FAULT_LIMIT`](crate::diagnostic::FAULT_LIMIT), in the order of the text:
+/// at least one diagnostic, all of them errors. A text that is no YAML is reported alone.
+///
+/// ```
+/// use vibrissa::diagnostic::Source;
+/// use vibrissa::scenario;
+/// let text = "
+/// name: disk
+/// objects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]
+/// start: {position: [0 mm, 72 mm], heading: 90 deg}
+/// stop: {time: 120 s}
+/// ";
+/// let scene = scenario::read(&Source::new("disk.yaml", text)).unwrap();
+/// assert!((scene.truth.reference.length() - 0.6 * std::f64::consts::PI).abs() < 1e-12);
+/// ```
+pub fn read(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
+    read_with(source, &mut |_| Err("there are no files beside this text".to_owned()))
+}
+
+/// Reads a scenario, and the outlines that it refers to from `files`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
+    scene::read(source, files)
+}

@@ -1,0 +1,219 @@
+//! The objects of a scenario together: solid, apart from each other, clear of the rig.
+
+use super::fault;
+use super::node::Placed;
+use super::object::Object;
+use super::reader::Reader;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::{Contour, ContourSet, Pose, Side, Tunnel, TunnelAxis, UnionError, unite};
+use crate::scene::Truth;
+use crate::scene::{Overlap, overlap};
+use crate::solid::{Solid, SolidError};
+use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::units::{Dimension, format_si};
+
+/// The most parts of all solids together: MuJoCo takes some 70 µs to build each.
+const MOST_PARTS: usize = 8192;
+/// The most that the squares of the corners of all parts may be together: those of eight of the largest prisms.
+const MOST_CORNERS: usize = 8 * 2048 * 2048;
+
+/// The solids of a scenario with the places of their objects, none overlapping another; and what there is to be traced.
+pub(super) struct Objects {
+    solids: Vec<Placed<Solid>>,
+    reference: Vec<Contour>,
+    axes: Vec<TunnelAxis>,
+}
+
+impl Objects {
+    /// The solids that `objects` are. Plain objects that meet are one, in the place of the first of them.
+    pub(super) fn of(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Self> {
+        let mut all = Self { solids: Vec::new(), reference: Vec::new(), axes: Vec::new() };
+        let mut walls = Vec::new();
+        let mut work = Work::default();
+        for Placed { value, span } in united(reader, objects)? {
+            let solids = match value {
+                Object::Plain(contour) => {
+                    all.reference.push(contour.clone());
+                    vec![Solid::inside(contour)]
+                }
+                Object::Tunnel(tunnel) => {
+                    let Tunnel { axis, left, right } = *tunnel;
+                    // The inner side of a wall is its other side.
+                    let sides = [(left, Side::Right), (right, Side::Left)];
+                    all.reference.extend(sides.iter().map(|(wall, inner)| wall.side(*inner).clone()));
+                    all.axes.push(axis);
+                    walls.extend([all.solids.len(), all.solids.len() + 1]);
+                    sides.iter().map(|(wall, inner)| Solid::wall(wall, *inner)).collect()
+                }
+            };
+            for solid in solids {
+                let value = solid.map_err(|error| report(reader, &error, span)).ok()?;
+                work.add(reader, &value, span)?;
+                all.solids.push(Placed { value, span });
+            }
+        }
+        all.walls_are_apart(reader, &walls).then_some(all)
+    }
+
+    /// What runs are measured against; `None` if there is no object.
+    pub(super) fn truth(&self) -> Option<Truth> {
+        let outlines = self.solids.iter().map(|solid| solid.value.outline().clone());
+        Some(Truth {
+            surfaces: ContourSet::new(outlines)?,
+            reference: ContourSet::new(self.reference.iter().cloned())?,
+            axes: self.axes.clone(),
+        })
+    }
+
+    pub(super) fn into_solids(self) -> Vec<Solid> {
+        self.solids.into_iter().map(|solid| solid.value).collect()
+    }
+
+    /// Reports a rig that starts in an object.
+    pub(super) fn check_clearance(&self, reader: &mut Reader<'_>, rig: &Rig, start: &Placed<Pose>) {
+        for Placed { value: solid, span } in &self.solids {
+            let part = match overlap(rig, &start.value, solid.outline()) {
+                None => continue,
+                Some(Overlap::Platform) => "the platform".to_owned(),
+                Some(Overlap::Whisker(index)) => {
+                    let name = rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
+                    format!("whisker `{name}`")
+                }
+            };
+            let message = format!("{part} starts in the object");
+            let fault = Diagnostic::error(fault::OVERLAP, message, start.span, "the rig starts here");
+            reader.report(fault.note(*span, "inside or touching this").hint("move `position` away from the object"));
+            return;
+        }
+    }
+
+    /// Whether no wall of a tunnel overlaps another solid; the first that does is reported.
+    fn walls_are_apart(&self, reader: &mut Reader<'_>, walls: &[usize]) -> bool {
+        let mut pairs = walls.iter().flat_map(|&wall| {
+            let others = self.solids.iter().enumerate().filter(move |&(index, _)| index != wall);
+            others.map(move |(_, other)| (&self.solids[wall], other))
+        });
+        let met = pairs.find(|(wall, other)| wall.value.outline().overlaps(other.value.outline()));
+        let Some((wall, other)) = met else { return true };
+        let message = "a wall of a tunnel overlaps or touches something else";
+        let fault = Diagnostic::error(fault::SHAPE, message, wall.span, "this tunnel");
+        let fault = if other.span == wall.span { fault } else { fault.note(other.span, "and this object") };
+        reader.report(fault.hint("move them apart: walls of a tunnel are not united with objects"));
+        false
+    }
+}
+
+/// What it takes to build all solids in MuJoCo.
+#[derive(Default)]
+struct Work {
+    parts: usize,
+    /// The sum of the squares of the corners of all parts: what building a part takes grows with that.
+    corners: usize,
+}
+
+impl Work {
+    /// Adds a solid. What is too much is reported.
+    fn add(&mut self, reader: &mut Reader<'_>, solid: &Solid, place: Span) -> Option<()> {
+        self.parts += solid.parts().len();
+        self.corners += solid.parts().iter().map(|part| part.corners().pow(2)).sum::<usize>();
+        let (count, limit, what) = if self.parts > MOST_PARTS {
+            (self.parts, MOST_PARTS, "parts")
+        } else if self.corners > MOST_CORNERS {
+            (self.corners, MOST_CORNERS, "corners, those of each part squared")
+        } else {
+            return Some(());
+        };
+        let label = format!("with those before it {count} {what}, must be at most {limit}");
+        let fault =
+            Diagnostic::error(fault::TOO_LARGE, "the objects together are too large to be simulated", place, label);
+        reader.report(
+            fault.hint("leave out objects, or make them smaller: arcs become chords, a few hundred for a large one"),
+        );
+        None
+    }
+}
+
+/// The objects, plain ones that meet as one.
+fn united(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Vec<Placed<Object>>> {
+    let (mut outlines, mut spans) = (Vec::new(), Vec::new());
+    for object in &objects {
+        if let Object::Plain(contour) = &object.value {
+            if !contour.is_closed() {
+                report(reader, &SolidError::Open, object.span);
+                return None;
+            }
+            outlines.push(contour.clone());
+            spans.push(object.span);
+        }
+    }
+    let mut found = match unite(&outlines) {
+        Ok(found) => found.into_iter().peekable(),
+        Err(error) => {
+            report_union(reader, &error, &spans);
+            return None;
+        }
+    };
+    let mut united = Vec::with_capacity(objects.len());
+    let mut plain = 0;
+    for Placed { value, span } in objects {
+        if let Object::Tunnel(_) = value {
+            united.push(Placed { value, span });
+            continue;
+        }
+        while let Some(next) = found.next_if(|next| next.first == plain) {
+            united.push(Placed { value: Object::Plain(next.outline), span });
+        }
+        plain += 1;
+    }
+    Some(united)
+}
+
+/// Reports why objects cannot be united.
+fn report_union(reader: &mut Reader<'_>, error: &UnionError, spans: &[Span]) {
+    let (&first, &second, message, label, hint) = match error {
+        UnionError::Hole { first, second, at } => {
+            let [x, y] = [at.x, at.y].map(|metres| format_si(metres * 1e3, Dimension::NUMBER));
+            let label = format!("the hole's outline goes through ({x} mm, {y} mm)");
+            let hint = "leave a gap for the platform to go in by, or fill the hole with an object";
+            (first, second, "objects that meet enclose a hole", label, hint)
+        }
+        UnionError::Crossings { first, second, limit } => {
+            let label = format!("in more than {limit} places, or they may");
+            let hint = "draw them as one outline, or with fewer sides";
+            (first, second, "objects cross or touch each other too often", label, hint)
+        }
+        UnionError::Unclear { first, second } => {
+            let label = "this one, or one that it meets".to_owned();
+            let hint = "let them overlap by a millimetre, move them apart by one, or draw them as one outline";
+            (first, second, "objects meet too nearly to tell what they make together", label, hint)
+        }
+    };
+    let (Some(&one), Some(&other)) = (spans.get(first), spans.get(second)) else { return };
+    let fault = Diagnostic::error(fault::SHAPE, message, other, label);
+    let fault = if one == other { fault } else { fault.note(one, "with this one") };
+    reader.report(fault.hint(hint));
+}
+
+/// Reports why an object has no solid.
+fn report(reader: &mut Reader<'_>, error: &SolidError, place: Span) {
+    let (message, label, hint) = match error {
+        SolidError::Open => ("the object has no inside", "an open contour".to_owned(), "close it with `closed: true`"),
+        SolidError::Corners { count, limit } => (
+            "the object has too many corners to be simulated",
+            format!("{count} corners, must be at most {limit}"),
+            "leave out vertices that hardly turn, or use arcs",
+        ),
+        SolidError::Parts { count, limit } => (
+            "the tunnel is too long to be simulated",
+            format!("{count} parts, must be at most {limit}"),
+            "make it shorter, or less bent",
+        ),
+        SolidError::Chords => (
+            "the object comes within micrometres of itself",
+            "too near to itself to be simulated".to_owned(),
+            "move its sides apart",
+        ),
+        SolidError::Strip(error) => ("a wall of the tunnel meets itself", error.to_string(), "make the tunnel wider"),
+    };
+    reader.report(Diagnostic::error(fault::SHAPE, message, place, label).hint(hint));
+}

@@ -1,0 +1,234 @@
+//! Reading values from the tree.
+
+use super::budget::Budget;
+use super::fault;
+use super::fields::list;
+use super::node::{Entry, Node, Placed};
+use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
+use crate::outline::MOST_PIECES;
+use crate::scenario::Files;
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+use vibrissa_runtime::units::suggest;
+
+/// Reads values, and collects what is wrong with them. A value that cannot be used is `None`, and has been reported.
+pub(crate) struct Reader<'s> {
+    source: &'s Source,
+    files: &'s mut Files<'s>,
+    faults: Vec<Diagnostic>,
+    budget: Budget,
+}
+
+impl<'s> Reader<'s> {
+    /// A reader of the values of `source`, in which `faults` have been found so far; it finds what they refer to in `files`.
+    pub(crate) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
+        Self { source, files, faults, budget: Budget::default() }
+    }
+
+    /// The bytes of the file that the text calls `path`.
+    pub(crate) fn file(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        self.budget.check_files()?;
+        let bytes = (self.files)(path)?;
+        self.budget.read(bytes.len());
+        Ok(bytes)
+    }
+
+    /// Counts the pieces of an object, at `place`, before it is made. If there are too many of all objects together, none is made.
+    pub(crate) fn make(&mut self, pieces: usize, place: Span) -> Option<()> {
+        match self.budget.make(pieces) {
+            Ok(()) => Some(()),
+            Err(Some(count)) => {
+                let message = "the objects have too many lines and arcs";
+                let label = format!("with those before it up to {count}, must be at most {MOST_PIECES}");
+                let fault = Diagnostic::error(fault::TOO_LARGE, message, place, label);
+                self.report(
+                    fault.hint("leave out objects, or make them with fewer sides, shorter lines or longer waves"),
+                );
+                None
+            }
+            Err(None) => None,
+        }
+    }
+
+    /// How many faults there are so far.
+    pub(crate) fn fault_count(&self) -> usize {
+        self.faults.len()
+    }
+
+    /// The text that is read.
+    pub(crate) fn source(&self) -> &'s Source {
+        self.source
+    }
+
+    /// Puts a fault on the list, unless that is full.
+    pub(crate) fn report(&mut self, fault: Diagnostic) {
+        if self.faults.len() < FAULT_LIMIT {
+            self.faults.push(fault);
+        }
+    }
+
+    /// What has been read, or the faults, in the order of the text.
+    pub(crate) fn finish<T>(mut self, read: Option<T>) -> Result<T, Vec<Diagnostic>> {
+        self.faults.sort_by_key(|fault| fault.primary.span.start);
+        read.filter(|_| self.faults.is_empty()).ok_or(self.faults)
+    }
+
+    /// Reports a value of the wrong type.
+    pub(crate) fn wrong_type(&mut self, node: &Placed<Node>, expected: &str, hint: impl Into<String>) {
+        let message = format!("expected {expected}, found {}", node.value.kind());
+        let label = format!("must be {expected}");
+        self.report(Diagnostic::error(fault::TYPE, message, self.extent(node), label).hint(hint));
+    }
+
+    /// A whole number in a range.
+    pub(crate) fn count<N>(
+        &mut self,
+        node: &Placed<Node>,
+        name: &str,
+        range: RangeInclusive<N>,
+        example: N,
+    ) -> Option<N>
+    where
+        N: TryFrom<i128> + PartialOrd + Display + Copy,
+    {
+        if let Node::Integer(integer) = node.value
+            && let Ok(value) = N::try_from(integer)
+            && range.contains(&value)
+        {
+            return Some(value);
+        }
+        let message = format!("`{name}` cannot be {}", written(&node.value));
+        let label = format!("must be a whole number from {} to {}", range.start(), range.end());
+        let fault = Diagnostic::error(fault::RANGE, message, self.extent(node), label);
+        self.report(fault.hint(format!("for example `{name}: {example}`")));
+        None
+    }
+
+    /// The items of a list of any length.
+    pub(crate) fn items<'n>(
+        &mut self,
+        node: &'n Placed<Node>,
+        expected: &str,
+        example: &str,
+    ) -> Option<&'n [Placed<Node>]> {
+        if let Node::List(items) = &node.value {
+            return Some(items);
+        }
+        self.wrong_type(node, expected, format!("for example `{example}`"));
+        None
+    }
+
+    /// The items of a list of three.
+    pub(crate) fn triple<'n>(&mut self, node: &'n Placed<Node>, example: &str) -> Option<&'n [Placed<Node>; 3]> {
+        let items = self.items(node, "a list of 3 numbers", example)?;
+        let triple = items.try_into().ok();
+        if triple.is_none() {
+            let message = format!("expected 3 numbers, found {}", items.len());
+            let fault = Diagnostic::error(fault::TYPE, message, self.extent(node), "must be 3 numbers in brackets");
+            self.report(fault.hint(format!("for example `{example}`")));
+        }
+        triple
+    }
+
+    /// A truth value.
+    pub(crate) fn flag(&mut self, node: &Placed<Node>) -> Option<bool> {
+        if let Node::Bool(flag) = node.value {
+            return Some(flag);
+        }
+        self.wrong_type(node, "true or false", "write `true` or `false`, without quotes");
+        None
+    }
+
+    /// A text.
+    pub(crate) fn text(&mut self, node: &Placed<Node>) -> Option<Placed<String>> {
+        if let Node::Text(text) = &node.value {
+            return Some(Placed { value: text.clone(), span: self.extent(node) });
+        }
+        let hint = match &node.value {
+            Node::Null => "write a text, or leave the key out if it may be".to_owned(),
+            Node::List(_) | Node::Mapping(_) => "write a text on the line of its key".to_owned(),
+            scalar => format!("put it into quotes: \"{}\"", written(scalar)),
+        };
+        self.wrong_type(node, "a text", hint);
+        None
+    }
+
+    /// One of several words, with its index among them.
+    pub(crate) fn choice(&mut self, node: &Placed<Node>, what: &str, words: &[&str]) -> Option<usize> {
+        let text = self.text(node)?;
+        let index = words.iter().position(|word| *word == text.value);
+        if index.is_none() {
+            self.report(unknown_choice(&text, what, words));
+        }
+        index
+    }
+
+    /// The one entry of a mapping whose key says what its value is: `circle: {…}`.
+    pub(crate) fn variant<'n>(
+        &mut self,
+        node: &'n Placed<Node>,
+        what: &str,
+        kinds: &[&'static str],
+        example: &str,
+    ) -> Option<(&'static str, &'n Entry)> {
+        let Node::Mapping(entries) = &node.value else {
+            self.wrong_type(node, what, format!("write it as `{example}`"));
+            return None;
+        };
+        let [entry] = entries.as_slice() else {
+            let (span, label) = match entries.get(1) {
+                Some(second) => (second.key.span, "this would be a second one"),
+                None => (self.extent(node), "none here"),
+            };
+            let message = format!("{what} is exactly one of {}", list(kinds, "or"));
+            self.report(Diagnostic::error(fault::TYPE, message, span, label).hint(format!("for example `{example}`")));
+            return None;
+        };
+        let kind = kinds.iter().find(|kind| **kind == entry.key.value);
+        if kind.is_none() {
+            self.report(unknown_choice(&entry.key, what, kinds));
+        }
+        Some((kind?, entry))
+    }
+
+    /// The text of a value as a whole, a list or mapping up to its end or that of its first line.
+    pub(crate) fn extent(&self, node: &Placed<Node>) -> Span {
+        let last = match &node.value {
+            Node::List(items) => items.last(),
+            Node::Mapping(entries) => entries.last().map(|entry| &entry.value),
+            _ => return node.span,
+        };
+        let end = last.map_or(node.span.end, |last| self.extent(last).end).max(node.span.end);
+        let behind = self.source.slice(Span::new(end, self.source.text.len()));
+        let closing = if self.source.slice(node.span).starts_with(['[', '{']) {
+            let space = behind.len() - behind.trim_start().len();
+            if behind[space..].starts_with([']', '}']) { space + 1 } else { 0 }
+        } else {
+            0
+        };
+        let whole = Span::new(node.span.start, end + closing);
+        let line = self.source.slice(whole).lines().next().unwrap_or_default();
+        Span::new(whole.start, whole.start + line.trim_end().len())
+    }
+}
+
+fn unknown_choice(word: &Placed<String>, what: &str, words: &[&str]) -> Diagnostic {
+    let message = format!("{what} cannot be `{}`", word.value);
+    let label = format!("must be {}", list(words, "or"));
+    let fault = Diagnostic::error(fault::CHOICE, message, word.span, label);
+    match suggest(&word.value, words.iter().copied()) {
+        Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
+        None => fault.hint("write one of these"),
+    }
+}
+
+/// A value in a message: a scalar as it could be written, a list or mapping by its kind.
+pub(crate) fn written(node: &Node) -> String {
+    match node {
+        Node::Bool(flag) => flag.to_string(),
+        Node::Integer(integer) => integer.to_string(),
+        Node::Float(float) => float.to_string(),
+        Node::Text(text) => text.clone(),
+        other => other.kind().to_owned(),
+    }
+}

@@ -1,0 +1,94 @@
+//! `stop`: when a run ends.
+
+use super::fault;
+use super::fields::Fields;
+use super::key::Key;
+use super::node::{Entry, Placed};
+use super::reader::Reader;
+use super::start::POSITION;
+use crate::diagnostic::Diagnostic;
+use crate::scene::{LoopClosed, Reached, Stalled, Stop};
+use vibrissa_runtime::units::{Dimension, format_si};
+
+const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
+const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");
+const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
+const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "60 s");
+const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
+
+/// The most control ticks of a run: the trace keeps every one of them. Ninety hours at 30 Hz.
+const MOST_TICKS: f64 = 1e7;
+
+/// Reads `stop`. It comes with the place of its time.
+pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
+    let mut fields = Fields::of(reader, &entry.value, "a stop", entry.key.span)?;
+    let time = fields.number(reader, &TIME);
+    let [loop_closed, reached, stalled] = ["loop_closed", "reached", "stalled"].map(|name| fields.entry(name));
+    fields.finish(reader);
+    // A key that is there and cannot be used has been reported: the scenario is refused.
+    let loop_closed = loop_closed.and_then(|entry| read_loop_closed(reader, entry, time.as_ref()));
+    let reached = reached.and_then(|entry| read_reached(reader, entry, time.as_ref()));
+    let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
+    let time = time?;
+    // A run that has nothing to get to need not get anywhere.
+    let has_aim = loop_closed.is_some() || reached.is_some();
+    let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
+    Some(Placed { value: Stop { time: time.value, loop_closed, reached, stalled }, span: time.span })
+}
+
+fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {
+    let mut fields = Fields::of(reader, &entry.value, "the closing of a loop", entry.key.span)?;
+    let within = fields.number(reader, &WITHIN);
+    let after = fields.number(reader, &AFTER);
+    fields.finish(reader);
+    let (within, after) = (within?, after?);
+    is_in_time(reader, "the loop can never close", &after, end)?;
+    Some(LoopClosed { within: within.value, after: after.value })
+}
+
+fn read_reached(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<Reached> {
+    let mut fields = Fields::of(reader, &entry.value, "the reaching of a place", entry.key.span)?;
+    let place = fields.required(PLACE.name, PLACE.example).and_then(|entry| reader.point(&entry.value, &PLACE));
+    let within = fields.number(reader, &WITHIN);
+    let after = fields.number(reader, &AFTER);
+    fields.finish(reader);
+    let (place, within, after) = (place?, within?, after?);
+    is_in_time(reader, "the place can never be reached", &after, end)?;
+    Some(Reached { place: place.value, within: within.value, after: after.value })
+}
+
+fn read_stalled(reader: &mut Reader<'_>, entry: &Entry) -> Option<Stalled> {
+    let mut stalled = Stalled::default();
+    let mut fields = Fields::of(reader, &entry.value, "a stall", entry.key.span)?;
+    fields.set(reader, &WITHIN, &mut stalled.within);
+    fields.set(reader, &STALLED_AFTER, &mut stalled.after);
+    fields.finish(reader);
+    Some(stalled)
+}
+
+/// Reports what can only come about after the end of the run.
+fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Option<&Placed<f64>>) -> Option<()> {
+    let end = end?;
+    if after.value < end.value {
+        return Some(());
+    }
+    let label = format!("not before the end, at {}", format_si(end.value, Dimension::TIME));
+    let fault = Diagnostic::error(fault::TIMING, never, after.span, label);
+    reader.report(fault.note(end.span, "the run ends here").hint("make `after` shorter than `time`"));
+    None
+}
+
+/// Checks that a run at `control_rate` (Hz) has no more ticks than can be kept.
+pub(super) fn check(reader: &mut Reader<'_>, stop: &Placed<Stop>, control_rate: f64) {
+    let ticks = stop.value.time * control_rate;
+    if ticks <= MOST_TICKS {
+        return;
+    }
+    let number = |count| format_si(count, Dimension::NUMBER);
+    let rate = format_si(control_rate, Dimension::FREQUENCY);
+    let label = format!("{} ticks at the control rate of {rate}", number(ticks));
+    let message = format!("a run has at most {} ticks", number(MOST_TICKS));
+    let longest = format_si(MOST_TICKS / control_rate, Dimension::TIME);
+    let fault = Diagnostic::error(fault::TIMING, message, stop.span, label);
+    reader.report(fault.hint(format!("for example `time: {longest}`, or a slower `control_rate`")));
+}

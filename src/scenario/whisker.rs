@@ -1,0 +1,190 @@
+//! `rig.whiskers`: the whiskers by name.
+
+use super::calibration::read_calibration;
+use super::fault;
+use super::fields::Fields;
+use super::key::Key;
+use super::node::{Entry, Node};
+use super::reader::Reader;
+use crate::diagnostic::{Diagnostic, NotUtf8, Span, utf8};
+use crate::physics::{LEAST_INERTIA, link_inertia};
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+use vibrissa_runtime::calibration::Calibration;
+use vibrissa_runtime::rig::{Hinge, Shaft, Whisker};
+use vibrissa_runtime::signal::MAX_WHISKERS;
+use vibrissa_runtime::units::{Dimension, format_si};
+
+const BASE: Key = Key::new("base", Dimension::LENGTH, (-2.0, 2.0), "[53 mm, 30 mm]");
+const DIRECTION: Key = Key::new("direction", Dimension::ANGLE, (-PI, PI), "105 deg");
+
+const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 1.0), "100 mm");
+const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-6, 1e-2), "0.125 mm");
+const TIP_RADIUS: Key = Key::new("tip_radius", Dimension::LENGTH, (1e-6, 1e-2), "0.05 mm");
+const DENSITY: Key = Key::new("density", Dimension::DENSITY, (1.0, 1e5), "6450 kg/m^3");
+const YOUNG_MODULUS: Key = Key::new("young_modulus", Dimension::PRESSURE, (1e3, 1e13), "100 GPa");
+const DAMPING: Key = Key::new("damping", Dimension::TIME, (0.0, 1.0), "1 ms");
+const LINKS: RangeInclusive<usize> = 4..=64;
+
+const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS, (1e-6, 1e6), "1 N m/rad");
+const HINGE_DAMPING: Key = Key::new("damping", Dimension::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad");
+const HINGE_ARMATURE: Key = Key::new("armature", Dimension::INERTIA, (0.0, 1.0), "1e-5 kg m^2");
+
+/// Reads the whiskers. What one leaves out is as in the whisker of that name of the `preset` rig; a whisker of another
+/// name must tell where it sits and where it points.
+pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Vec<Whisker>> {
+    let entries = match &entry.value.value {
+        Node::Mapping(entries) if !entries.is_empty() => entries,
+        Node::Mapping(_) => {
+            let fault = Diagnostic::error(fault::RIG, "the rig has no whisker", entry.key.span, "empty");
+            reader
+                .report(fault.hint("add a whisker, such as `r0: {}`, or leave `whiskers` out for the reference pair"));
+            return None;
+        }
+        _ => {
+            reader.wrong_type(
+                &entry.value,
+                "a mapping",
+                "write each whisker under its name, such as `r0: {length: 75 mm}`",
+            );
+            return None;
+        }
+    };
+    if let Some(extra) = entries.get(MAX_WHISKERS) {
+        let message = format!("a rig can have {MAX_WHISKERS} whiskers at most");
+        reader.report(Diagnostic::error(fault::RIG, message, extra.key.span, "one too many").hint("leave some out"));
+        return None;
+    }
+    let whiskers: Vec<Option<Whisker>> = entries.iter().map(|entry| read(reader, entry, preset)).collect();
+    whiskers.into_iter().collect()
+}
+
+fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Whisker> {
+    let name = &entry.key;
+    let is_identifier = name.value.starts_with(|first: char| first.is_ascii_alphabetic())
+        && name.value.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if !is_identifier {
+        let message = format!("a whisker cannot be called `{}`", name.value);
+        let label = "must be letters, digits and _, a letter first";
+        let fault = Diagnostic::error(fault::NAME, message, name.span, label);
+        reader.report(fault.hint("policies bind to whiskers by name, such as r0 for the first on the right"));
+    }
+
+    let reference = preset.iter().find(|whisker| whisker.name == name.value);
+    let mut fields = Fields::of(reader, &entry.value, "a whisker", name.span)?;
+    let base = match reference {
+        Some(_) => fields.entry(BASE.name),
+        None => fields.required(BASE.name, BASE.example),
+    };
+    let base_body = match (base, reference) {
+        (Some(entry), _) => reader.point(&entry.value, &BASE).map(|point| point.value),
+        (None, reference) => reference.map(|whisker| whisker.base_body),
+    };
+    let direction_body = match reference {
+        Some(whisker) => {
+            let mut direction = whisker.direction_body;
+            fields.set(reader, &DIRECTION, &mut direction);
+            Some(direction)
+        }
+        None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
+    };
+    // All of a preset's whiskers have the same shaft and the same hinge.
+    let usual = preset.first().cloned().map(|whisker| (whisker.shaft, whisker.hinge));
+    let (usual_shaft, usual_hinge) = usual.unwrap_or_default();
+    let shaft = shaft(reader, &mut fields, usual_shaft, name.span);
+    let hinge = match fields.entry("hinge") {
+        Some(entry) => hinge(reader, entry, usual_hinge),
+        None => Some(usual_hinge),
+    };
+    let calibration = match fields.entry("calibration") {
+        Some(entry) => calibration(reader, entry).map(Some),
+        None => Some(None),
+    };
+    fields.finish(reader);
+    Some(Whisker {
+        name: name.value.clone(),
+        base_body: base_body?,
+        direction_body: direction_body?,
+        shaft,
+        hinge: hinge?,
+        calibration: calibration?,
+    })
+}
+
+/// Reads the file of a calibration.
+fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
+    let path = reader.text(&entry.value)?;
+    let found = reader.file(&path.value).and_then(|bytes| {
+        let text = utf8(&bytes).map_err(|fault| format!("{fault}; {}", NotUtf8::ADVICE))?;
+        read_calibration(text).map_err(|error| error.to_string())
+    });
+    found
+        .map_err(|reason| {
+            let fault = Diagnostic::error(fault::FILE, format!("cannot use `{}`", path.value), path.span, reason);
+            reader.report(fault.hint("a path leads from the folder of the scenario to a file of `vibrissa calibrate`"));
+        })
+        .ok()
+}
+
+/// Reads the keys of the shaft of the whisker whose name stands at `place`, as far as it is not the `usual` one.
+fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: Span) -> Shaft {
+    let fault_count = reader.fault_count();
+    let mut shaft = usual;
+    fields.set(reader, &LENGTH, &mut shaft.length);
+    fields.set(reader, &RADIUS, &mut shaft.radius);
+    let mut tip_radius = 0.0;
+    let tip = fields.set(reader, &TIP_RADIUS, &mut tip_radius);
+    shaft.tip_radius = tip.map(|_| tip_radius);
+    fields.set(reader, &DENSITY, &mut shaft.density);
+    fields.set(reader, &YOUNG_MODULUS, &mut shaft.young_modulus);
+    fields.set(reader, &DAMPING, &mut shaft.damping);
+    if let Some(entry) = fields.entry("links")
+        && let Some(links) = reader.count(&entry.value, "links", LINKS, 16)
+    {
+        shaft.links = links;
+    }
+    if reader.fault_count() == fault_count {
+        match tip {
+            Some(tip) if tip_radius > shaft.radius => reader.report(thick_tip(&shaft, tip_radius, tip)),
+            _ => check_inertia(reader, &shaft, place),
+        }
+    }
+    shaft
+}
+
+/// The fault of a tip that is thicker than the base.
+fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
+    let millimetres = |radius| format_si(radius, Dimension::LENGTH);
+    let label = format!("at the base the radius is {}", millimetres(shaft.radius));
+    let message = format!("the shaft is thicker at the tip: {}", millimetres(tip_radius));
+    Diagnostic::error(fault::RIG, message, place, label)
+        .hint("give a `tip_radius` up to `radius`, or none for a wire that is as thick all along")
+}
+
+/// Checks that the last, lightest link's moment of inertia is one that the simulator takes. Its mass is then too: no link is longer than
+/// 250 mm, so that one that is too light is too easy to turn as well.
+fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
+    let inertia = link_inertia(shaft, shaft.links - 1);
+    if inertia >= LEAST_INERTIA {
+        return;
+    }
+    let kilogram_metres = |moment| format_si(moment, Dimension::INERTIA);
+    let label = format!(
+        "a link has {} about its middle, and needs {}",
+        kilogram_metres(inertia),
+        kilogram_metres(LEAST_INERTIA)
+    );
+    let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated", place, label);
+    reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
+}
+
+/// Reads a hinge, as far as it is not the `usual` one.
+fn hinge(reader: &mut Reader<'_>, entry: &Entry, usual: Hinge) -> Option<Hinge> {
+    let mut fields = Fields::of(reader, &entry.value, "a hinge", entry.key.span)?;
+    let mut hinge = usual;
+    fields.set(reader, &HINGE_STIFFNESS, &mut hinge.stiffness);
+    fields.set(reader, &HINGE_DAMPING, &mut hinge.damping);
+    fields.set(reader, &HINGE_ARMATURE, &mut hinge.armature);
+    fields.finish(reader);
+    Some(hinge)
+}

@@ -1,0 +1,107 @@
+//! Sweeps: many runs, told in a few lines of YAML.
+//!
+//! A sweep is scenes, policies, and what varies of both. Its runs are all of their combinations, a list that depends on its text
+//! alone; so does the key of each run.
+
+use super::axis::Axis;
+use super::read;
+use super::run::SweepRun;
+use super::scenes::SweepScenes;
+use crate::diagnostic::{Diagnostic, Source};
+use crate::scene::FileReference;
+
+/// A sweep, read and checked by itself: the files that it refers to are others' to read.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    pub(super) name: String,
+    pub(super) policies: Vec<FileReference>,
+    pub(super) scenes: Vec<SweepScenes>,
+    pub(super) axes: Vec<Axis>,
+}
+
+impl Sweep {
+    /// Reads a sweep.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, as [`scenario::read`](super::scenario::read) tells it.
+    ///
+    /// ```
+    /// use vibrissa::diagnostic::Source;
+    /// use vibrissa::sweep::Sweep;
+    /// let text = "
+    /// name: corners
+    /// policies: [vibrissa.fsm, thesis.fsm]
+    /// scenes: [{family: convex-corner, trials: 100}]
+    /// vary: {policy: {speed: [2 cm/s, 5 cm/s]}}
+    /// ";
+    /// let sweep = Sweep::from_yaml(&Source::new("corners.yaml", text)).unwrap();
+    /// assert_eq!(sweep.runs().count(), 400);
+    /// assert_eq!(sweep.runs().last().unwrap().key(), "family=convex-corner, trial=99, speed=5 cm/s, policy=thesis");
+    /// ```
+    pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
+        read::read(source)
+    }
+
+    /// Its name, fit to be a file's.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The policies.
+    #[must_use]
+    pub fn policies(&self) -> &[FileReference] {
+        &self.policies
+    }
+
+    /// Where the scenes come from.
+    #[must_use]
+    pub fn scenes(&self) -> &[SweepScenes] {
+        &self.scenes
+    }
+
+    /// How many runs there are; `None` if that is no number.
+    pub(super) fn count(&self) -> Option<u64> {
+        let trials = self.scenes.iter().try_fold(0_u64, |sum, scenes| sum.checked_add(scenes.trials))?;
+        let lengths = self.axes.iter().map(Axis::len).chain([self.policies.len()]);
+        lengths.map(|length| length as u64).try_fold(trials, u64::checked_mul)
+    }
+
+    /// All runs in their order: by scenes, trials, what varies, and policies.
+    pub fn runs(&self) -> impl Iterator<Item = SweepRun<'_>> {
+        (0..self.count().unwrap_or(0)).filter_map(|index| self.run(index))
+    }
+
+    /// The run with this index.
+    #[must_use]
+    pub fn run(&self, index: u64) -> Option<SweepRun<'_>> {
+        SweepRun::new(self, index)
+    }
+
+    /// One run of every kind: the first trial of all scenes under every policy, with every value of what varies once.
+    pub fn samples(&self) -> impl Iterator<Item = SweepRun<'_>> {
+        let starts = self.scenes.iter().scan(0, |next, scenes| Some(std::mem::replace(next, *next + scenes.trials)));
+        starts.flat_map(move |trial| self.variants().flat_map(move |variant| self.of(trial, variant)))
+    }
+
+    /// How many combinations there are of what varies.
+    pub(super) fn variant_count(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.len() as u64).product()
+    }
+
+    /// The combinations in which at most one thing has not its first value.
+    fn variants(&self) -> impl Iterator<Item = u64> {
+        let stride = |axis: usize| self.axes[axis + 1..].iter().map(|axis| axis.len() as u64).product::<u64>();
+        let others = self.axes.iter().enumerate();
+        let others =
+            others.flat_map(move |(index, axis)| (1..axis.len() as u64).map(move |value| value * stride(index)));
+        std::iter::once(0).chain(others)
+    }
+
+    /// The runs of a trial, counted through all scenes, with one combination of what varies.
+    fn of(&self, trial: u64, variant: u64) -> impl Iterator<Item = SweepRun<'_>> {
+        let policies = self.policies.len() as u64;
+        let first = (trial * self.variant_count() + variant) * policies;
+        (first..first + policies).filter_map(|index| self.run(index))
+    }
+}

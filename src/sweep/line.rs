@@ -1,0 +1,127 @@
+//! The result of a run of a sweep, as a line.
+
+use crate::report::Document;
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::shard::run_hash;
+use crate::report::RunResult;
+use crate::study::{Ending, Figures, TipShares};
+use crate::sweep::SweepRun;
+
+/// The result of a run of a sweep; serialised, a line of its results.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct SweepLine {
+    /// The hash of its key, in hexadecimal digits.
+    run: String,
+    /// Its key.
+    key: String,
+    /// The family or the scenario.
+    scenes: String,
+    /// The number of its trial.
+    trial: u64,
+    /// What varies in the sweep, as it is written there.
+    settings: BTreeMap<String, String>,
+    /// Whether it was as its scenario expects.
+    passed: bool,
+    #[serde(flatten)]
+    end: End,
+}
+
+impl Document for SweepLine {
+    const FORMAT: &'static str = "sweep-run";
+}
+
+/// What came of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+enum End {
+    Result {
+        about: String,
+        #[serde(flatten)]
+        result: Box<RunResult>,
+    },
+    NoResult {
+        policy: String,
+        outcome: Ending,
+        reason: String,
+    },
+}
+
+impl SweepLine {
+    /// That of a run which took place in a scene that is `about` something.
+    #[must_use]
+    pub fn ran(run: &SweepRun<'_>, about: String, passed: bool, result: RunResult) -> Self {
+        Self::new(run, passed, End::Result { about, result: Box::new(result) })
+    }
+
+    /// That of a run which could not begin.
+    #[must_use]
+    pub fn refused(run: &SweepRun<'_>, reason: String) -> Self {
+        Self::without_result(run, Ending::Refused, reason)
+    }
+
+    /// That of a run which ended its process.
+    #[must_use]
+    pub fn crashed(run: &SweepRun<'_>, reason: String) -> Self {
+        Self::without_result(run, Ending::Crashed, reason)
+    }
+
+    fn without_result(run: &SweepRun<'_>, outcome: Ending, reason: String) -> Self {
+        Self::new(run, false, End::NoResult { policy: run.policy().name.clone(), outcome, reason })
+    }
+
+    fn new(run: &SweepRun<'_>, passed: bool, end: End) -> Self {
+        let key = run.key();
+        Self {
+            run: format!("{:016x}", run_hash(&key)),
+            key,
+            scenes: run.scenes().name().to_owned(),
+            trial: run.trial,
+            settings: run.settings().map(|(name, value)| (name.to_owned(), value)).collect(),
+            passed,
+            end,
+        }
+    }
+}
+
+/// What a line says that is counted.
+#[derive(Debug, Deserialize)]
+struct Counted {
+    key: String,
+    passed: bool,
+    outcome: Ending,
+    error_mm: Option<Errors>,
+    collisions: Option<Collisions>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Errors {
+    mean: Option<f64>,
+    p95: Option<f64>,
+    within_band: Option<f64>,
+    outliers: Option<f64>,
+    n: usize,
+}
+
+#[derive(Debug, Deserialize)]
+struct Collisions {
+    count: usize,
+}
+
+/// The key of a run, and what is counted of it, from its line.
+///
+/// # Errors
+/// It is not the line of a run.
+pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
+    let Counted { key, passed, outcome: ending, error_mm, collisions } = serde_json::from_str(line)?;
+    let collided = collisions.is_some_and(|collisions| collisions.count > 0);
+    let tips = error_mm
+        .as_ref()
+        .map_or_else(TipShares::default, |errors| TipShares::of_run(errors.n, errors.outliers, errors.within_band));
+    let (error_mean_mm, error_p95_mm) = error_mm.map_or((None, None), |errors| (errors.mean, errors.p95));
+    Ok((key, Figures { ending, passed, collided, error_mean_mm, error_p95_mm, tips }))
+}

@@ -1,0 +1,119 @@
+//! The results of a sweep's shards as one.
+
+use crate::report::Document;
+use std::collections::{BTreeMap, HashMap};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use super::header::Header;
+use super::line::read_line;
+use super::lines::Lines;
+use super::results::{self, ResultsError, check_place};
+use super::shard::Shard;
+use crate::diagnostic::Source;
+use crate::file::CommandFiles;
+use crate::study::Figures;
+use crate::sweep::Sweep;
+
+/// The results of all parts of a sweep.
+#[derive(Debug)]
+pub struct Merged {
+    /// What they are results of, with the part that the first file has.
+    pub header: Header,
+    /// The sweep.
+    pub sweep: Sweep,
+    /// The lines of the runs, by index.
+    pub lines: BTreeMap<u64, String>,
+    /// What is counted of them.
+    pub figures: BTreeMap<u64, Figures>,
+}
+
+/// A run without a result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Missing {
+    /// Its key.
+    pub key: String,
+    /// The part of the sweep that it belongs to.
+    pub shard: Shard,
+}
+
+/// Joins files of results; `None` if there are none.
+///
+/// # Errors
+/// [`ResultsError`] when they are not results of one and the same sweep, or a run has two.
+pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merged>, ResultsError> {
+    let (mut merged, mut indices): (Option<Merged>, _) = (None, HashMap::new());
+    let mut owners = BTreeMap::new();
+    for path in paths {
+        let file = files.open(path).map_err(ResultsError::file(path))?;
+        let mut lines = Lines::new(path, &file);
+        let no_header = || ResultsError::NoResults { path: path.clone(), cause: "it is empty".to_owned() };
+        let header = lines.header()?.ok_or_else(no_header)?;
+        let merged = match &mut merged {
+            Some(merged) => {
+                if let Some(difference) = header.difference(&merged.header) {
+                    return Err(ResultsError::Other { path: path.clone(), difference });
+                }
+                merged
+            }
+            none => {
+                let merged = none.insert(Merged::new(path, header)?);
+                indices = results::indices(&merged.sweep);
+                merged
+            }
+        };
+        while let Some((number, line)) = lines.next()? {
+            let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
+            let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
+            let index = indices.get(&key).ok_or_else(|| wrong(format!("there is no run `{key}` in the sweep")))?;
+            if let Some(first) = owners.insert(*index, path) {
+                return Err(ResultsError::Twice { first: first.clone(), second: path.clone(), key });
+            }
+            merged.lines.insert(*index, line.trim_end().to_owned());
+            merged.figures.insert(*index, figures);
+        }
+    }
+    Ok(merged)
+}
+
+impl Merged {
+    fn new(path: &Path, header: Header) -> Result<Self, ResultsError> {
+        let source = Source::new(path.display().to_string(), &*header.text);
+        let sweep = Sweep::from_yaml(&source).map_err(|_| ResultsError::NoResults {
+            path: path.to_owned(),
+            cause: "this version of the program cannot read the sweep that it holds".to_owned(),
+        })?;
+        Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
+    }
+
+    /// Checks that the results may be written to `path`. As long as what it gives is kept, no sweep writes there.
+    ///
+    /// # Errors
+    /// [`ResultsError`] when something else is there: a part of the sweep, or what another run of it is still writing.
+    pub fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
+        check_place(path, &self.header.of_shard(Shard::WHOLE))
+    }
+
+    /// The runs that have no result.
+    pub fn missing(&self) -> impl Iterator<Item = Missing> {
+        let missing = self.sweep.runs().filter(|run| !self.lines.contains_key(&run.index));
+        missing.map(|run| {
+            let key = run.key();
+            Missing { shard: self.header.shard.of_run(&key), key }
+        })
+    }
+
+    /// The results as a file has them, in the order of the runs.
+    ///
+    /// # Errors
+    /// The header cannot be written as JSON, which would be a fault of the program.
+    pub fn text(&self) -> serde_json::Result<String> {
+        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned())?;
+        for line in self.lines.values() {
+            text.push('\n');
+            text += line;
+        }
+        text.push('\n');
+        Ok(text)
+    }
+}

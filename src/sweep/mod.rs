@@ -1,0 +1,26 @@
+//! Sweeps: the definition, its runs in worker processes, and the file of results.
+
+mod axis;
+mod definition;
+mod header;
+mod line;
+mod lines;
+mod merge;
+mod read;
+mod results;
+mod run;
+mod scenes;
+mod shard;
+mod summary;
+mod worker;
+
+pub use definition::Sweep;
+pub use header::Header;
+pub use line::{SweepLine, read_line};
+pub use merge::{Merged, Missing, merge};
+pub use results::{Results, ResultsError};
+pub use run::SweepRun;
+pub use scenes::{ScenesOf, SweepScenes};
+pub use shard::Shard;
+pub use summary::{SweepGroup, SweepSummary, summary_table};
+pub use worker::{Answer, StartError, Worker, answer};

@@ -1,0 +1,253 @@
+//! The YAML format of a sweep.
+
+use super::axis::{Axis, AxisValues, ParameterValue};
+use super::definition::Sweep;
+use super::scenes::{ScenesOf, SweepScenes};
+use crate::diagnostic::{Diagnostic, Source, Span};
+use crate::family::{FAMILIES, Family};
+use crate::scenario::{Change, Entry, Fields, Node, Placed, Reader, fault, name, reference, root_place};
+use crate::scene::FileReference;
+use std::collections::BTreeMap;
+use vibrissa_runtime::units::{Dimension, Quantity, parse_quantity};
+
+const SCENES: &str = "[{family: convex-corner, trials: 100}]";
+const POLICIES: &str = "[../policies/vibrissa.fsm]";
+const VALUES: &str = "[2 cm/s, 5 cm/s]";
+
+/// The most trials of one source of scenes, and the most runs of a sweep: who merges holds their results in memory.
+const MOST_RUNS: u64 = 1_000_000;
+
+/// Reads a sweep. The list of faults is never empty, and in the order of the text.
+pub(super) fn read(source: &Source) -> Result<Sweep, Vec<Diagnostic>> {
+    let (tree, faults) = fault::parse(source, "sweep")?;
+    let mut no_files = |_: &str| Err("a sweep has no files of its own".to_owned());
+    let mut reader = Reader::new(source, &mut no_files, faults);
+    let sweep = read_sweep(&mut reader, &tree);
+    reader.finish(sweep)
+}
+
+fn read_sweep(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Sweep> {
+    let hint = "write at least `name`, `policies` and `scenes`; see sweeps/corners.yaml";
+    let place = root_place(reader, tree, "sweep", hint)?;
+    let mut fields = Fields::of(reader, tree, "a sweep", place)?;
+    let name = fields
+        .required("name", "corners")
+        .and_then(|entry| name(reader, entry, "a sweep", "results are filed under this name"));
+    let policies = fields.required("policies", POLICIES).and_then(|entry| policies(reader, entry));
+    let scenes_entry = fields.required("scenes", SCENES);
+    let scenes = scenes_entry.and_then(|entry| scenes(reader, entry));
+    let axes = match fields.entry("vary") {
+        Some(entry) => axes(reader, entry),
+        None => Some(Vec::new()),
+    };
+    fields.finish(reader);
+    let sweep = Sweep { name: name?, policies: policies?, scenes: scenes?, axes: axes? };
+    match (sweep.count(), scenes_entry) {
+        (None, Some(entry)) => too_many(reader, entry.key.span),
+        (Some(runs), Some(entry)) if runs > MOST_RUNS => too_many(reader, entry.key.span),
+        _ => return Some(sweep),
+    }
+    None
+}
+
+fn too_many(reader: &mut Reader<'_>, place: Span) {
+    let message = format!("a sweep has at most {MOST_RUNS} runs");
+    let label = "with every value and every policy it is more";
+    let fault = Diagnostic::error(fault::RANGE, message, place, label);
+    reader.report(fault.hint("make several sweeps of it, or `trials` fewer"));
+}
+
+/// The items of a list that is not empty.
+fn some<'n>(reader: &mut Reader<'_>, entry: &'n Entry, expected: &str, example: &str) -> Option<&'n [Placed<Node>]> {
+    let items = reader.items(&entry.value, expected, example)?;
+    if items.is_empty() {
+        let message = format!("`{}` is empty, so that there would be no run", entry.key.value);
+        let fault = Diagnostic::error(fault::RANGE, message, entry.key.span, "needs one at least");
+        reader.report(fault.hint(format!("for example `{}: {example}`", entry.key.value)));
+        return None;
+    }
+    Some(items)
+}
+
+/// Reports what stands there a second time: its runs would be the same.
+fn check_new<K: Ord>(reader: &mut Reader<'_>, seen: &mut BTreeMap<K, Span>, key: K, place: Span, name: &str) {
+    if let Some(first) = seen.get(&key) {
+        let message = format!("`{name}` is there twice, and its runs would be too");
+        let fault = Diagnostic::error(fault::REPEATED, message, place, "the second one");
+        reader.report(fault.note(*first, "the first one").hint("take one out, or make them differ"));
+    } else {
+        seen.insert(key, place);
+    }
+}
+
+fn policies(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<FileReference>> {
+    let items = some(reader, entry, "a list of paths", POLICIES)?;
+    let policies: Vec<_> = items.iter().map(|item| reference(reader, item)).collect();
+    let policies: Vec<_> = policies.into_iter().collect::<Option<_>>()?;
+    let mut seen = BTreeMap::new();
+    for FileReference { name, span, .. } in &policies {
+        check_new(reader, &mut seen, name, *span, name);
+    }
+    Some(policies)
+}
+
+fn scenes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<SweepScenes>> {
+    let items = some(reader, entry, "a list of scenes", SCENES)?;
+    let scenes: Vec<_> = items.iter().map(|item| read_scenes(reader, item)).collect();
+    let scenes: Vec<_> = scenes.into_iter().collect::<Option<_>>()?;
+    let mut seen = BTreeMap::new();
+    for (scenes, item) in scenes.iter().zip(items) {
+        let seed = match scenes.of {
+            ScenesOf::Family(_) => Some(scenes.family_seed()),
+            ScenesOf::Scenario(_) => scenes.seed,
+        };
+        let key = (scenes.kind_word(), scenes.name(), seed);
+        check_new(reader, &mut seen, key, item.span, scenes.name());
+    }
+    Some(scenes)
+}
+
+fn read_scenes(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<SweepScenes> {
+    let mut fields = Fields::of(reader, item, "a source of scenes", reader.extent(item))?;
+    let (family_entry, scenario_entry) = (fields.entry("family"), fields.entry("scenario"));
+    let trials = match fields.entry("trials") {
+        Some(entry) => reader.count(&entry.value, "trials", 1..=MOST_RUNS, 100),
+        None => Some(1),
+    };
+    let seed = match fields.entry("seed") {
+        Some(entry) => reader.count(&entry.value, "seed", 0..=u64::MAX, 1).map(Some),
+        None => Some(None),
+    };
+    fields.finish(reader);
+    let of = match (family_entry, scenario_entry) {
+        (Some(entry), None) => family(reader, entry).map(ScenesOf::Family),
+        (None, Some(entry)) => reference(reader, &entry.value).map(ScenesOf::Scenario),
+        (family, _) => {
+            let label = if family.is_some() { "these are two" } else { "none here" };
+            let message = "a source of scenes is a `family` or a `scenario`";
+            let fault = Diagnostic::error(fault::MISSING_KEY, message, reader.extent(item), label);
+            reader.report(fault.hint("for example `{family: convex-corner, trials: 100}` or `{scenario: disk.yaml}`"));
+            None
+        }
+    };
+    Some(SweepScenes { of: of?, trials: trials?, seed: seed? })
+}
+
+fn family(reader: &mut Reader<'_>, entry: &Entry) -> Option<Family> {
+    let index = reader.choice(&entry.value, "a family", &FAMILIES.map(|family| family.name))?;
+    FAMILIES.get(index).copied()
+}
+
+fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
+    let mut fields = Fields::of(reader, &entry.value, "what varies", entry.key.span)?;
+    let (policy, scenario) = (fields.entry("policy"), fields.entry("scenario"));
+    fields.finish(reader);
+    check_names(reader, policy, scenario);
+    let mut axes = named(reader, policy, "speed: [2 cm/s, 5 cm/s]", parameters);
+    axes.extend(named(reader, scenario, "physics.friction: [0, 0.1]", changes));
+    axes.into_iter().collect()
+}
+
+/// Keys of a scenario that a sweep itself gives, and how.
+const GIVEN: [(&str, &str); 2] = [
+    ("policy", "list the policies in the sweep's own `policies`"),
+    ("seed", "give the scenes `trials`, each of which has noise of its own, and a `seed` to begin with"),
+];
+
+/// Checks that what varies can do so by itself: else results would stand under values that their runs did not have.
+fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option<&Entry>) {
+    let names = |entry: Option<&'_ Entry>| match entry.map(|entry| &entry.value.value) {
+        Some(Node::Mapping(entries)) => entries.iter().map(|entry| entry.key.clone()).collect(),
+        _ => Vec::new(),
+    };
+    let (parameters, keys): (Vec<Placed<String>>, Vec<Placed<String>>) = (names(policy), names(scenario));
+    let places: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
+    for Placed { value, span } in &parameters {
+        if let Some(&other) = places.get(value.as_str()) {
+            let message = format!("two things called `{value}` vary");
+            let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "a parameter of the policies");
+            let fault = fault.note(other, "a key of the scenarios of the same name");
+            reader.report(fault.hint("make two sweeps of it, or rename the parameter"));
+        }
+    }
+    for Placed { value, span } in &keys {
+        if let Some((_, hint)) = GIVEN.iter().find(|(given, _)| given == value) {
+            let message = format!("`{value}` of a scenario cannot vary");
+            let label = "a sweep gives it to every run";
+            reader.report(Diagnostic::error(fault::ENTANGLED, message, *span, label).hint(*hint));
+        }
+        for (end, _) in value.match_indices('.') {
+            let above = &value[..end];
+            if let Some(&place) = places.get(above) {
+                let message = format!("`{above}` and `{value}` cannot both vary");
+                let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "this key");
+                let fault = fault.note(place, "is in this one, which has values, too");
+                reader.report(fault.hint(format!("vary `{above}` as a whole, or the keys in it one by one")));
+            }
+        }
+    }
+}
+
+/// What varies, each by its name, with values that `read` reads.
+fn named(
+    reader: &mut Reader<'_>,
+    entry: Option<&Entry>,
+    example: &str,
+    read: impl Fn(&mut Reader<'_>, &Placed<String>, &[Placed<Node>]) -> Option<AxisValues>,
+) -> Vec<Option<Axis>> {
+    let Some(entry) = entry else { return Vec::new() };
+    let Node::Mapping(entries) = &entry.value.value else {
+        reader.wrong_type(&entry.value, "a mapping", format!("write every name with its values, `{example}`"));
+        return vec![None];
+    };
+    let mut axis = |entry: &Entry| {
+        let items = some(reader, entry, "a list of values", VALUES)?;
+        let values = read(reader, &entry.key, items)?;
+        let mut seen = BTreeMap::new();
+        for (index, item) in items.iter().enumerate().take(values.len()) {
+            let text = values.text(index);
+            check_new(reader, &mut seen, text.clone(), reader.extent(item), &text);
+        }
+        Some(Axis { name: entry.key.value.clone(), values })
+    };
+    entries.iter().map(&mut axis).collect()
+}
+
+fn parameters(reader: &mut Reader<'_>, _: &Placed<String>, items: &[Placed<Node>]) -> Option<AxisValues> {
+    let values: Vec<_> = items.iter().map(|item| parameter(reader, item)).collect();
+    Some(AxisValues::Parameter(values.into_iter().collect::<Option<_>>()?))
+}
+
+/// A value of a parameter; whether that is of its dimension only the policy knows.
+fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterValue> {
+    let plain = |value_si| Quantity { value_si, dimension: Dimension::NUMBER, unit: None };
+    let (quantity, text) = match &node.value {
+        Node::Integer(integer) => (plain(*integer as f64), integer.to_string()),
+        Node::Float(float) => (plain(*float), float.to_string()),
+        Node::Text(text) => match parse_quantity(text) {
+            Ok(quantity) => (quantity, text.clone()),
+            Err(error) => {
+                let message = format!("`{text}` is no value of a parameter");
+                let fault = Diagnostic::error(fault::QUANTITY, message, reader.extent(node), error.to_string());
+                reader.report(fault.hint(error.hint()));
+                return None;
+            }
+        },
+        _ => {
+            reader.wrong_type(node, "a number with its unit", "for example `2 cm/s`");
+            return None;
+        }
+    };
+    Some(ParameterValue { quantity, text, span: reader.extent(node) })
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "it stands beside `parameters`")]
+fn changes(_: &mut Reader<'_>, path: &Placed<String>, items: &[Placed<Node>]) -> Option<AxisValues> {
+    Some(AxisValues::Scenario(items.iter().map(|item| Change::new(path.clone(), item.clone())).collect()))
+}
+
+/// The fault of a policy, or of a value for one, at a place.
+pub(super) fn unfit(place: Span, reason: &str) -> Diagnostic {
+    let fault = Diagnostic::error(fault::UNFIT, "the policy cannot be run so", place, reason);
+    fault.hint("what varies of a policy are parameters that all policies have; those of families have a `speed`")
+}

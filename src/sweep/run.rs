@@ -1,0 +1,130 @@
+//! One run of a sweep.
+
+use std::fmt::Write;
+
+use super::axis::{Axis, AxisValues};
+use super::read;
+use super::{Sweep, SweepScenes};
+use crate::diagnostic::{Diagnostic, Source, Span};
+use crate::scenario;
+use crate::scenario::Files;
+use crate::scene::{FileReference, Scene};
+use vibrissa_runtime::units::Quantity;
+
+/// One run of a sweep: a trial, under one policy, with one value of everything that varies.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepRun<'s> {
+    sweep: &'s Sweep,
+    /// Its place in the list of all runs, from 0.
+    pub index: u64,
+    /// The index of its scenes among the sweep's.
+    pub scenes: usize,
+    /// The number of its trial among those of its scenes.
+    pub trial: u64,
+    /// Which combination it is of what varies; the last thing varies fastest.
+    variant: u64,
+    /// The index of its policy among the sweep's.
+    pub policy: usize,
+}
+
+impl<'s> SweepRun<'s> {
+    /// The run with this index.
+    pub(super) fn new(sweep: &'s Sweep, index: u64) -> Option<Self> {
+        let (policies, variants) = (sweep.policies.len() as u64, sweep.variant_count());
+        let policy = usize::try_from(index.checked_rem(policies)?).ok()?;
+        let variant = (index / policies).checked_rem(variants)?;
+        let mut trial = index / policies / variants;
+        for (scenes, SweepScenes { trials, .. }) in sweep.scenes.iter().enumerate() {
+            if trial < *trials {
+                return Some(Self { sweep, index, scenes, trial, variant, policy });
+            }
+            trial -= trials;
+        }
+        None
+    }
+
+    /// Its scenes.
+    #[must_use]
+    pub fn scenes(&self) -> &'s SweepScenes {
+        &self.sweep.scenes[self.scenes]
+    }
+
+    /// Its policy.
+    #[must_use]
+    pub fn policy(&self) -> &'s FileReference {
+        &self.sweep.policies[self.policy]
+    }
+
+    /// What it has in common with the other trials of its scenes: equal for those with the same settings and policy, and in the
+    /// order of the sweep.
+    #[must_use]
+    pub fn group(&self) -> (usize, u64, usize) {
+        (self.scenes, self.variant, self.policy)
+    }
+
+    /// What tells it from all other runs of the sweep, in words.
+    #[must_use]
+    pub fn key(&self) -> String {
+        let scenes = self.scenes();
+        let mut key = format!("{}={}", scenes.kind_word(), scenario::quoted(scenes.name()));
+        // Writing to a string cannot fail.
+        if let Some(seed) = scenes.seed {
+            let _ = write!(key, ", seed={seed}");
+        }
+        let _ = write!(key, ", trial={}", self.trial);
+        for (name, value) in self.settings() {
+            let _ = write!(key, ", {name}={value}");
+        }
+        key + ", policy=" + &scenario::quoted(&self.policy().name)
+    }
+
+    /// What varies, with the values of this run as they are written.
+    pub fn settings(&self) -> impl Iterator<Item = (&'s str, String)> {
+        self.choices().map(|(axis, value)| (axis.name.as_str(), axis.values.text(value)))
+    }
+
+    /// The parameters of its policy that are set, with their places in the sweep.
+    pub fn parameters(&self) -> impl Iterator<Item = (&'s str, Quantity, Span)> {
+        self.choices().filter_map(|(axis, value)| match &axis.values {
+            AxisValues::Parameter(values) => Some((axis.name.as_str(), values[value].quantity, values[value].span)),
+            AxisValues::Scenario(_) => None,
+        })
+    }
+
+    /// That its policy cannot be run as the run wants it, at the place in the sweep that says so: of a parameter, or else of the policy.
+    #[must_use]
+    pub fn unfit(&self, parameter: Option<Span>, reason: &str) -> Diagnostic {
+        read::unfit(parameter.unwrap_or(self.policy().span), reason)
+    }
+
+    /// Reads its scene: the `scenario`, with what the run changes of it.
+    ///
+    /// # Errors
+    /// As [`scenario::read`], with the text that they point into: the scenario, and then the `sweep`.
+    pub fn scene(
+        &self,
+        scenario: &Source,
+        sweep: &Source,
+        files: &mut Files<'_>,
+    ) -> Result<Scene, (Box<Source>, Vec<Diagnostic>)> {
+        let changes = self.choices().filter_map(|(axis, value)| match &axis.values {
+            AxisValues::Scenario(changes) => Some(&changes[value]),
+            AxisValues::Parameter(_) => None,
+        });
+        scenario::read_changed(scenario, sweep, &changes.collect::<Vec<_>>(), files)
+    }
+
+    /// Everything that varies, with the index of its value.
+    fn choices(&self) -> impl Iterator<Item = (&'s Axis, usize)> {
+        let mut left = self.variant;
+        let choice = |axis: &'s Axis| {
+            let length = axis.len() as u64;
+            let value = usize::try_from(left % length).unwrap_or(0);
+            left /= length;
+            (axis, value)
+        };
+        let mut choices: Vec<_> = self.sweep.axes.iter().rev().map(choice).collect();
+        choices.reverse();
+        choices.into_iter()
+    }
+}

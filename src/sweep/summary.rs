@@ -1,0 +1,88 @@
+//! What became of a sweep.
+
+use crate::report::Document;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::report::Table;
+use crate::study::{Figures, Tally};
+use crate::sweep::{Sweep, SweepRun};
+
+/// What became of a sweep, or of a part of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct SweepSummary {
+    /// The name of the sweep.
+    pub sweep: String,
+    /// How many runs were there before.
+    pub resumed: usize,
+    /// Its runs by what they have in common, in the order of the sweep.
+    pub groups: Vec<SweepGroup>,
+}
+
+impl Document for SweepSummary {
+    const FORMAT: &'static str = "sweep-summary";
+}
+
+/// The runs of one family or scenario under one policy, with one value of everything that varies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct SweepGroup {
+    /// The family or the scenario.
+    pub scenes: String,
+    /// What varies, as it is written.
+    pub settings: BTreeMap<String, String>,
+    /// The policy.
+    pub policy: String,
+    /// What became of them.
+    #[serde(flatten)]
+    pub tally: Tally,
+}
+
+impl SweepSummary {
+    /// Counts runs of `sweep` by their indices; so many of them were there before.
+    #[must_use]
+    pub fn new(sweep: &Sweep, runs: &BTreeMap<u64, Figures>, resumed: usize) -> Self {
+        let mut groups: BTreeMap<_, (SweepRun<'_>, Vec<Figures>)> = BTreeMap::new();
+        for (&index, &figures) in runs {
+            if let Some(run) = sweep.run(index) {
+                groups.entry(run.group()).or_insert_with(|| (run, Vec::new())).1.push(figures);
+            }
+        }
+        let groups = groups.into_values().map(|(run, figures)| SweepGroup {
+            scenes: run.scenes().name().to_owned(),
+            settings: run.settings().map(|(name, value)| (name.to_owned(), value)).collect(),
+            policy: run.policy().name.clone(),
+            tally: Tally::new(figures),
+        });
+        Self { sweep: sweep.name().to_owned(), resumed, groups: groups.collect() }
+    }
+
+    /// How many runs crashed or could not begin.
+    #[must_use]
+    pub fn without_result(&self) -> usize {
+        self.groups.iter().map(|group| group.tally.crashed + group.tally.refused).sum()
+    }
+}
+
+/// A heading, and the count that stands under it.
+type Ends = (&'static str, fn(&Tally) -> usize);
+
+/// A table with a row for every group. Crashed and refused runs have columns if there are any.
+#[must_use]
+pub fn summary_table(groups: &[SweepGroup]) -> Table {
+    let settings: Vec<&str> =
+        groups.first().into_iter().flat_map(|group| group.settings.keys().map(String::as_str)).collect();
+    let crashed: Ends = ("crashed", |tally| tally.crashed);
+    let refused: Ends = ("refused", |tally| tally.refused);
+    let ends = [crashed, refused].into_iter();
+    let ends: Vec<Ends> = ends.filter(|(_, count)| groups.iter().any(|group| count(&group.tally) > 0)).collect();
+    let headings = std::iter::once("scenes").chain(settings.iter().copied()).chain(["policy"]);
+    let headings = headings.chain(Tally::HEADINGS).chain(ends.iter().map(|(heading, _)| *heading));
+    let cells = |SweepGroup { scenes, settings, policy, tally }: &SweepGroup| {
+        let names = std::iter::once(scenes.clone()).chain(settings.values().cloned()).chain([policy.clone()]);
+        names.chain(tally.cells()).chain(ends.iter().map(|(_, count)| count(tally).to_string())).collect()
+    };
+    Table::new(2 + settings.len(), headings, groups.iter().map(cells))
+}
