@@ -18,6 +18,8 @@ Commands:
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
   prose   measure the sentences and terms of the documentation
+  links   follow the links between the pages of the documentation
+  book    build the documentation as a book in target/book
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
@@ -31,6 +33,8 @@ pub(crate) enum Command {
     Demo,
     Test,
     Prose,
+    Links,
+    Book,
     Bench { save: bool },
     Fuzz(u64),
 }
@@ -59,6 +63,8 @@ impl Command {
             "demo" => Self::Demo,
             "test" => Self::Test,
             "prose" => Self::Prose,
+            "links" => Self::Links,
+            "book" => Self::Book,
             "bench" => {
                 let mut arguments = arguments.peekable();
                 let save = arguments.next_if(|argument| argument == "--save").is_some();

@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
+use crate::book::{self, BookError};
 use crate::cargo::{NotStarted, cargo};
 use crate::checkout::Checkout;
+use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
 use crate::setup::{self, Options, SetupError};
 
@@ -22,6 +24,8 @@ enum Work {
     CoreIsFreeOfMujoco,
     Setup,
     Prose,
+    Links,
+    Book,
     CheckoutIsUntouched,
 }
 
@@ -46,6 +50,10 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Prose(#[from] ProseError),
     #[error(transparent)]
+    Links(#[from] LinkError),
+    #[error(transparent)]
+    Book(#[from] BookError),
+    #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
     Cargo(#[from] NotStarted),
@@ -62,9 +70,10 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 11] = [
+const CHECKS: [Check; 13] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation", work: Work::Prose },
+    Check { title: "links of the documentation", work: Work::Links },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
     check_in(
         // mujoco-rs's build script would stop at a directory that does not exist.
@@ -73,6 +82,7 @@ const CHECKS: [Check; 11] = [
         // All other tests would do here just what they do below, and are linted without MuJoCo too.
         &["test", "--package", "vibrissa", "--no-default-features", "--test", "program"],
     ),
+    Check { title: "book", work: Work::Book },
     Check { title: "set-up", work: Work::Setup },
     check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
     check(
@@ -128,6 +138,8 @@ impl Check {
             Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
             Work::Prose => Ok(prose::check(root)?),
+            Work::Links => Ok(links::check(root)?),
+            Work::Book => the_book_is_built(root),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
     }
@@ -165,6 +177,18 @@ fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckE
     }
     let tree = String::from_utf8_lossy(&output.stdout);
     if tree.contains("mujoco-rs") { Err(CheckError::CoreNeedsMujoco) } else { Ok(()) }
+}
+
+/// Without mdBook there is no book, which is no fault of the documentation.
+fn the_book_is_built(root: &Path) -> Result<(), CheckError> {
+    match book::build(root) {
+        Ok(_) => Ok(()),
+        Err(BookError::NoMdbook(said)) => {
+            println!("      left out: there is no mdBook here, and pip did not install it:\n{said}");
+            Ok(())
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn checkout_is_untouched(root: &Path, before: Option<&Checkout>) -> Result<(), CheckError> {
@@ -222,6 +246,6 @@ mod tests {
         let lines: Vec<_> = text.lines().map(str::trim).collect();
         assert_eq!(lines.len(), 3);
         assert!(lines[0].starts_with("ok") && lines[1].starts_with("FAILED"), "{text}");
-        assert!(lines[2].ends_with("stopped, 9 checks left"), "{text}");
+        assert!(lines[2].ends_with("stopped, 11 checks left"), "{text}");
     }
 }

@@ -4,12 +4,14 @@
 
 mod arguments;
 mod bench;
+mod book;
 mod cargo;
 mod checkout;
 mod checks;
 mod demo;
 mod fuzz;
 mod hash;
+mod links;
 mod platform;
 mod prose;
 mod setup;
@@ -44,6 +46,8 @@ fn main() -> ExitCode {
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
         Command::Prose => status(prose::check(&root)),
+        Command::Links => status(links::check(&root)),
+        Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
