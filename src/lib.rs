@@ -1,22 +1,25 @@
 //! Scenarios, benchmarks and a policy language for whisker-based active touch.
 
-// What pest writes for a grammar without `std` names it.
+// The code that pest writes for a grammar without `std` names it.
 extern crate alloc;
 
+pub mod built_in;
 pub mod calibration;
-pub mod cli;
+mod command;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]
-pub mod editor;
+mod editor;
 pub mod family;
 pub mod file;
 pub mod geometry;
+mod load;
 pub mod mujoco;
 pub mod outline;
 pub mod physics;
 pub mod policy;
 pub mod quasi_static;
 pub mod report;
+pub mod results;
 pub mod run;
 pub mod scenario;
 pub mod scene;
@@ -24,4 +27,8 @@ pub mod score;
 pub mod solid;
 pub mod study;
 pub mod sweep;
+pub mod trial;
 pub mod world;
+
+#[doc(hidden)]
+pub use command::main as command_line;

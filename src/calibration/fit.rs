@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::report::Table;
 use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, ContactSet};
 use vibrissa_runtime::rig::Whisker;
 
@@ -141,19 +140,4 @@ fn hold_out<F>(
         max_mm: 1e3 * max,
         range,
     })
-}
-
-/// A table of how well fits hold.
-#[must_use]
-pub fn held_out_table(rows: &[HeldOut]) -> Table {
-    let cells = rows.iter().map(|row| {
-        vec![
-            row.model.to_owned(),
-            row.sets.to_string(),
-            format!("{:.3}", row.rms_mm),
-            format!("{:.3}", row.max_mm),
-            row.range.clone(),
-        ]
-    });
-    Table::new(1, ["model", "sets held out", "rms mm", "max mm", "range"], cells)
 }

@@ -17,4 +17,4 @@ mod server;
 mod uri;
 mod wire;
 
-pub use server::{Ended, Library, serve};
+pub(crate) use server::{Ended, serve};

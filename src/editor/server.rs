@@ -25,7 +25,7 @@ const QUIET: Duration = Duration::from_millis(10);
 
 /// How a server ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
+pub(crate) enum Ended {
     /// As the protocol has it: told to shut down, then to exit.
     Orderly,
     /// Told to exit without being told to shut down, or left by the editor.
@@ -41,7 +41,7 @@ enum Phase {
 }
 
 /// Gives the text of a file that no editor has open by its path, or says why it cannot.
-pub type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
+pub(super) type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
 
 /// A server.
 pub(super) struct Server<'l> {
@@ -58,7 +58,11 @@ pub(super) struct Server<'l> {
 ///
 /// # Errors
 /// Reading or writing failed: the editor is gone.
-pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
+pub(crate) fn serve(
+    input: impl BufRead + Send + 'static,
+    output: &mut dyn Write,
+    library: &Library<'_>,
+) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
     let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
     let mut queue = Queue::of(input)?;

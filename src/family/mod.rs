@@ -13,7 +13,6 @@ mod place;
 mod polygon;
 mod run;
 mod smooth_curve;
-mod table;
 mod tally;
 mod thin_wall;
 mod tunnel_mouth;
@@ -22,7 +21,6 @@ mod zigzag_tunnel;
 
 pub use draw::{Draw, NoDraw, SPEEDS};
 pub use run::FamilyRun;
-pub use table::families_table;
 pub use tally::FamilyTally;
 
 use dice::Dice;

@@ -1,9 +1,9 @@
 //! One run in a scene of a family.
 
-use crate::report::Document;
+use crate::results::Document;
 use serde::Serialize;
 
-use crate::report::RunResult;
+use crate::results::RunResult;
 
 /// A run in one scene of a family.
 #[derive(Debug, Clone, PartialEq, Serialize)]

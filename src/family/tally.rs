@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::study::{Figures, Tally};
+use crate::results::{Figures, Tally};
 
 use super::run::FamilyRun;
 

@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::scenario::Files;
 use crate::scene::Scene;
 
-/// One value for a key of a scenario, such as `physics.friction`.
+/// One value for a key of a scenario, such as `rig.physics.friction`.
 #[derive(Debug, Clone)]
 pub(crate) struct Change {
     path: Placed<String>,

@@ -1,6 +1,6 @@
 //! What results of a sweep are results of.
 
-use crate::report::Document;
+use crate::results::Document;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};

@@ -1,13 +1,13 @@
 //! The result of a run of a sweep, as a line.
 
-use crate::report::Document;
+use crate::results::Document;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::shard::run_hash;
-use crate::report::RunResult;
-use crate::study::{Ending, Figures, TipShares};
+use crate::results::RunResult;
+use crate::results::{Ending, Figures, TipShares};
 use crate::sweep::SweepRun;
 
 /// The result of a run of a sweep; serialised, a line of its results.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::report::Document;
+use crate::results::Document;
 
 use super::header::Header;
 use super::results::ResultsError;

@@ -1,6 +1,6 @@
 //! The results of a sweep's shards as one.
 
-use crate::report::Document;
+use crate::results::Document;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::results::{self, ResultsError, check_place};
 use super::shard::Shard;
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
-use crate::study::Figures;
+use crate::results::Figures;
 use crate::sweep::Sweep;
 
 /// The results of all parts of a sweep.

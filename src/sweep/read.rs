@@ -144,7 +144,7 @@ fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
     fields.finish(reader);
     check_names(reader, policy, scenario);
     let mut axes = named(reader, policy, "speed: [2 cm/s, 5 cm/s]", parameters);
-    axes.extend(named(reader, scenario, "physics.friction: [0, 0.1]", changes));
+    axes.extend(named(reader, scenario, "rig.physics.friction: [0, 0.1]", changes));
     axes.into_iter().collect()
 }
 

@@ -1,6 +1,6 @@
 //! A file of results that grows line by line, and that is gone on with after a kill.
 
-use crate::report::Document;
+use crate::results::Document;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::{File, TryLockError};
 use std::io::{self, Write};
@@ -11,7 +11,7 @@ use super::line::read_line;
 use super::lines::{LINE_LIMIT, Lines};
 use super::shard::Shard;
 use crate::file;
-use crate::study::Figures;
+use crate::results::Figures;
 use crate::sweep::Sweep;
 
 /// Why results cannot be used.

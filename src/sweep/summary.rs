@@ -1,12 +1,11 @@
 //! What became of a sweep.
 
-use crate::report::Document;
+use crate::results::Document;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::report::Table;
-use crate::study::{Figures, Tally};
+use crate::results::{Figures, Tally};
 use crate::sweep::{Sweep, SweepRun};
 
 /// What became of a sweep, or of a part of it.
@@ -64,25 +63,4 @@ impl SweepSummary {
     pub fn without_result(&self) -> usize {
         self.groups.iter().map(|group| group.tally.crashed + group.tally.refused).sum()
     }
-}
-
-/// A heading, and the count that stands under it.
-type Ends = (&'static str, fn(&Tally) -> usize);
-
-/// A table with a row for every group. Crashed and refused runs have columns if there are any.
-#[must_use]
-pub fn summary_table(groups: &[SweepGroup]) -> Table {
-    let settings: Vec<&str> =
-        groups.first().into_iter().flat_map(|group| group.settings.keys().map(String::as_str)).collect();
-    let crashed: Ends = ("crashed", |tally| tally.crashed);
-    let refused: Ends = ("refused", |tally| tally.refused);
-    let ends = [crashed, refused].into_iter();
-    let ends: Vec<Ends> = ends.filter(|(_, count)| groups.iter().any(|group| count(&group.tally) > 0)).collect();
-    let headings = std::iter::once("scenes").chain(settings.iter().copied()).chain(["policy"]);
-    let headings = headings.chain(Tally::HEADINGS).chain(ends.iter().map(|(heading, _)| *heading));
-    let cells = |SweepGroup { scenes, settings, policy, tally }: &SweepGroup| {
-        let names = std::iter::once(scenes.clone()).chain(settings.values().cloned()).chain([policy.clone()]);
-        names.chain(tally.cells()).chain(ends.iter().map(|(_, count)| count(tally).to_string())).collect()
-    };
-    Table::new(2 + settings.len(), headings, groups.iter().map(cells))
 }

@@ -1,6 +1,5 @@
 //! The main job: the disk, felt all the way round by the thesis's policy.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,7 +10,7 @@ use vibrissa::run::Run;
 use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::Score;
-use vibrissa::study::execute;
+use vibrissa::trial::Trial;
 use vibrissa_runtime::machine::Program;
 
 fn read(name: &str) -> Source {
@@ -27,9 +26,9 @@ fn thesis() -> Program {
 }
 
 fn run(scene: &Scene, program: Program, seed: u64) -> (Run, Score) {
-    let run = execute(scene, Arc::new(program), WorldKind::Mujoco, seed, |_| ControlFlow::Continue(())).unwrap();
-    let score = Score::new(&run, &scene.truth, &scene.rig);
-    (run, score)
+    let trial = Trial::new(scene.clone(), Arc::new(program));
+    let result = Trial { world: WorldKind::Mujoco.into(), seed, ..trial }.run().unwrap();
+    (result.run, result.score)
 }
 
 /// To `digits` digits behind the point: figures that other machines of the same kind give too.

@@ -1,15 +1,13 @@
 //! Both worlds against each other: the same policy on the same scenes.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use vibrissa::built_in::{POLICIES, SCENARIOS};
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scenario;
 use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
-use vibrissa::score::Score;
-use vibrissa::study::bench::{POLICIES, SCENARIOS};
-use vibrissa::study::{execute, in_parallel, processors};
+use vibrissa::trial::{Trial, in_parallel, processors};
 use vibrissa_runtime::machine::Program;
 
 /// How far mean errors may be apart (m).
@@ -22,9 +20,9 @@ fn thesis() -> Arc<Program> {
 
 /// Outcome and mean error (m) of a run.
 fn run(scene: &Scene, program: &Arc<Program>, world: WorldKind) -> (Outcome, f64) {
-    let run = execute(scene, Arc::clone(program), world, scene.seed, |_| ControlFlow::Continue(())).unwrap();
-    let error = Score::new(&run, &scene.truth, &scene.rig).figure(Metric::ErrorMean).unwrap();
-    (run.outcome, error)
+    let trial = Trial { world: world.into(), ..Trial::new(scene.clone(), Arc::clone(program)) };
+    let result = trial.run().unwrap();
+    (result.run.outcome, result.score.figure(Metric::ErrorMean).unwrap())
 }
 
 #[test]

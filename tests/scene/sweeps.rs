@@ -62,7 +62,7 @@ fn runs_are_all_combinations_and_samples_have_every_value_once() {
     for (name, value) in sweep.samples().flat_map(|run| run.settings().collect::<Vec<_>>()) {
         values.entry(name).or_default().insert(value);
     }
-    assert_eq!(values["speed"].len() + values["physics.friction"].len(), 4);
+    assert_eq!(values["speed"].len() + values["rig.physics.friction"].len(), 4);
     // Three kinds of scenes as the first values have them, with another speed, and with another friction.
     assert_eq!(sweep.samples().count(), 9);
     assert!(sweep.samples().all(|run| run.trial == 0));

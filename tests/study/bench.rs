@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 
 use crate::runs::{arc_of_tips, run_with};
+use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
-use vibrissa::report::{Hashes, Identity, MeanStd, Retrieval, RunResult};
+use vibrissa::report::{bench_page, bench_table, pooled_tips};
+use vibrissa::results::{Hashes, Identity, MeanStd, Retrieval, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
-use vibrissa::study::bench::{BenchRow, Conditions, SCENARIOS, THESIS, Verdict, bench_page, bench_table, pooled_tips};
+use vibrissa::study::bench::{BenchRow, Conditions, THESIS, Verdict};
 use vibrissa_runtime::rig::Rig;
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.

@@ -8,11 +8,12 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
-use vibrissa::report::{Hashes, Identity, RunResult};
+use vibrissa::report::comparison_tables;
+use vibrissa::results::{Hashes, Identity, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook, comparison_tables};
+use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook};
 use vibrissa_runtime::rig::Rig;
 
 fn figure(name: &str) -> &'static Figure {

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::compile;
+use vibrissa::report::estimators_tables;
 use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
-use vibrissa::study::estimators::{EstimatorRow, estimators_tables, judge_all};
+use vibrissa::study::estimators::{EstimatorRow, evaluate_all};
 use vibrissa_runtime::machine::TipModelKind;
 
 /// Goes up, and nearer to the wall on the right.
@@ -62,7 +63,7 @@ fn all_models_meet_the_same_touches_in_the_world_that_is_asked_for_whatever_the_
         scenario::read(&Source::new("wall.yaml", text)).unwrap()
     };
     let program = Arc::new(compile(&Source::new("a.fsm", POLICY)).unwrap());
-    let judged = |noise: &str| judge_all(&scene(noise), Arc::clone(&program), WorldKind::QuasiStatic).unwrap();
+    let judged = |noise: &str| evaluate_all(&scene(noise), Arc::clone(&program), WorldKind::QuasiStatic).unwrap();
     let rows = judged("0 urad");
     assert_eq!(rows.len(), 3 * TipModelKind::ALL.len());
     let of = |model: &str, is: fn(f64) -> bool| rows.iter().find(|row| row.model == model && is(row.noise)).unwrap();

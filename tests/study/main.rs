@@ -23,7 +23,7 @@ mod seen;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
 mod ticks;
-mod tiers;
 mod united;
 mod verdicts;
 mod way;
+mod worlds;

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use vibrissa::built_in::{DEFAULT_POLICY, SCENARIOS};
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
+use vibrissa::report::{pareto_picture, pareto_table};
+use vibrissa::results::Ending;
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind};
-use vibrissa::study::Ending;
-use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS};
-use vibrissa::study::pareto::{Change, Pareto, Setting, measure, pareto_picture, pareto_table};
+use vibrissa::study::pareto::{Change, Pareto, Setting, measure};
 use vibrissa_runtime::machine::{Program, TipModelKind};
 
 fn disk() -> Scene {

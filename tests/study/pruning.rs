@@ -1,17 +1,17 @@
 //! What is left out of a run changes nothing.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use vibrissa::built_in::POLICIES;
 use vibrissa::diagnostic::Source;
 use vibrissa::family::{Draw, FAMILIES};
 use vibrissa::geometry::{Point2, Pose};
 use vibrissa::mujoco::MujocoWorld;
 use vibrissa::policy::{compile, gather};
+use vibrissa::run::Run;
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind, WorldSetup};
-use vibrissa::study::bench::POLICIES;
-use vibrissa::study::{execute, in_parallel, processors};
+use vibrissa::trial::{Trial, in_parallel, processors};
 use vibrissa::world::World;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
@@ -21,10 +21,14 @@ fn thesis() -> Program {
     compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap()
 }
 
+fn run(scene: &Scene, program: &Program, world: WorldSetup) -> Run {
+    Trial { world, ..Trial::new(scene.clone(), Arc::new(program.clone())) }.run().unwrap().run
+}
+
 /// All points of the estimated contours of a run, in the order in which they were recorded.
 fn contour(scene: &Scene, program: &Program, prune: bool) -> Vec<Point2> {
     let world = WorldSetup { kind: WorldKind::Mujoco, prune };
-    let run = execute(scene, Arc::new(program.clone()), world, scene.seed, |_| ControlFlow::Continue(())).unwrap();
+    let run = run(scene, program, world);
     run.trace.ticks.iter().flat_map(|tick| tick.tips.into_iter().flatten()).collect()
 }
 
@@ -65,8 +69,8 @@ fn pruning_does_not_change_the_estimated_contour_of_hundreds_of_scenes() {
 
 /// The bits of everything that is sensed while a platform goes as `program` has it go with pruning, with and without pruning.
 fn sensed(scene: &Scene, program: &Program) -> [Vec<u64>; 2] {
-    let run = execute(scene, Arc::new(program.clone()), WorldKind::Mujoco, scene.seed, |_| ControlFlow::Continue(()));
-    let commands: Vec<_> = run.unwrap().trace.ticks.iter().map(|tick| tick.command).collect();
+    let run = run(scene, program, WorldKind::Mujoco.into());
+    let commands: Vec<_> = run.trace.ticks.iter().map(|tick| tick.command).collect();
     assert!(commands.len() > 100, "{}: {} ticks", scene.name, commands.len());
     [MujocoWorld::pruned, MujocoWorld::new].map(|build| {
         let mut world = build(&scene.rig, &scene.physics, &scene.solids, scene.start, scene.seed).unwrap();

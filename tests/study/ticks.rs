@@ -3,7 +3,7 @@
 use crate::runs::{arc_of_tips, run_with};
 use serde_json::{Value, json};
 use vibrissa::geometry::{Point2, Vector2};
-use vibrissa::report::tick_lines;
+use vibrissa::results::tick_lines;
 use vibrissa::run::{MarkRecord, Run, Touch};
 use vibrissa_runtime::machine::Mark;
 

@@ -1,15 +1,13 @@
 //! Runs around objects that overlap.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use vibrissa::built_in::DEFAULT_POLICY;
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scenario;
 use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
-use vibrissa::score::Score;
-use vibrissa::study::bench::DEFAULT_POLICY;
-use vibrissa::study::execute;
+use vibrissa::trial::{Trial, TrialResult};
 
 /// Two boxes, the second of which reaches on from within the first; together they are the box of the bench.
 const OVERLAPPING: &str = "
@@ -30,8 +28,8 @@ fn is_traced_as_one(world: WorldKind) {
     assert_eq!((scene.solids.len(), scene.truth.reference.contours().count()), (1, 1));
     let source = Source::new(DEFAULT_POLICY.path, DEFAULT_POLICY.text);
     let program = Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap());
-    let run = execute(&scene, program, world, 0, |_| ControlFlow::Continue(())).unwrap();
-    let score = Score::new(&run, &scene.truth, &scene.rig);
+    let trial = Trial { world: world.into(), seed: 0, ..Trial::new(scene, program) };
+    let TrialResult { run, score, .. } = trial.run().unwrap();
     assert_eq!(run.outcome, Outcome::Completed);
     // Once round the outline of both, and never along a side that is within the other.
     assert!(score.figure(Metric::Coverage).unwrap() > 0.97);

@@ -1,15 +1,14 @@
 //! A run of a family that passed has traced its object, by a second measure that shares nothing with the score.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use vibrissa::built_in::DEFAULT_POLICY;
 use vibrissa::family::{Draw, FAMILIES, Family};
 use vibrissa::geometry::{Contour, Point2, TunnelAxis};
 use vibrissa::run::{Run, Trace};
 use vibrissa::scene::{Outcome, Scene, WorldKind};
-use vibrissa::score::{Score, tips};
-use vibrissa::study::bench::DEFAULT_POLICY;
-use vibrissa::study::{execute, in_parallel, processors};
+use vibrissa::score::tips;
+use vibrissa::trial::{Trial, TrialResult, in_parallel, processors};
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
@@ -127,10 +126,9 @@ fn passed_runs(world: WorldKind, seed: u64, trials: u64) -> usize {
         let Draw { scene, speed, .. } = family.draw(seed, trial).unwrap();
         let mut program = policy.clone();
         program.set("speed", speed, Dimension::SPEED).unwrap();
-        let run = execute(&scene, Arc::new(program), world, scene.seed, |_| ControlFlow::Continue(())).unwrap();
-        let score = Score::new(&run, &scene.truth, &scene.rig);
-        let passed =
-            scene.expect.iter().all(|expect| expect.violation(run.outcome, |metric| score.figure(metric)).is_none());
+        let trial = Trial { world: world.into(), ..Trial::new(scene, Arc::new(program)) };
+        let TrialResult { run, violations, .. } = trial.run().unwrap();
+        let (scene, passed) = (trial.scene, violations.is_empty());
         if passed {
             assert_eq!(run.outcome, Outcome::Completed);
             let wrong = wrong(&scene, &run);

@@ -1,6 +1,5 @@
 //! Whiskers that a rig may lack: one that it lacks is as one that nothing touches, and no other whisker feels the difference.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use proptest::prelude::*;
@@ -8,7 +7,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose, Vector2};
 use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
-use vibrissa::study::execute;
+use vibrissa::trial::Trial;
 use vibrissa_runtime::control::{BindError, Control};
 use vibrissa_runtime::machine::{Action, Mover, Senses, TipModelKind, Turn, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::motion::Steering;
@@ -152,7 +151,7 @@ fn a_trace_has_the_whiskers_that_the_rig_has() {
     let run = |text: &str| {
         let scene = scenario::read(&Source::new("t.yaml", text)).unwrap();
         let program = Arc::new(program(policy));
-        execute(&scene, program, WorldKind::QuasiStatic, 0, |_| ControlFlow::Continue(())).unwrap().trace
+        Trial { world: WorldKind::QuasiStatic.into(), seed: 0, ..Trial::new(scene, program) }.run().unwrap().run.trace
     };
     let (plain, with) = (run(text), run(&format!("{text}{rig}")));
     assert_eq!(

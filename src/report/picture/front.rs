@@ -8,15 +8,15 @@ use crate::report::style::{self, Anchor, line, px, text};
 
 /// One of several things of which each has a cost and an error by either of two measures.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FrontPoint {
+pub(super) struct FrontPoint {
     /// What it is.
-    pub(crate) name: String,
+    pub(super) name: String,
     /// The index of its kind, which gives its colour.
-    pub(crate) kind: usize,
+    pub(super) kind: usize,
     /// What it costs, above 0.
-    pub(crate) cost: f64,
+    pub(super) cost: f64,
     /// Its errors, above 0; with whether it is on the front of all, and whether on that of its like.
-    pub(crate) errors: [Option<(f64, bool, bool)>; 2],
+    pub(super) errors: [Option<(f64, bool, bool)>; 2],
 }
 
 /// Width of the picture, of a panel and of its sides, and heights (px).
@@ -33,7 +33,7 @@ const NUMBER: f64 = 11.0;
 
 /// A picture of cost against error, both on logarithmic scales: a panel for either error, with the front of all as a line and
 /// points that are on the front of their like filled. The first point has a ring. A self-contained SVG.
-pub(crate) fn front_picture(
+pub(super) fn front_picture(
     title: &str,
     subtitle: &str,
     cost: &str,

@@ -4,12 +4,13 @@ mod error_class;
 mod front;
 mod legend;
 mod map;
+mod pareto;
 mod profile;
 mod scale;
 mod shaft;
 mod timeline;
 
-pub(crate) use front::{FrontPoint, front_picture};
+pub use pareto::pareto_picture;
 pub use profile::profile_picture;
 
 use std::iter;

@@ -1,9 +1,9 @@
 //! One run of the bench, against the thesis.
 
-use crate::report::Document;
+use crate::results::Document;
 use serde::Serialize;
 
-use crate::report::{MeanStd, RunResult};
+use crate::results::{MeanStd, RunResult};
 use crate::scene::Outcome;
 
 use super::conditions::Conditions;
@@ -88,7 +88,7 @@ impl BenchRow {
     }
 
     /// The figures that the thesis reports too: what was found, what it reports, and the verdict.
-    pub(super) fn figures(&self) -> [(MeanStd, Option<Reported>, Option<Verdict>); 3] {
+    pub(crate) fn figures(&self) -> [(MeanStd, Option<Reported>, Option<Verdict>); 3] {
         let error = MeanStd { mean: self.result.error_mm.mean, std: self.result.error_mm.std };
         let radius = self.result.retrieval.map(|retrieval| retrieval.radius_mm).unwrap_or_default();
         let axis = self.result.axis_mm.unwrap_or_default();

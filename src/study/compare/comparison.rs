@@ -1,9 +1,9 @@
 //! All figures of several policies over the same runs.
 
-use crate::report::Document;
+use crate::results::Document;
 use serde::Serialize;
 
-use crate::report::RunResult;
+use crate::results::RunResult;
 use crate::scene::Outcome;
 
 use super::difference::FigureComparison;

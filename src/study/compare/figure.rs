@@ -1,6 +1,6 @@
 //! The figures by which policies are compared.
 
-use crate::report::RunResult;
+use crate::results::RunResult;
 use crate::scene::Outcome;
 
 /// A figure of a run by which policies are compared.

@@ -3,9 +3,7 @@
 mod comparison;
 mod difference;
 mod figure;
-mod table;
 
 pub use comparison::{Comparison, Incomplete, PolicyRuns};
 pub use difference::{Difference, FigureComparison, Outlook};
 pub use figure::{FIGURES, Figure};
-pub use table::comparison_tables;

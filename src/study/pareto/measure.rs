@@ -1,21 +1,20 @@
 //! Runs under all settings, and what they cost.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
+
+use vibrissa_runtime::control::BindError;
+use vibrissa_runtime::machine::{Program, TipModelKind};
+use vibrissa_runtime::percept::Perception;
 
 use super::row::{Front, ParetoRow};
 use super::setting::{FINE_LINKS, Setting, set_links};
 use super::{Pareto, front};
 use crate::geometry::unit;
-use crate::run::{Run, drive};
+use crate::results::Ending;
 use crate::scene::{Scene, WorldKind};
-use crate::score::{Estimate, Score, Statistics};
-use crate::study::estimators::{Tape, judge};
-use crate::study::processor_time::processor_time;
-use crate::study::{Ending, ExecuteError, build};
-use vibrissa_runtime::control::{BindError, Control};
-use vibrissa_runtime::machine::Program;
-use vibrissa_runtime::rig::Rig;
+use crate::score::{Estimate, Statistics};
+use crate::study::estimators::evaluate;
+use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 
 /// How far behind the scene's start (m) the fine run begins once more.
 const BEHIND: f64 = 1e-3;
@@ -93,8 +92,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    fn new(run: &Run, scene: &Scene, seconds: f64) -> Self {
-        let score = Score::new(run, &scene.truth, &scene.rig);
+    fn new(TrialResult { run, score, .. }: &TrialResult, seconds: f64) -> Self {
         Self {
             ending: run.outcome.into(),
             reason: run.reason.clone(),
@@ -117,40 +115,35 @@ impl Measured {
     }
 }
 
-/// A run under a setting, with the time of the processor (s) that building the world and the loop took.
+/// A run under a setting, with the processor time (s) of building the world and of the loop.
 fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Setting) -> Result<Measured, ExecuteError> {
     let (scene, world) = setting.apply(scene, world);
-    let mut perceived = scene.rig.clone();
-    set_links(&mut perceived, FINE_LINKS);
-    if setting.tip_model().is_some() {
-        return ridden(&scene, &perceived, program, world, setting);
+    let mut trial = Trial::new(scene, Arc::clone(program));
+    trial.world = world.into();
+    set_links(&mut trial.assumed_rig, FINE_LINKS);
+    if let Some(kind) = setting.tip_model() {
+        return re_estimated(&trial, kind);
     }
-    let control = Control::new(&perceived, Arc::clone(program))?;
-    let period = scene.rig.sensing.control_rate.recip();
+    Perception::prepare(&trial.assumed_rig, &program.tip_models);
     let start = processor_time();
-    let mut world = build(&scene, world.into(), scene.seed)?;
-    let run = drive(world.as_mut(), control, &scene.stop, period, |_| ControlFlow::Continue(()));
+    let result = trial.run()?;
     let seconds = processor_time() - start;
-    Ok(Measured::new(&run.ok_or(ExecuteError::Interrupted)?, &scene, seconds))
+    Ok(Measured::new(&result, seconds))
 }
 
-/// What another tip model makes of a run under the policy's own. The time is that of the run, with the one perception in place of the other.
-fn ridden(
-    scene: &Scene,
-    perceived: &Rig,
-    program: &Arc<Program>,
-    world: WorldKind,
-    setting: &Setting,
-) -> Result<Measured, ExecuteError> {
+/// A run under the policy's own contact estimator, whose samples are given to an estimator of another `kind`. The time is that of the run
+/// with the other perception.
+fn re_estimated(trial: &Trial, kind: TipModelKind) -> Result<Measured, ExecuteError> {
+    let Trial { scene, assumed_rig, program, .. } = trial;
     let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
     let start = processor_time();
-    let tape = Tape::record(scene, perceived, Arc::clone(program), world)?;
+    let recording = trial.record()?;
     let seconds = processor_time() - start;
-    let kinds = setting.tip_model().map_or_else(|| program.tip_models.clone(), |kind| vec![kind; whiskers.len()]);
-    let own = judge(scene, perceived, (&whiskers, &program.tip_models), &tape, 0.0)?;
-    let other = judge(scene, perceived, (&whiskers, &kinds), &tape, 0.0)?;
-    let more = 1e-6 * (other.tick_us - own.tick_us) * tape.run.trace.ticks.len() as f64;
-    let run = Measured::new(&tape.run, scene, seconds + more);
+    let kinds = vec![kind; whiskers.len()];
+    let own = evaluate(scene, assumed_rig, (&whiskers, &program.tip_models), &recording, 0.0)?;
+    let other = evaluate(scene, assumed_rig, (&whiskers, &kinds), &recording, 0.0)?;
+    let more = 1e-6 * (other.tick_us - own.tick_us) * recording.result.run.trace.ticks.len() as f64;
+    let run = Measured::new(&recording.result, seconds + more);
     Ok(Measured { error_mm: other.mean_mm, coverage: None, estimate: None, ..run })
 }
 

@@ -2,14 +2,10 @@
 
 mod front;
 mod measure;
-mod picture;
 mod row;
 mod setting;
-mod table;
 
 pub use front::front;
 pub use measure::measure;
-pub use picture::pareto_picture;
 pub use row::{Front, Pareto, ParetoRow};
 pub use setting::{Change, Setting};
-pub use table::pareto_table;

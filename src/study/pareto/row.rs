@@ -1,11 +1,11 @@
 //! What one setting costs, and what it is worth.
 
-use crate::report::Document;
+use crate::results::Document;
 use serde::Serialize;
 
+use crate::results::Ending;
 use crate::scene::{Scene, WorldKind};
 use crate::score::Statistics;
-use crate::study::Ending;
 
 use super::measure::Measured;
 use super::setting::Setting;
@@ -95,7 +95,7 @@ impl Front {
 
 impl ParetoRow {
     /// Whether the run ended as it should.
-    pub(super) fn completed(&self) -> bool {
+    pub(crate) fn completed(&self) -> bool {
         self.outcome == Ending::Completed
     }
 

@@ -191,9 +191,9 @@ impl fmt::Display for Setting {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
+    use crate::built_in::SCENARIOS;
     use crate::diagnostic::Source;
     use crate::scenario;
-    use crate::study::bench::SCENARIOS;
 
     #[test]
     fn every_setting_is_another_and_its_steps_make_up_samples_and_ticks() {

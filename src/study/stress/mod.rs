@@ -4,12 +4,10 @@
 mod case;
 mod run;
 mod stability;
-mod table;
 
 pub use case::{CaseError, Drive, StressCase, stress_cases};
 pub use run::StressRow;
 pub use stability::StabilityCase;
-pub use table::stress_tables;
 
 /// A case, or a setting of which the largest stable step is sought.
 #[derive(Debug, Clone)]

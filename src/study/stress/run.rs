@@ -1,17 +1,15 @@
 //! What becomes of a case.
 
-use crate::report::Document;
-use std::ops::ControlFlow;
+use crate::results::Document;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::built_in::DEFAULT_POLICY;
 use crate::diagnostic::Source;
 use crate::policy::{compile, gather};
-use crate::report::{Hashes, Identity, RunResult};
-use crate::score::Score;
-use crate::study::bench::DEFAULT_POLICY;
-use crate::study::{Ending, execute};
+use crate::results::Ending;
+use crate::trial::Trial;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
@@ -77,16 +75,15 @@ impl StressCase {
             // A fault of this program, and no end of a run.
             Err(reason) => return self.crashed(reason),
         };
-        let policy = program.name.clone();
-        let run = match execute(&self.scene, program, self.world, 0, |_| ControlFlow::Continue(())) {
-            Ok(run) => run,
+        let mut trial = Trial::new(self.scene.clone(), program);
+        trial.world = self.world.into();
+        let result = match trial.run() {
+            Ok(result) => result,
             Err(cause) => return self.row(Ending::Refused, Some(cause.to_string()), 0.0, true),
         };
-        let score = Score::new(&run, &self.scene.truth, &self.scene.rig);
-        let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
-        let (scenario, world) = (String::new(), self.world.to_string());
-        let result = RunResult::new(Identity { scenario, policy, world, seed: 0, hash }, &run, &score);
+        let document = trial.document(&result);
         // JSON has no word for what is no number: it would read as a figure that the run does not have.
+        let run = result.run;
         let mut trace = run.trace;
         // These alone may be infinite: beyond the range of a tip model nothing is known of the place.
         for spread in
@@ -94,8 +91,8 @@ impl StressCase {
         {
             *spread = 0.0;
         }
-        let finite = is_finite(&format!("{result:?}")) && is_finite(&format!("{trace:?}"));
-        self.row(run.outcome.into(), run.reason, result.sim_s, finite)
+        let finite = is_finite(&format!("{document:?}")) && is_finite(&format!("{trace:?}"));
+        self.row(run.outcome.into(), run.reason, document.sim_s, finite)
     }
 
     /// The row of a case that ended its process.

@@ -3,7 +3,7 @@
 use crate::geometry::Vector2;
 use crate::physics::{Integrator, Physics};
 use crate::scene::{Scene, WorldKind};
-use crate::study::{ExecuteError, build};
+use crate::trial::{ExecuteError, build_world};
 use crate::world::{Fault, World};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::Command;
@@ -98,7 +98,7 @@ impl StabilityCase {
         if !with_disk {
             scene.solids.clear();
         }
-        build(&scene, self.world.into(), 0)
+        build_world(&scene, self.world.into(), 0)
     }
 }
 

@@ -3,14 +3,19 @@
 use std::process::Command;
 use std::sync::Arc;
 
+use vibrissa::built_in::{DEFAULT_POLICY, SCENARIOS};
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
+use vibrissa::report::stress_tables;
+use vibrissa::report::timing_table;
+use vibrissa::results::Ending;
 use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
-use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS, Timing, TimingRow, timing_table};
-use vibrissa::study::stress::{Drive, StabilityCase, StressRow, StressTask, stress_cases, stress_tables};
-use vibrissa::study::{Ending, engine_version};
-use vibrissa::sweep::{Answer, Worker, answer};
+use vibrissa::study::stress::{Drive, StabilityCase, StressRow, StressTask, stress_cases};
+use vibrissa::study::timing::{Timing, TimingRow};
+use vibrissa::trial::Trial;
+use vibrissa::trial::engine_version;
+use vibrissa::trial::{Answer, Worker, answer};
 
 use super::program::vibrissa;
 
@@ -67,13 +72,14 @@ fn times_are_medians_of_the_runs_and_a_count_of_none_is_refused() {
     let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
     let source = Source::new(DEFAULT_POLICY.path, DEFAULT_POLICY.text);
     let program = compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap();
-    let taken = Timing::take(&scene, &Arc::new(program), WorldKind::QuasiStatic.into(), 0).unwrap();
+    let trial = Trial { world: WorldKind::QuasiStatic.into(), ..Trial::new(scene, Arc::new(program)) };
+    let taken = Timing::take(&trial).unwrap();
     assert!(taken.processor > 0.0 && taken.sim > 60.0 && taken.tick_mean.is_some() && taken.tick_p99.is_some());
     let runs = [1.0, 5.0, 2.0].map(|processor| Timing { processor, sim: 10.0, ..taken });
     let row = TimingRow::new("disk".to_owned(), String::new(), String::new(), &runs).unwrap();
     assert_eq!((row.runs, row.processor_s, row.realtime, row.realtime_range), (3, 2.0, 5.0, [2.0, 10.0]));
     assert!(timing_table(&[row]).wide().contains("disk"));
-    assert_eq!(vibrissa(&["bench", "--timing", "0"]).status.code(), Some(2));
+    assert_eq!(vibrissa(&["timing", "--repeats", "0"]).status.code(), Some(2));
 }
 
 /// Whether the program has this world.

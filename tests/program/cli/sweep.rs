@@ -207,7 +207,7 @@ fn faults_of_a_sweep_and_of_what_it_names_are_told_with_their_place() {
         (format!("{head}scenes: [{{scenario: none.yaml}}]\n"), "S0401", "bad.yaml:3:21"),
         (format!("{head}{disk}vary: {{policy: {{sped: [2 cm/s]}}}}\n"), "S0502", "bad.yaml:4:24"),
         (format!("{head}{disk}vary: {{policy: {{speed: [5 cm/s, 2 deg]}}}}\n"), "S0502", "bad.yaml:4:33"),
-        (format!("{head}{disk}vary: {{scenario: {{physics.step: [1.5 ms]}}}}\n"), "S0303", "bad.yaml:4:38"),
+        (format!("{head}{disk}vary: {{scenario: {{rig.physics.step: [1.5 ms]}}}}\n"), "S0303", "bad.yaml:4:38"),
         (format!("{head}{disk}vary: {{scenario: {{rig.physic.step: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:23"),
         (format!("{head}{disk}vary: {{scenario: {{stop.time.x: [1 ms]}}}}\n"), "S0101", "bad.yaml:4:29"),
         (format!("{head}{disk}vary: {{scenario: {{stop.time: [1]}}}}\n"), "S0201", "bad.yaml:4:31"),

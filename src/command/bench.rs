@@ -1,0 +1,146 @@
+//! `vibrissa bench`
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use sha2::{Digest, Sha256};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{ConditionOptions, Format, Jobs, Policies, WorldOptions};
+use super::output;
+use super::trials::{Finished, inputs, make_directory, run_all};
+use crate::built_in::SCENARIOS;
+use crate::file::{CommandFiles, Output, OutputError};
+use crate::load;
+use crate::report::{bench_page, bench_table, pooled_tips};
+use crate::results::RunResult;
+use crate::scene::{Outcome, Violation};
+use crate::study::bench::{BenchRow, Conditions};
+use crate::trial::Trial;
+
+const EXAMPLE: &str = "Example:\n  vibrissa bench --out out\n  vibrissa bench --policy mine.fsm --friction 0,0.1\n\nExit status: 0 all runs completed and no figure is worse than that of the baseline; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa bench`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct BenchArguments {
+    #[command(flatten)]
+    trials: BenchTrials,
+    /// Write all results, a picture of every run and a page that shows them into this directory
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+/// The trials of the bench.
+#[derive(Debug, Args)]
+pub(super) struct BenchTrials {
+    #[command(flatten)]
+    policies: Policies,
+    #[command(flatten)]
+    conditions: ConditionOptions,
+    #[command(flatten)]
+    world: WorldOptions,
+}
+
+pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let trials = bench_trials(&arguments.trials, &mut files)?;
+    make_directory(arguments.out.as_deref())?;
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &trials, &mut files)).transpose()?;
+    let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
+    let finished = run_all(&trials, arguments.jobs, |_| arguments.out.is_some())?;
+    let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
+    for (Finished { result, violations, picture }, conditions) in finished.into_iter().zip(conditions) {
+        let row = BenchRow::new(result, violations.is_empty()).under(conditions);
+        tell(&row, &violations);
+        rows.push(row);
+        pictures.push(picture.unwrap_or_default());
+    }
+    let page = report.map(|report| report.write(&rows, &pictures)).transpose()?;
+    output::documents(arguments.format, &rows, || [bench_table(&rows)])?;
+    if !arguments.format.json {
+        output::result(pooled_tips(&rows))?;
+        if let Some(page) = page {
+            output::result(format_args!("report: {}", page.display()))?;
+        }
+    }
+    Ok(if rows.iter().all(|row| row.passed) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// Every scenario under every policy and all conditions; the runs of a scenario stand together.
+pub(super) fn bench_trials(
+    arguments: &BenchTrials,
+    files: &mut CommandFiles,
+) -> Result<Vec<(Conditions, Trial)>, Failure> {
+    let (policies, conditions) = (arguments.policies.load(files)?, arguments.conditions.all());
+    let scenarios = SCENARIOS.iter().map(|file| Ok((file, load::built_in_scenario(file)?)));
+    let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
+    let mut trials = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
+    for (file, scenario) in &scenarios {
+        for policy in &policies {
+            for &conditions in &conditions {
+                let mut scene = scenario.value.clone();
+                conditions.apply(&mut scene);
+                let mut scenario_hash = Sha256::new_with_prefix(file.text);
+                if !conditions.are_ideal() {
+                    scenario_hash.update(format!("\0{conditions}"));
+                }
+                let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
+                let inputs = inputs(Path::new(file.path), &hashes.0, &hashes.1);
+                let world = arguments.world.of(&scene);
+                let trial = Trial::new(scene, Arc::new(policy.value.artifact.program.clone()));
+                trials.push((conditions, Trial { world, inputs, ..trial }));
+            }
+        }
+    }
+    Ok(trials)
+}
+
+/// Tells why a run did not complete, and what of a run of the scene as it is was not as its scenario expects.
+fn tell(row: &BenchRow, violations: &[Violation]) {
+    let RunResult { policy, outcome, reason, .. } = &row.result;
+    let scene = row.scene();
+    if *outcome != Outcome::Completed {
+        let reason = reason.as_deref().unwrap_or("for no reason that is known");
+        output::message(format_args!("{scene}, {policy}: {outcome}: {reason}"));
+    }
+    for violation in violations.iter().filter(|_| row.conditions.are_ideal()) {
+        output::message(format_args!("{scene}, {policy}: {violation}"));
+    }
+}
+
+/// The places for a picture of every run, all results, and the page that shows them.
+struct Report {
+    pictures: Vec<Output>,
+    results: Output,
+    page: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, trials: &[(Conditions, Trial)], files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name: &str| files.output("--out", &directory.join(name));
+        let picture = |(conditions, trial): &(Conditions, Trial)| {
+            let scene = conditions.named(&trial.scene.name).replace(", ", "-").replace(' ', "-");
+            file(&format!("{scene}-{}.svg", trial.program.name))
+        };
+        let pictures = trials.iter().map(picture).collect::<Result<_, _>>()?;
+        Ok(Self { pictures, results: file("results.json")?, page: file("index.html")? })
+    }
+
+    /// Writes it; where the page is.
+    fn write(self, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
+        for (file, picture) in self.pictures.into_iter().zip(pictures) {
+            file.write(picture)?;
+        }
+        self.results.write(output::list(rows)? + "\n")?;
+        let page = self.page.path().to_owned();
+        self.page.write(bench_page(rows, pictures))?;
+        Ok(page)
+    }
+}

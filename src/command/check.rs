@@ -1,0 +1,280 @@
+//! `vibrissa check`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+use vibrissa_runtime::machine::{Artifact, FORMAT, Program, State, Target};
+use vibrissa_runtime::units::format_si;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use crate::diagnostic::{Position, Record, records};
+use crate::file::CommandFiles;
+use crate::load::{self, LoadError, PolicyFile};
+use crate::policy::{self, Checked as Found};
+use crate::report::Table;
+use crate::results::Document;
+
+const EXAMPLE: &str = "Example:\n  vibrissa check policies/thesis.fsm --deny-warnings\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa check`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct CheckArguments {
+    /// Policy files or compiled machines
+    #[arg(value_name = "POLICY", required = true)]
+    policies: Vec<PathBuf>,
+    /// Treat warnings as errors: exit status 2
+    #[arg(long)]
+    deny_warnings: bool,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is known of one policy.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Checked {
+    file: String,
+    /// Why the file cannot be read; `null` if it can.
+    error: Option<String>,
+    /// `null` if the file is at fault or a library.
+    machine: Option<Summary>,
+    /// `null` if the file is at fault or a machine.
+    library: Option<LibrarySummary>,
+    /// What a compiled machine comes from; `null` for a policy's text.
+    compiled: Option<Compiled>,
+    diagnostics: Vec<Record>,
+}
+
+impl Document for Checked {
+    const FORMAT: &'static str = "check";
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct Summary {
+    name: String,
+    whiskers: Vec<String>,
+    parameters: Vec<ParameterSummary>,
+    states: Vec<StateSummary>,
+    /// Where states without a failsafe of their own are left to.
+    failsafe: Option<String>,
+    /// Bytes that a running machine keeps.
+    memory_bytes: usize,
+    /// A bound on the operations of any tick, with eight transitions in it.
+    most_operations: usize,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct LibrarySummary {
+    name: String,
+    laws: Vec<String>,
+    values: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct Compiled {
+    file: String,
+    text_sha256: String,
+    compiler: String,
+    format: u32,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct ParameterSummary {
+    name: String,
+    value: String,
+    range: Option<[String; 2]>,
+    /// What the policy says about it; may be empty.
+    description: String,
+}
+
+/// The keys of a [`Position`], for the JSON schema.
+#[cfg(test)]
+#[derive(schemars::JsonSchema)]
+#[allow(dead_code, reason = "only the names and types matter")]
+struct PositionSchema {
+    /// The line, from 1.
+    line: usize,
+    /// The column, from 1, in characters.
+    column: usize,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct StateSummary {
+    name: String,
+    /// Where it is in the policy's text.
+    #[serde(flatten)]
+    #[cfg_attr(test, schemars(with = "PositionSchema"))]
+    place: Position,
+    /// The state that it lies in.
+    parent: Option<String>,
+    /// Whether the run, or the state that it lies in, begins in it.
+    initial: bool,
+    transitions: usize,
+    /// Where it is left to when the machine cannot go on in it; `null` for the machine's failsafe.
+    failsafe: Option<String>,
+    /// The most operations that a tick in this state does without leaving it, with those of the states that it lies in.
+    operations: usize,
+    /// How many states it lies in.
+    #[serde(skip)]
+    depth: usize,
+}
+
+pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let checked = arguments.policies.iter().map(|path| {
+        check_one(path, &mut files, arguments.json).or_else(|failure| match failure {
+            // What is wrong with one file is no reason not to look at the others.
+            Failure::Load(LoadError::Read { .. } | LoadError::Name { .. } | LoadError::Artifact { .. }) => {
+                Ok(unreadable(path, &failure, arguments.json))
+            }
+            other => Err(other),
+        })
+    });
+    let checked = checked.collect::<Result<Vec<_>, _>>()?;
+    if arguments.json {
+        output::json_list(&checked)?;
+    }
+    let is_refused = |file: &Checked| {
+        (file.machine.is_none() && file.library.is_none()) || (arguments.deny_warnings && !file.diagnostics.is_empty())
+    };
+    Ok(if checked.iter().any(is_refused) { Exit::Unusable } else { Exit::Done })
+}
+
+fn unreadable(path: &Path, failure: &Failure, json: bool) -> Checked {
+    if !json {
+        failure.report();
+    }
+    let (file, error) = (path.display().to_string(), Some(failure.to_string()));
+    Checked { file, error, machine: None, library: None, compiled: None, diagnostics: Vec::new() }
+}
+
+fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checked, Failure> {
+    let source = match load::policy_file(path, files)?.value {
+        PolicyFile::Text(source) => load::with_libraries(&source, files),
+        PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
+    };
+    let (machine, library, diagnostics) = match policy::check(&source) {
+        Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact)), None, compiled.warnings),
+        Ok(Found::Library { name, laws, values, warnings }) => {
+            (None, Some(LibrarySummary { name, laws, values }), warnings)
+        }
+        Err(faults) => (None, None, faults),
+    };
+    if !json {
+        output::diagnostics(&source, &diagnostics);
+        if let Some(machine) = &machine {
+            output::result(describe(&source.name, machine))?;
+        }
+        if let Some(LibrarySummary { name, laws, values }) = &library {
+            let (laws, values) = (count(laws.len(), "law"), count(values.len(), "value"));
+            output::result(format_args!("{}: library {name}, {laws}, {values}", source.name))?;
+        }
+    }
+    let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));
+    Ok(Checked { file, error: None, machine, library, compiled: None, diagnostics })
+}
+
+fn count(number: usize, of: &str) -> String {
+    format!("{number} {of}{}", if number == 1 { "" } else { "s" })
+}
+
+fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
+    let file = path.display().to_string();
+    let machine = summary(artifact);
+    let origin = &artifact.origin;
+    if !json {
+        output::result(describe(&file, &machine))?;
+        output::result(format_args!("compiled from {} by vibrissa {}", origin.file, origin.compiler))?;
+    }
+    let compiled = Compiled {
+        file: origin.file.clone(),
+        text_sha256: origin.text_sha256.iter().map(|byte| format!("{byte:02x}")).collect(),
+        compiler: origin.compiler.clone(),
+        format: FORMAT,
+    };
+    let compiled = Some(compiled);
+    Ok(Checked { file, error: None, machine: Some(machine), library: None, compiled, diagnostics: Vec::new() })
+}
+
+fn summary(artifact: &Artifact) -> Summary {
+    let Artifact { program, places, .. } = artifact;
+    let parameter = |(parameter, &value): (&vibrissa_runtime::machine::Parameter, &f64)| ParameterSummary {
+        name: parameter.name.clone(),
+        value: format_si(value, parameter.dimension),
+        range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
+        description: parameter.description.clone(),
+    };
+    let state = |(index, state): (usize, &State)| StateSummary {
+        name: state.name.to_string(),
+        place: places.states[index].name,
+        parent: state.parent.map(|parent| program.states[parent].name.to_string()),
+        initial: match state.parent {
+            None => index == program.initial,
+            Some(parent) => program.states[parent].initial.as_ref().is_some_and(|&(inner, _)| inner == index),
+        },
+        transitions: state.transitions.len(),
+        failsafe: state.failsafe.as_ref().map(|target| name(program, target)),
+        operations: program.operations(index),
+        depth: program.outward(index).skip(1).count(),
+    };
+    Summary {
+        failsafe: program.failsafe.as_ref().map(|target| name(program, target)),
+        name: program.name.clone(),
+        whiskers: program.whiskers.clone(),
+        parameters: program.parameters.iter().zip(&program.image).map(parameter).collect(),
+        states: program.states.iter().enumerate().map(state).collect(),
+        memory_bytes: program.memory_bytes(),
+        most_operations: program.most_operations(),
+    }
+}
+
+/// What a target is called.
+fn name(program: &Program, target: &Target) -> String {
+    match target {
+        Target::State { state, .. } => program.states[*state].name.to_string(),
+        Target::Failure(reason) => format!("Failure(\"{reason}\")"),
+    }
+}
+
+fn describe(file: &str, machine: &Summary) -> String {
+    let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
+    let headings = ["state", "transitions", "operations in a tick that stays"];
+    let headings = headings.into_iter().chain(has_failsafe.then_some("failsafe"));
+    let states = machine.states.iter().map(|state| {
+        let initial = if state.initial { " (initial)" } else { "" };
+        let name = format!("{:indent$}{}{initial}", "", state.name, indent = 2 * state.depth);
+        let cells = [name, state.transitions.to_string(), state.operations.to_string()];
+        let failsafe = state.failsafe.clone().unwrap_or_default();
+        cells.into_iter().chain(has_failsafe.then_some(failsafe)).collect()
+    });
+    let states = Table::new(4, headings, states);
+    let parameters = machine.parameters.iter().map(|ParameterSummary { name, value, range, description }| {
+        let range = range.as_ref().map(|[low, high]| format!("{low} .. {high}")).unwrap_or_default();
+        vec![name.clone(), value.clone(), range, description.clone()]
+    });
+    let parameters = Table::new(4, ["parameter", "value", "range", "description"], parameters);
+    let mut text = format!(
+        "{file}: machine {}, whiskers {}, {} bytes of memory, at most {} operations a tick\n",
+        machine.name,
+        machine.whiskers.join(", "),
+        machine.memory_bytes,
+        machine.most_operations
+    );
+    if !machine.parameters.is_empty() {
+        text += &(parameters.fitted() + "\n");
+    }
+    if let Some(failsafe) = &machine.failsafe {
+        text.extend(["failsafe -> ", failsafe, "\n"]);
+    }
+    text + &states.fitted()
+}

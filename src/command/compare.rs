@@ -1,0 +1,146 @@
+//! `vibrissa compare`
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use sha2::{Digest, Sha256};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs, WorldOptions};
+use super::output;
+use super::trials::{inputs, run_all};
+use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
+use crate::built_in::{SCENARIOS, TextFile};
+use crate::file::CommandFiles;
+use crate::load::{self, Loaded};
+use crate::report::comparison_tables;
+use crate::scene::{Jitter, Scene};
+use crate::study::compare::{Comparison, Incomplete, PolicyRuns};
+use crate::trial::Trial;
+
+const EXAMPLE: &str = "Example:\n  vibrissa compare policies/thesis.fsm policies/vibrissa.fsm --seeds 20 --jitter \"10 mm\"\n\nExit status: 0 done, whichever policy is better; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa compare`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct CompareArguments {
+    /// Two or more policies, which are compared with the first; and scenarios (.yaml), by default those of the bench
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Number of runs of each scenario, from 1 to 100000: the first as it is, the others with other seeds of noise and start
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_runs)]
+    seeds: u64,
+    /// Greatest deviation of starts along x and y, from 0 to 10 m: --jitter "20 mm"
+    #[arg(long, value_name = "LENGTH", default_value = "0 mm", allow_hyphen_values = true, value_parser = parse_jitter)]
+    jitter: f64,
+    /// Greatest deviation of headings, from 0 to 180 deg: --jitter-heading "10 deg"
+    #[arg(long, value_name = "ANGLE", default_value = "0 deg", allow_hyphen_values = true, value_parser = parse_jitter_heading)]
+    jitter_heading: f64,
+    #[command(flatten)]
+    world: WorldOptions,
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+/// A scenario with one of its starts and one of its seeds.
+struct Setting {
+    path: PathBuf,
+    scene: Scene,
+    hash: Sha256,
+}
+
+pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
+    let (scenarios, policies): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        arguments.files.iter().partition(|path| path.extension().is_some_and(|end| end == "yaml" || end == "yml"));
+    if policies.len() < 2 {
+        return Err(Failure::TooFewPolicies { count: policies.len() });
+    }
+    let mut read = CommandFiles::new();
+    let settings = settings(&scenarios, arguments, &mut read)?;
+    let mut trials = Vec::with_capacity(policies.len() * settings.len());
+    for path in &policies {
+        let policy = load::policy(path, &mut read)?;
+        output::warnings(&policy.value);
+        let program = Arc::new(policy.value.artifact.program.clone());
+        for Setting { path, scene, hash } in &settings {
+            let inputs = inputs(path, &hash.clone().finalize(), &policy.hash.clone().finalize());
+            let trial = Trial::new(scene.clone(), Arc::clone(&program));
+            trials.push(Trial { world: arguments.world.of(scene), inputs, ..trial });
+        }
+    }
+    let mut results = run_all(&trials, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
+    let runs: Vec<_> = policies
+        .iter()
+        .map(|path| (path.display().to_string(), results.by_ref().take(settings.len()).collect()))
+        .collect();
+    let comparison = Comparison::new(&runs);
+    tell_incomplete(&comparison);
+    output::document(arguments.format, &comparison, || comparison_tables(&comparison))?;
+    Ok(Exit::Done)
+}
+
+fn tell_incomplete(comparison: &Comparison) {
+    for PolicyRuns { policy, incomplete, .. } in &comparison.policies {
+        for Incomplete { scenario, seed, outcome, reason } in incomplete {
+            let reason = reason.as_deref().unwrap_or("for no reason that is known");
+            output::message(format_args!("{policy}: {scenario}, seed {seed}: {outcome}: {reason}"));
+        }
+    }
+}
+
+/// The runs that every policy does: each scenario as it is, and then with other seeds and starts.
+fn settings(
+    files: &[&PathBuf],
+    arguments: &CompareArguments,
+    read: &mut CommandFiles,
+) -> Result<Vec<Setting>, Failure> {
+    let scenarios: Vec<(PathBuf, Loaded<Scene>)> = if files.is_empty() {
+        let built_in = |file: &TextFile| Ok((file.path.into(), load::built_in_scenario(file)?));
+        SCENARIOS.iter().map(built_in).collect::<Result<_, Failure>>()?
+    } else {
+        files.iter().map(|path| Ok(((*path).clone(), load::scenario(path, read)?))).collect::<Result<_, Failure>>()?
+    };
+    for (index, (second, scenario)) in scenarios.iter().enumerate() {
+        let name = &scenario.value.name;
+        // The same runs twice would pretend to be two pairs.
+        if let Some((first, _)) = scenarios[..index].iter().find(|(_, first)| first.value.name == *name) {
+            return Err(Failure::SameName { first: first.clone(), second: second.clone(), name: name.clone() });
+        }
+    }
+    let jitter = Jitter { position: arguments.jitter, heading: arguments.jitter_heading };
+    let is_jittered = jitter.position > 0.0 || jitter.heading > 0.0;
+    if is_jittered && arguments.seeds < 2 {
+        output::message(format_args!(
+            "--jitter does nothing to the first run of a scenario: ask for more with --seeds"
+        ));
+    }
+    let mut settings = Vec::new();
+    for (path, Loaded { value: scene, hash }) in scenarios {
+        let differs = is_jittered || scene.rig.sensing.is_noisy();
+        if !differs && arguments.seeds > 1 {
+            output::message(format_args!(
+                "{}: without noise or --jitter all seeds are the same run, so it is done once",
+                path.display()
+            ));
+        }
+        for number in 0..if differs { arguments.seeds } else { 1 } {
+            let mut scene = Scene { seed: scene.seed.wrapping_add(number), ..scene.clone() };
+            let mut hash = hash.clone();
+            if is_jittered && number > 0 {
+                scene.start = started(&path, &scene, &jitter)?;
+                let start = [scene.start.position.x, scene.start.position.y, scene.start.heading];
+                hash = start.iter().fold(hash, |hash, number| hash.chain_update(number.to_le_bytes()));
+            }
+            settings.push(Setting { path: path.clone(), scene, hash });
+        }
+    }
+    Ok(settings)
+}
+
+fn started(path: &Path, scene: &Scene, jitter: &Jitter) -> Result<crate::geometry::Pose, Failure> {
+    jitter.start(scene, scene.seed).ok_or_else(|| Failure::NoStart { scenario: path.to_owned() })
+}

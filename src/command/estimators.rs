@@ -1,0 +1,53 @@
+//! `vibrissa estimators`
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs, WorldOption};
+use super::output;
+use super::progress::Progress;
+use crate::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
+use crate::load;
+use crate::report::estimators_tables;
+use crate::study::estimators::evaluate_all;
+use crate::trial::in_parallel;
+
+const EXAMPLE: &str = "Example:\n  vibrissa estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa estimators`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct EstimatorsArguments {
+    #[command(flatten)]
+    world: WorldOption,
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failure> {
+    let program = Arc::new(load::built_in_policy(&DEFAULT_POLICY)?.value.artifact.program);
+    let work = |file: &TextFile| {
+        let scene = load::built_in_scenario(file)?.value;
+        let world = arguments.world.of(&scene);
+        let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
+        evaluate_all(&scene, Arc::clone(&program), world).map_err(failed)
+    };
+    // One at a time by default, because their times are compared too.
+    let threads = arguments.jobs.threads_or(NonZeroUsize::MIN);
+    let mut progress = Progress::new(SCENARIOS.len());
+    let rows = in_parallel(SCENARIOS, threads, work, |rows| {
+        if let Some(row) = rows.as_ref().ok().and_then(|rows| rows.first()) {
+            progress.done(&row.scenario);
+        }
+    });
+    progress.finish();
+    let rows = rows.into_iter().collect::<Result<Vec<_>, Failure>>()?.concat();
+    output::documents(arguments.format, &rows, || estimators_tables(&rows))?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,56 @@
+//! `vibrissa explain`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use vibrissa_runtime::control::BindError;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::WorldOption;
+use super::output;
+use crate::file::CommandFiles;
+use crate::load;
+use crate::mujoco::Pruning;
+
+const EXAMPLE: &str = "Example:\n  vibrissa explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa explain`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct ExplainArguments {
+    /// Scenario file
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    /// Policy, or compiled machine, instead of that of the scenario; `vibrissa.fsm` where the scenario names none
+    #[arg(long, value_name = "FILE")]
+    policy: Option<PathBuf>,
+    #[command(flatten)]
+    world: WorldOption,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let source = load::read(&arguments.scenario, &mut files)?;
+    let scene = load::scenario_in(&source, &mut files)?.value;
+    let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, &mut files)?;
+    let program = policy.value.artifact.program;
+    // A whisker that the rig lacks must not count as read.
+    let fitted = scene
+        .rig
+        .fitted(&program.whiskers, &program.optional)
+        .map_err(BindError::from)
+        .map_err(|cause| Failure::Execute { scenario: arguments.scenario.clone(), cause: cause.into() })?;
+    let read: Vec<_> = fitted.into_iter().flatten().map(|index| scene.rig.whiskers[index].name.clone()).collect();
+    let world = arguments.world.of(&scene);
+    let pruning = Pruning::new(&scene.rig, &scene.physics, &scene.solids, scene.start, &read, world);
+    if arguments.json {
+        output::json(&pruning)?;
+    } else {
+        output::result(&pruning)?;
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,150 @@
+//! Errors of commands.
+
+use std::path::{Path, PathBuf};
+
+use crate::calibration::FEWEST_PLACES;
+#[cfg(feature = "sim")]
+use crate::calibration::StageError;
+use crate::family::{FAMILIES, NoDraw};
+use crate::file::OutputError;
+use crate::load::LoadError;
+use crate::policy::chart::UnknownState;
+use crate::report::ChartTooLarge;
+use crate::study::stress::CaseError;
+use crate::sweep::{PlanError, ResultsError};
+use crate::trial::{ExecuteError, StartError, Trial};
+use vibrissa_runtime::machine::SetError;
+use vibrissa_runtime::rig::UnknownWhisker;
+
+use super::exit::Exit;
+use super::output;
+
+/// Why a command could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    #[error("cannot make the folder {}: {cause}; choose another place with --out", path.display())]
+    Folder { path: PathBuf, cause: std::io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
+    Rewrite { path: PathBuf, cause: std::io::Error },
+    #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]
+    NoText { policy: PathBuf },
+    #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
+    NoSuchTest { filter: String },
+    #[error(transparent)]
+    NoWhisker(UnknownWhisker),
+    #[error(
+        "{count} touches by the tip are too few, or in too few places: give {FEWEST_PLACES} places or more, spread over the plane where it touches"
+    )]
+    TooFewSets { count: usize },
+    #[cfg(feature = "sim")]
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    #[cfg(not(feature = "sim"))]
+    #[error("this build has no world; give touches that were measured, or build it with the feature `sim`")]
+    NoStage,
+    #[error("cannot watch files: {0}")]
+    Watch(#[from] notify::Error),
+    #[error(
+        "cannot watch files: the system starts no thread for that ({0}); end other programs, or run without --watch"
+    )]
+    NoWatch(std::io::Error),
+    #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
+    SameName { first: PathBuf, second: PathBuf, name: String },
+    #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]
+    TooFewPolicies { count: usize },
+    #[error("there is no family `{name}`; there are {}", known_families())]
+    NoSuchFamily { name: String },
+    #[error("scenes of families set the policy's parameters: {0}")]
+    FamilySetting(SetError),
+    #[error(
+        "--set: families draw the speed of every scene; for another print a scene with --print, and run it: vibrissa run FILE --set \"speed=...\""
+    )]
+    DrawnSpeed,
+    #[error(transparent)]
+    NoDraw(#[from] NoDraw),
+    #[error("{}: there is hardly a start within the jitter at which the rig stands clear; make --jitter smaller", scenario.display())]
+    NoStart { scenario: PathBuf },
+    #[error("--set: {0}")]
+    Set(#[from] SetError),
+    #[error("--set: {}: {cause}; choose the policies that have it with --policy", policy.display())]
+    SetOf { policy: PathBuf, cause: SetError },
+    #[error("{}: {cause}", scenario.display())]
+    Execute { scenario: PathBuf, cause: ExecuteError },
+    #[error(transparent)]
+    World(ExecuteError),
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    #[error(transparent)]
+    Start(#[from] StartError),
+    #[error("there are no results of a sweep in {}; `vibrissa sweep FILE --out {}` writes some", directory.display(), directory.display())]
+    NoResults { directory: PathBuf },
+    #[error("the process of a run answered what is no result ({0}); this is a fault of the program, please report it")]
+    Answer(serde_json::Error),
+    #[error("a hard case cannot be made: {0}; this is a fault of the program, please report it")]
+    Case(#[from] CaseError),
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
+    #[cfg(feature = "lsp")]
+    #[error("the editor is gone: {0}")]
+    Editor(std::io::Error),
+    #[cfg(not(feature = "lsp"))]
+    #[error("this build has no language server; build it with one: cargo build --release --features lsp")]
+    NoLsp,
+    #[error("{}: {cause}", policy.display())]
+    Chart { policy: PathBuf, cause: ChartTooLarge },
+    #[error("{}: {cause}", policy.display())]
+    View { policy: PathBuf, cause: UnknownState },
+    #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
+    Json(#[from] serde_json::Error),
+}
+
+impl Failure {
+    /// The error of a trial that cannot begin.
+    pub(super) fn execute(trial: &Trial) -> impl FnOnce(ExecuteError) -> Self {
+        let scenario = trial.inputs.scenario.clone();
+        |cause| Self::Execute { scenario, cause }
+    }
+
+    pub(super) fn folder(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Folder { path, cause }
+    }
+
+    pub(super) fn rewrite(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Rewrite { path, cause }
+    }
+
+    pub(super) fn exit(&self) -> Exit {
+        match self {
+            Self::Json(_) | Self::NoDraw(_) | Self::Answer(_) => Exit::Internal,
+            _ => Exit::Unusable,
+        }
+    }
+
+    /// Prints what went wrong to standard error.
+    pub(super) fn report(&self) {
+        match self {
+            Self::Load(LoadError::Faults { source_text, faults }) => output::diagnostics(source_text, faults),
+            other => output::error(other),
+        }
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::Load(cause) => Self::Load(cause),
+            PlanError::Draw(cause) => Self::NoDraw(cause),
+            PlanError::Execute { scenario, cause } => Self::Execute { scenario, cause },
+        }
+    }
+}
+
+fn known_families() -> String {
+    FAMILIES.map(|family| format!("`{}`", family.name)).join(", ")
+}

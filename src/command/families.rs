@@ -1,0 +1,200 @@
+//! `vibrissa families`
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::units::{Dimension, format_si};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs, Settings, WorldOptions};
+use super::output;
+use super::trials::{Finished, inputs, make_directory, run_all};
+use super::values::{parse_runs, parse_seed};
+use crate::built_in::DEFAULT_POLICY;
+use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
+use crate::file::{CommandFiles, Output, OutputError};
+use crate::load::{self, Loaded, Policy, with_settings};
+use crate::report::families_table;
+use crate::scene::Violation;
+use crate::trial::{Trial, in_parallel};
+
+const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --out out\n\nExit status: 0 all runs passed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa families`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct FamiliesArguments {
+    /// Families; all of them by default
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Policy, or compiled machine, instead of `vibrissa.fsm`; it needs a parameter `speed`
+    #[arg(long, value_name = "FILE")]
+    policy: Option<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
+    /// Number of scenes of each family, from 1 to 100000
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = parse_runs)]
+    count: u64,
+    /// Seed of the scenes
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: u64,
+    /// Run only the scene with this number
+    #[arg(long, value_name = "K", conflicts_with = "count", allow_negative_numbers = true, value_parser = parse_seed)]
+    trial: Option<u64>,
+    #[command(flatten)]
+    world: WorldOptions,
+    /// Print the scenarios instead of running them
+    #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
+    print: bool,
+    /// Write all results, and a picture of every run that did not pass, into this directory
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+/// One of the scenes of a family.
+struct Drawn {
+    family: &'static str,
+    number: u64,
+    draw: Draw,
+}
+
+pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
+    if arguments.settings.has("speed") {
+        return Err(Failure::DrawnSpeed);
+    }
+    let scenes = scenes(arguments)?;
+    if arguments.print {
+        for scene in &scenes {
+            print(scene, arguments.seed)?;
+        }
+        return Ok(Exit::Done);
+    }
+    let mut files = CommandFiles::new();
+    let policy = match &arguments.policy {
+        Some(path) => load::policy(path, &mut files)?,
+        None => load::built_in_policy(&DEFAULT_POLICY)?,
+    };
+    output::warnings(&policy.value);
+    let policy = arguments.settings.of(policy)?;
+    let trials = scenes.iter().map(|scene| trial(scene, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
+    make_directory(arguments.out.as_deref())?;
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
+    let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
+    let finished = run_all(&trials, arguments.jobs, is_drawn)?;
+    let (runs, pictures) = judged(scenes, finished);
+    if let Some(report) = report {
+        report.write(&runs, pictures)?;
+    }
+    output::documents(arguments.format, &runs, || [families_table(&tallies(&runs))])?;
+    Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// The scenes that are asked for, drawn in parallel.
+fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
+    let families = chosen(&arguments.names)?;
+    let numbers: Vec<u64> = arguments.trial.map_or_else(|| (0..arguments.count).collect(), |trial| vec![trial]);
+    let keys: Vec<_> = families.iter().flat_map(|family| numbers.iter().map(move |&trial| (family, trial))).collect();
+    let draw = |&(family, trial): &(&Family, u64)| {
+        let draw = family.draw(arguments.seed, trial)?;
+        Ok(Drawn { family: family.name, number: trial, draw })
+    };
+    in_parallel(&keys, arguments.jobs.threads(), draw, |_| ()).into_iter().collect()
+}
+
+/// The families with these names, each once, or all.
+fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
+    if let Some(name) = names.iter().find(|name| FAMILIES.iter().all(|family| family.name != **name)) {
+        return Err(Failure::NoSuchFamily { name: name.clone() });
+    }
+    let is_chosen = |family: &Family| names.is_empty() || names.iter().any(|name| name == family.name);
+    Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
+}
+
+fn trial(drawn: &Drawn, policy: &Loaded<Policy>, arguments: &FamiliesArguments) -> Result<Trial, Failure> {
+    let Draw { text, scene, speed } = &drawn.draw;
+    let mut program = policy.value.artifact.program.clone();
+    program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
+    let policy_hash = with_settings(policy.hash.clone(), [("speed", *speed)].into_iter()).finalize();
+    let inputs = inputs(Path::new(&scene.name), &Sha256::digest(text), &policy_hash);
+    Ok(Trial { world: arguments.world.of(scene), inputs, ..Trial::new(scene.clone(), Arc::new(program)) })
+}
+
+/// Prints a scenario, and how it is run by itself.
+fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failure> {
+    let speed = format_si(draw.speed, Dimension::SPEED);
+    output::text(format_args!(
+        "# trial {number} of {family}, seed {seed}; at its speed: vibrissa run FILE --set \"speed={speed}\"\n{}",
+        draw.text
+    ))
+}
+
+/// The places for all results and for pictures.
+struct Report {
+    pictures: Vec<Output>,
+    results: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, scenes: &[Drawn], files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name: &str| files.output("--out", &directory.join(name));
+        let pictures = scenes.iter().map(|scene| file(&format!("{}.svg", scene.draw.scene.name)));
+        Ok(Self { pictures: pictures.collect::<Result<_, _>>()?, results: file("results.jsonl")? })
+    }
+
+    /// Writes all results, and those pictures that there are.
+    fn write(self, runs: &[FamilyRun], pictures: Vec<Option<String>>) -> Result<(), Failure> {
+        for (file, picture) in self.pictures.into_iter().zip(pictures) {
+            picture.map(|picture| file.write(picture)).transpose()?;
+        }
+        let mut lines = String::new();
+        for run in runs {
+            lines += &output::json_line(run)?;
+        }
+        Ok(self.results.write(lines)?)
+    }
+}
+
+/// The runs with whether they passed, and their pictures. Tells those that did not.
+fn judged(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
+    let judged = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
+        let Drawn { family, number: trial, draw } = drawn;
+        let Finished { result, violations, picture } = finished;
+        let passed = violations.is_empty();
+        let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
+        if !passed {
+            tell(&run, &violations);
+        }
+        (run, picture)
+    });
+    judged.unzip()
+}
+
+fn tell(run: &FamilyRun, violations: &[Violation]) {
+    let FamilyRun { family, trial, about, speed, result, .. } = run;
+    let speed = 100.0 * speed;
+    let reasons: Vec<String> = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();
+    let reasons = reasons.join("; ");
+    output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {reasons}"));
+}
+
+/// What is wrong with a run, which may have given a `reason` for its end.
+fn reason(violation: &Violation, reason: Option<&str>) -> String {
+    match (violation, reason) {
+        (Violation::Outcome { found, .. }, Some(reason)) => format!("{found}: {reason}"),
+        _ => violation.to_string(),
+    }
+}
+
+/// What became of each family, at every speed and all together.
+fn tallies(runs: &[FamilyRun]) -> Vec<FamilyTally> {
+    let speeds = || SPEEDS.into_iter().map(Some).chain([None]);
+    let tallies = FAMILIES.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(family.name, speed, runs)));
+    tallies.filter(|tally| tally.tally.runs > 0).collect()
+}

@@ -1,0 +1,78 @@
+//! `vibrissa graph`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use super::values::parse_depth;
+use crate::file::CommandFiles;
+use crate::load;
+use crate::policy::chart::View;
+use crate::report::{chart_dot, chart_mermaid, chart_svg};
+
+const EXAMPLE: &str = "Example:\n  vibrissa graph policies/thesis.fsm --out thesis.svg\n  vibrissa graph policies/vibrissa.fsm --depth 1 --format mermaid\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa graph`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct GraphArguments {
+    /// Policy file
+    #[arg(value_name = "POLICY")]
+    policy: PathBuf,
+    /// Format of the statechart
+    #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
+    format: ChartFormat,
+    /// Show N levels of states, from 1 to 8; transitions of deeper states are drawn at the state around them
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_depth)]
+    depth: Option<usize>,
+    /// Show only the inside of this state and its targets; with --depth, N levels of it
+    #[arg(long, value_name = "NAME")]
+    state: Option<String>,
+    /// File of the chart; by default standard output
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// The formats of a statechart.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ChartFormat {
+    /// A picture
+    Svg,
+    /// Text for Mermaid, which many Markdown viewers draw
+    Mermaid,
+    /// Text for Graphviz
+    Dot,
+}
+
+/// So many states, some of them in others, make a picture that is wider than a screen.
+const MANY_STATES: usize = 20;
+
+pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
+    let view = View { state: arguments.state.as_deref(), depth: arguments.depth };
+    let mut files = CommandFiles::new();
+    let whole = load::chart(&arguments.policy, &mut files)?;
+    let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
+    let chart = whole.view(view).map_err(|cause| Failure::View { policy: arguments.policy.clone(), cause })?;
+    let text = match arguments.format {
+        ChartFormat::Svg => {
+            chart_svg(&chart).map_err(|cause| Failure::Chart { policy: arguments.policy.clone(), cause })?
+        }
+        ChartFormat::Mermaid => chart_mermaid(&chart),
+        ChartFormat::Dot => chart_dot(&chart),
+    };
+    if chart.states.len() > MANY_STATES && chart.states.iter().any(|state| state.parent.is_some()) {
+        output::message(format_args!(
+            "The chart has {} states. `--depth 1` shows the outermost ones, and `--state NAME` the inside of one.",
+            chart.states.len()
+        ));
+    }
+    let text = text.trim_end();
+    match file {
+        Some(file) => file.write(format!("{text}\n"))?,
+        None => output::result(text)?,
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,21 @@
+//! `vibrissa lsp`
+
+use super::exit::Exit;
+use super::failure::Failure;
+
+/// Serves an editor. The protocol asks for exit status 1 where the editor did not say that it is done.
+#[cfg(feature = "lsp")]
+pub(super) fn lsp() -> Result<Exit, Failure> {
+    use crate::editor::{Ended, serve};
+
+    let (input, output) = (std::io::BufReader::new(std::io::stdin()), std::io::stdout());
+    match serve(input, &mut output.lock(), &crate::load::library_for_editor).map_err(Failure::Editor)? {
+        Ended::Orderly => Ok(Exit::Done),
+        Ended::Abrupt => Ok(Exit::Unexpected),
+    }
+}
+
+#[cfg(not(feature = "lsp"))]
+pub(super) fn lsp() -> Result<Exit, Failure> {
+    Err(Failure::NoLsp)
+}

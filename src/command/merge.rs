@@ -1,0 +1,95 @@
+//! `vibrissa merge`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::Format;
+use super::output;
+use super::sweep::tell;
+use crate::file::CommandFiles;
+use crate::load::LoadError;
+use crate::sweep::{Missing, SweepSummary, merge as merge_files};
+
+const EXAMPLE: &str = "Example:\n  vibrissa merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa merge`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct MergeArguments {
+    /// Files with results of shards, or a directory with them
+    #[arg(value_name = "DIR|FILE", required = true)]
+    paths: Vec<PathBuf>,
+    /// File of the results, by default results.jsonl beside the first input
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+}
+
+/// How many missing runs are told by their keys.
+const TOLD: usize = 10;
+
+pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
+    let mut files = Vec::new();
+    for path in &arguments.paths {
+        if path.is_dir() {
+            files.extend(results_in(path)?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    let mut read = CommandFiles::new();
+    let (Some(merged), Some(first)) = (merge_files(&files, &mut read)?, files.first()) else {
+        return Err(Failure::NoResults { directory: arguments.paths.first().cloned().unwrap_or_default() });
+    };
+    let missing: Vec<_> = merged.missing().collect();
+    if !missing.is_empty() {
+        tell_missing(&missing);
+        return Ok(Exit::Unexpected);
+    }
+    let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
+    let file = read.output("--out", &path)?;
+    let _lock = merged.check_place(&path)?;
+    file.write(merged.text()?)?;
+    tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.format)?;
+    Ok(Exit::Done)
+}
+
+/// The results of shards in a directory, in the order of their names, or else those of a whole sweep.
+fn results_in(directory: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let entries = directory.read_dir().map_err(LoadError::read(directory))?;
+    let entries = entries.collect::<Result<Vec<_>, _>>().map_err(LoadError::read(directory))?;
+    let names = entries.iter().filter_map(|entry| entry.file_name().into_string().ok());
+    let is_shard =
+        |name: &String| name.starts_with("shard-") && Path::new(name).extension().is_some_and(|end| end == "jsonl");
+    let mut shards: Vec<PathBuf> = names.filter(is_shard).map(|name| directory.join(name)).collect();
+    shards.sort();
+    if shards.is_empty() {
+        let whole = directory.join("results.jsonl");
+        // Whatever it is: reading it says why it will not do.
+        shards.extend(whole.symlink_metadata().is_ok().then_some(whole));
+    }
+    Ok(shards)
+}
+
+/// Tells which runs are missing, and how to get them.
+fn tell_missing(missing: &[Missing]) {
+    for Missing { key, shard } in missing.iter().take(TOLD) {
+        output::message(format_args!("missing: {key} (shard {shard})"));
+    }
+    if missing.len() > TOLD {
+        output::message(format_args!("and {} more", missing.len() - TOLD));
+    }
+    let mut shards: Vec<_> = missing.iter().map(|missing| missing.shard).collect();
+    shards.sort();
+    shards.dedup();
+    let shards: Vec<_> = shards.iter().map(|shard| format!("--shard {shard}")).collect();
+    let runs = if missing.len() == 1 { "1 run is".to_owned() } else { format!("{} runs are", missing.len()) };
+    output::error(format_args!(
+        "{runs} missing, and nothing was written; do the same sweep again with {}, and merge then",
+        shards.join(", ")
+    ));
+}

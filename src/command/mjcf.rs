@@ -1,0 +1,29 @@
+//! `vibrissa mjcf`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use crate::file::CommandFiles;
+use crate::{load, mujoco};
+
+const EXAMPLE: &str = "Example:\n  vibrissa mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa mjcf`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct MjcfArguments {
+    /// Scenario file
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+}
+
+pub(super) fn mjcf(arguments: &MjcfArguments) -> Result<Exit, Failure> {
+    let scene = load::scenario(&arguments.scenario, &mut CommandFiles::new())?.value;
+    let model = mujoco::mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start);
+    output::result(model.trim_end())?;
+    Ok(Exit::Done)
+}

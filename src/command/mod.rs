@@ -1,0 +1,160 @@
+//! The command line: one file for each command, with its arguments. Only this module prints.
+
+mod bench;
+mod calibrate;
+mod check;
+mod compare;
+mod compile;
+mod completions;
+mod estimators;
+mod exit;
+mod explain;
+mod failure;
+mod families;
+mod fmt;
+mod graph;
+mod lsp;
+mod man;
+mod merge;
+mod mjcf;
+mod options;
+mod output;
+mod pareto;
+mod progress;
+mod run;
+#[cfg(test)]
+mod schema;
+mod stress;
+mod sweep;
+mod test;
+mod timing;
+mod trials;
+mod values;
+mod watch;
+mod worker;
+mod worlds;
+
+use std::panic::catch_unwind;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::diagnostic::printable;
+
+use exit::Exit;
+
+/// Scenarios, benchmarks and a policy language for whisker-based active touch.
+#[derive(Debug, Parser)]
+#[command(name = "vibrissa", version, about, max_term_width = 100, after_help = EXIT_STATUS)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; \
+                           3 internal error.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run scenarios and score the estimated contours
+    Run(run::RunArguments),
+    /// Run the scenes of the thesis and compare the figures with those of its program
+    Bench(bench::BenchArguments),
+    /// Run random scenes of families
+    Families(families::FamiliesArguments),
+    /// Compare policies over the same runs
+    Compare(compare::CompareArguments),
+    /// Run a parameter sweep in worker processes; an interrupted sweep continues
+    Sweep(sweep::SweepArguments),
+    /// Merge the results of the parts of a sweep
+    Merge(merge::MergeArguments),
+    /// Check policies and describe their machines
+    Check(check::CheckArguments),
+    /// Format policies in place
+    Fmt(fmt::FmtArguments),
+    /// Run the tests of policies
+    Test(test::TestArguments),
+    /// Compile a policy into a file that runs without its text
+    Compile(compile::CompileArguments),
+    /// Draw the statechart of a policy
+    Graph(graph::GraphArguments),
+    /// Calibrate the contact estimators of a whisker
+    Calibrate(calibrate::CalibrateArguments),
+    /// Compare contact estimators on the samples of the same runs
+    Estimators(estimators::EstimatorsArguments),
+    /// Compare simulations of the same runs with MuJoCo
+    Worlds(worlds::WorldsArguments),
+    /// Measure run times
+    Timing(timing::TimingArguments),
+    /// Measure run time against error over the settings of a simulation
+    Pareto(pareto::ParetoArguments),
+    /// Run stress tests of the simulators, and find the largest stable steps
+    Stress(stress::StressArguments),
+    /// Print the MuJoCo model of a scenario
+    Mjcf(mjcf::MjcfArguments),
+    /// List the parts of a scenario that a run leaves out, and why that has no effect
+    Explain(explain::ExplainArguments),
+    /// Serve an editor over standard input and output (language server protocol)
+    // It says how to get one where there is none, and is not offered there.
+    #[cfg_attr(not(feature = "lsp"), command(hide = true))]
+    Lsp,
+    /// Print a completion script for a shell
+    Completions(completions::CompletionsArguments),
+    /// Write manual pages
+    Man(man::ManArguments),
+    /// Run the runs of a sweep, or stress tests, that standard input asks for
+    #[command(hide = true)]
+    Worker(worker::WorkerArguments),
+}
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    match arguments() {
+        // A panic is a fault of the program. It has printed its place by now, and scripts know it by the exit status.
+        Ok(arguments) => catch_unwind(|| carried_out(&arguments)).unwrap_or(Exit::Internal).into(),
+        Err(status) => status,
+    }
+}
+
+fn carried_out(arguments: &Arguments) -> Exit {
+    let done = match &arguments.command {
+        Command::Run(arguments) => run::run(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
+        Command::Families(arguments) => families::families(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
+        Command::Sweep(arguments) => sweep::sweep(arguments),
+        Command::Merge(arguments) => merge::merge(arguments),
+        Command::Check(arguments) => check::check(arguments),
+        Command::Fmt(arguments) => fmt::fmt(arguments),
+        Command::Test(arguments) => test::test(arguments),
+        Command::Compile(arguments) => compile::compile(arguments),
+        Command::Graph(arguments) => graph::graph(arguments),
+        Command::Calibrate(arguments) => calibrate::calibrate(arguments),
+        Command::Estimators(arguments) => estimators::estimators(arguments),
+        Command::Worlds(arguments) => worlds::worlds(arguments),
+        Command::Timing(arguments) => timing::timing(arguments),
+        Command::Pareto(arguments) => pareto::pareto(arguments),
+        Command::Stress(arguments) => stress::stress(arguments),
+        Command::Mjcf(arguments) => mjcf::mjcf(arguments),
+        Command::Explain(arguments) => explain::explain(arguments),
+        Command::Lsp => lsp::lsp(),
+        Command::Completions(arguments) => completions::completions(arguments),
+        Command::Man(arguments) => man::man(arguments),
+        Command::Worker(arguments) => worker::worker(arguments),
+    };
+    done.unwrap_or_else(|failure| {
+        failure.report();
+        failure.exit()
+    })
+}
+
+/// Reads the command line. A request for help or a mistake is answered here, and gives the status to end with.
+fn arguments() -> Result<Arguments, ExitCode> {
+    Arguments::try_parse().map_err(|answer| {
+        // The answer quotes the command line and has colours of its own, so control characters are removed before.
+        let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned());
+        let shown = Arguments::try_parse_from(shown).err();
+        let _ = shown.as_ref().unwrap_or(&answer).print();
+        ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or_default())
+    })
+}

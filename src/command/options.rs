@@ -1,0 +1,216 @@
+//! Groups of options that several commands share.
+
+use std::collections::BTreeSet;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Once;
+
+use clap::{Args, ValueEnum};
+use vibrissa_runtime::machine::SetError;
+use vibrissa_runtime::units::{Quantity, parse_quantity};
+
+use super::failure::Failure;
+use super::output;
+use super::values::{parse_friction, parse_jobs};
+use crate::built_in::{POLICIES, TextFile};
+use crate::file::CommandFiles;
+use crate::load::{self, Loaded, Policy, with_settings};
+use crate::scene::{Scene, WorldKind, WorldSetup};
+use crate::study::bench::Conditions;
+use crate::trial::{Threads, processors};
+
+/// The format of results on standard output.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct Format {
+    /// Print JSON instead of tables
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Print every column of tables; without this, tables are at most 100 characters wide
+    #[arg(long, conflicts_with = "json")]
+    pub(super) wide: bool,
+}
+
+/// The number of runs at a time.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct Jobs {
+    /// Number of runs at a time, from 1 to 32 for each processor; by default one for each processor
+    #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
+    jobs: Option<NonZeroUsize>,
+}
+
+impl Jobs {
+    /// The threads to work on: those that were asked for, or one for each processor.
+    pub(super) fn threads(self) -> Threads {
+        self.threads_or(processors())
+    }
+
+    /// The threads to work on: those that were asked for, or so many.
+    pub(super) fn threads_or(self, count: NonZeroUsize) -> Threads {
+        static TOLD: Once = Once::new();
+        let fewer = |started| {
+            TOLD.call_once(|| {
+                output::message(format_args!("warning: the system starts no more than {started} at a time"));
+            });
+        };
+        Threads { count: self.jobs.unwrap_or(count), fewer }
+    }
+}
+
+/// The worlds, as the command line names them.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum World {
+    /// Simulation by MuJoCo
+    Mujoco,
+    /// Quasi-static simulation: no inertia, no friction, several times faster
+    #[value(name = "quasistatic")]
+    QuasiStatic,
+}
+
+/// The world of a run.
+#[derive(Debug, Args)]
+pub(super) struct WorldOption {
+    /// World of the run, instead of the scenario's; `mujoco` where the scenario names none
+    #[arg(long, value_enum)]
+    world: Option<World>,
+}
+
+impl WorldOption {
+    /// The world of a run of `scene`.
+    pub(super) fn of(&self, scene: &Scene) -> WorldKind {
+        let asked = self.world.map(|world| match world {
+            World::Mujoco => WorldKind::Mujoco,
+            World::QuasiStatic => WorldKind::QuasiStatic,
+        });
+        asked.or(scene.world).unwrap_or_default()
+    }
+}
+
+/// The pruning of a run.
+#[derive(Debug, Args)]
+pub(super) struct PruneOption {
+    /// Simulate every part of the scene; by default, parts without effect are left out (`vibrissa explain` lists them)
+    #[arg(long)]
+    pub(super) no_prune: bool,
+}
+
+/// The world of a run and its pruning.
+#[derive(Debug, Args)]
+pub(super) struct WorldOptions {
+    #[command(flatten)]
+    world: WorldOption,
+    #[command(flatten)]
+    prune: PruneOption,
+}
+
+impl WorldOptions {
+    /// The world of a run of `scene`.
+    pub(super) fn of(&self, scene: &Scene) -> WorldSetup {
+        WorldSetup { kind: self.world.of(scene), prune: !self.prune.no_prune }
+    }
+}
+
+/// Values of policy parameters.
+#[derive(Debug, Args)]
+pub(super) struct Settings {
+    /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
+    settings: Vec<Setting>,
+}
+
+/// A parameter and its value.
+#[derive(Debug, Clone)]
+struct Setting {
+    name: String,
+    value: Quantity,
+}
+
+impl Settings {
+    /// True if the parameter `name` is set.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.settings.iter().any(|setting| setting.name == name)
+    }
+
+    /// A policy with its parameters set. Its hash depends on them.
+    ///
+    /// # Errors
+    /// [`SetError`] if the policy does not have such a parameter, or if the value is out of its range.
+    pub(super) fn of(&self, mut policy: Loaded<Policy>) -> Result<Loaded<Policy>, SetError> {
+        for Setting { name, value } in &self.settings {
+            policy.value.artifact.program.set(name, value.value_si, value.dimension)?;
+        }
+        let settings = self.settings.iter().map(|setting| (setting.name.as_str(), setting.value.value_si));
+        Ok(Loaded { hash: with_settings(policy.hash, settings), ..policy })
+    }
+}
+
+fn parse_setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
+    let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    Ok(Setting { name: name.trim().to_owned(), value })
+}
+
+/// Several policies, by default those of the bench.
+#[derive(Debug, Args)]
+pub(super) struct Policies {
+    /// Policy, or compiled machine, instead of the built-in ones; may be given several times
+    #[arg(long = "policy", value_name = "FILE")]
+    policies: Vec<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+impl Policies {
+    /// Reads the policies, sets their parameters and prints their warnings.
+    pub(super) fn load(&self, files: &mut CommandFiles) -> Result<Vec<Loaded<Policy>>, Failure> {
+        let paths: Vec<PathBuf> = match self.policies.as_slice() {
+            [] => POLICIES.iter().map(|file| file.path.into()).collect(),
+            given => given.to_vec(),
+        };
+        let policies = if self.policies.is_empty() {
+            POLICIES.iter().map(|file: &TextFile| load::built_in_policy(file)).collect::<Result<Vec<_>, _>>()?
+        } else {
+            paths.iter().map(|path| load::policy(path, files)).collect::<Result<Vec<_>, _>>()?
+        };
+        // Pictures have the names of policies.
+        let mut names = BTreeSet::new();
+        for (path, policy) in paths.iter().zip(&policies) {
+            output::warnings(&policy.value);
+            let name = &policy.value.artifact.program.name;
+            if !names.insert(name) {
+                let is_same = |policy: &Loaded<Policy>| policy.value.artifact.program.name == *name;
+                let first = policies.iter().position(is_same).and_then(|index| paths.get(index));
+                let first = first.unwrap_or(path).clone();
+                return Err(Failure::SameName { first, second: path.clone(), name: name.clone() });
+            }
+        }
+        let set = |(policy, path): (Loaded<Policy>, PathBuf)| {
+            self.settings.of(policy).map_err(|cause| Failure::SetOf { policy: path, cause })
+        };
+        policies.into_iter().zip(paths).map(set).collect()
+    }
+}
+
+/// Friction and sensor noise.
+#[derive(Debug, Args)]
+pub(super) struct ConditionOptions {
+    /// Coefficients of friction of the objects, with a run for each: --friction 0,0.1,0.3
+    #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = parse_friction)]
+    friction: Vec<f64>,
+    /// Simulate the estimated noise and resolution of the real sensors
+    #[arg(long)]
+    noise: bool,
+}
+
+impl ConditionOptions {
+    /// The conditions, each once.
+    pub(super) fn all(&self) -> Vec<Conditions> {
+        let mut all: Vec<Conditions> = Vec::new();
+        for &friction in &self.friction {
+            let conditions = Conditions { friction, noise: self.noise };
+            if !all.contains(&conditions) {
+                all.push(conditions);
+            }
+        }
+        all
+    }
+}

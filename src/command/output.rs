@@ -1,0 +1,98 @@
+//! Printing. Results go to standard output, everything else to standard error.
+
+use std::fmt::Display;
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+
+use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
+use crate::report::Table;
+use crate::results::Document;
+
+use super::failure::Failure;
+use super::options::Format;
+use crate::load::{Policy, PolicyText};
+
+/// Prints a result and ends its line.
+pub(super) fn result(text: impl Display) -> Result<(), Failure> {
+    written(&format!("{}\n", printable(&text.to_string())))
+}
+
+/// Prints tables, one below the other; with all their columns, or with those that fit on a line.
+pub(super) fn tables(tables: &[Table], wide: bool) -> Result<(), Failure> {
+    let texts: Vec<String> = tables.iter().map(|table| if wide { table.wide() } else { table.fitted() }).collect();
+    result(texts.join("\n\n"))
+}
+
+/// Prints a text as it is, unless a terminal would obey it. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+pub(super) fn text(text: impl Display) -> Result<(), Failure> {
+    let text = text.to_string();
+    written(&if stdout().is_terminal() { printable(&text) } else { text.into() })
+}
+
+fn written(text: &str) -> Result<(), Failure> {
+    match stdout().write_all(text.as_bytes()) {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Print(cause)),
+        _ => Ok(()),
+    }
+}
+
+/// Prints documents as a list in JSON, or the tables that `tables` makes of them.
+pub(super) fn documents<const N: usize>(
+    format: Format,
+    documents: &[impl Document],
+    tables: impl FnOnce() -> [Table; N],
+) -> Result<(), Failure> {
+    if format.json { json_list(documents) } else { self::tables(&tables(), format.wide) }
+}
+
+/// Prints a document as JSON, or the tables that `tables` makes of it.
+pub(super) fn document<const N: usize>(
+    format: Format,
+    document: &impl Document,
+    tables: impl FnOnce() -> [Table; N],
+) -> Result<(), Failure> {
+    if format.json { json(document) } else { self::tables(&tables(), format.wide) }
+}
+
+/// Prints a document as JSON.
+pub(super) fn json(document: &impl Document) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(&document.versioned())?)))
+}
+
+/// Prints documents as a list in JSON.
+pub(super) fn json_list(documents: &[impl Document]) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&list(documents)?)))
+}
+
+/// Documents as a list in JSON.
+pub(super) fn list(documents: &[impl Document]) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(&documents.iter().map(Document::versioned).collect::<Vec<_>>())
+}
+
+/// A document as a line of JSON, with its end.
+pub(super) fn json_line(document: &impl Document) -> serde_json::Result<String> {
+    Ok(serde_json::to_string(&document.versioned())? + "\n")
+}
+
+/// Prints a message.
+pub(super) fn message(text: impl Display) {
+    let _ = writeln!(stderr(), "{}", printable(&text.to_string()));
+}
+
+/// Prints what went wrong.
+pub(super) fn error(text: impl Display) {
+    message(format_args!("error: {text}"));
+}
+
+/// Prints what is wrong with a text.
+pub(super) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) {
+    let colour =
+        if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
+    let _ = write!(stderr(), "{}", terminal(source, diagnostics, colour));
+}
+
+/// Prints the warnings of a policy.
+pub(super) fn warnings(policy: &Policy) {
+    if let Some(PolicyText { source, warnings, .. }) = &policy.text {
+        diagnostics(source, warnings);
+    }
+}

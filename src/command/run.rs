@@ -1,0 +1,161 @@
+//! `vibrissa run`
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use clap::Args;
+use sha2::Digest;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Settings, WorldOptions};
+use super::output;
+use super::trials::{ReportFiles, extended, inputs, make_directory, run_with_bar, tell};
+use super::values::parse_seed;
+use super::watch::watch;
+use crate::file::CommandFiles;
+use crate::load::{self, Loaded};
+use crate::report::results_table;
+use crate::results::{RunResult, tick_lines};
+use crate::trial::{Inputs, Trial, TrialResult};
+
+const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa run`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct RunArguments {
+    /// Scenario files, one run each
+    #[arg(value_name = "SCENARIO", required = true)]
+    pub(super) scenarios: Vec<PathBuf>,
+    /// Policy, or compiled machine, instead of that of the scenario; `vibrissa.fsm` where the scenario names none
+    #[arg(long, value_name = "FILE")]
+    pub(super) policy: Option<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    world: WorldOptions,
+    /// Seed of the sensor noise, instead of the scenario's; it has no effect without noise
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: Option<u64>,
+    /// Write a picture and the result of every run into this directory
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Write the perception and the command of every tick into this file, as one line of JSON each
+    #[arg(long, value_name = "FILE", conflicts_with = "watch")]
+    ticks: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+    /// Run again whenever a scenario or policy is saved; print a line for every simulated second
+    #[arg(long, conflicts_with = "json")]
+    watch: bool,
+}
+
+pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    if arguments.watch {
+        return watch(arguments);
+    }
+    let trials = trials(arguments, &mut files)?;
+    let reports = reports(&trials, arguments.out.as_deref(), &mut files)?;
+    let tick_file = arguments.ticks.as_ref().map(|path| files.output("--ticks", path)).transpose()?;
+    let (mut results, mut exit, mut ticks) = (Vec::with_capacity(trials.len()), Exit::Done, String::new());
+    for (trial, report) in trials.iter().zip(reports) {
+        let finished = run_with_bar(trial)?;
+        let result = finish(trial, &finished, report)?;
+        if !finished.violations.is_empty() {
+            exit = Exit::Unexpected;
+        }
+        if tick_file.is_some() {
+            for line in tick_lines(&result.scenario, &finished.run.trace) {
+                ticks += &output::json_line(&line)?;
+            }
+        }
+        results.push(result);
+    }
+    if let Some(file) = tick_file {
+        file.write(ticks)?;
+    }
+    show(&results, arguments)?;
+    Ok(exit)
+}
+
+/// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
+/// trial runs.
+pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
+    let mut told = BTreeSet::new();
+    let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, files, &mut told));
+    let trials = trials.collect::<Result<Vec<_>, _>>()?;
+    // Reports have the names of scenarios.
+    for (index, trial) in trials.iter().enumerate() {
+        if let Some(first) = trials[..index].iter().find(|first| first.scene.name == trial.scene.name) {
+            let [first, second] = [first, trial].map(|trial| trial.inputs.scenario.clone());
+            return Err(Failure::SameName { first, second, name: trial.scene.name.clone() });
+        }
+    }
+    Ok(trials)
+}
+
+fn trial(
+    path: &Path,
+    arguments: &RunArguments,
+    files: &mut CommandFiles,
+    told: &mut BTreeSet<String>,
+) -> Result<Trial, Failure> {
+    let before = Instant::now();
+    let source = load::read(path, files)?;
+    let Loaded { value: scene, hash: scenario_hash } = load::scenario_in(&source, files)?;
+    let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
+    if let Some(text) = &policy.value.text
+        && told.insert(text.source.name.clone())
+    {
+        output::warnings(&policy.value);
+    }
+    let Loaded { value: policy, hash: policy_hash } = arguments.settings.of(policy)?;
+    let seed = arguments.seed.unwrap_or(scene.seed);
+    let world = arguments.world.of(&scene);
+    let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash.finalize());
+    let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program)) };
+    Ok(Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial })
+}
+
+/// Makes the directory for reports, and returns the places of the reports in it.
+pub(super) fn reports(
+    trials: &[Trial],
+    directory: Option<&Path>,
+    files: &mut CommandFiles,
+) -> Result<Vec<Option<ReportFiles>>, Failure> {
+    make_directory(directory)?;
+    let report = |trial: &Trial| {
+        let report = directory.map(|directory| ReportFiles::new(&directory.join(&trial.scene.name), files));
+        Ok(report.transpose()?)
+    };
+    trials.iter().map(report).collect()
+}
+
+/// Prints the expectations that do not hold, and writes the report.
+pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<ReportFiles>) -> Result<RunResult, Failure> {
+    let result = trial.document(finished);
+    tell(&result);
+    for violation in &finished.violations {
+        output::message(format_args!("{}: {violation}", trial.scene.name));
+    }
+    if let Some(report) = report {
+        report.write(trial, finished, &result)?;
+    }
+    Ok(result)
+}
+
+/// Prints the results and the places of the reports.
+pub(super) fn show(results: &[RunResult], arguments: &RunArguments) -> Result<(), Failure> {
+    output::documents(arguments.format, results, || [results_table(results)])?;
+    if let (Some(directory), false) = (&arguments.out, arguments.format.json) {
+        for result in results {
+            let report = extended(&directory.join(&result.scenario), "svg");
+            output::result(format_args!("report: {}", report.display()))?;
+        }
+    }
+    Ok(())
+}

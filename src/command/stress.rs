@@ -1,0 +1,74 @@
+//! `vibrissa stress`
+
+use std::ops::ControlFlow;
+use std::process::Command;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs};
+use super::output;
+use super::progress::Progress;
+use crate::report::stress_tables;
+use crate::scene::WorldKind;
+use crate::study::stress::{StressRow, StressTask};
+use crate::trial::{Answer, StartError, Worker, answer, check_world, engine_version, stream_in_parallel};
+
+const EXAMPLE: &str = "Example:\n  vibrissa stress --jobs 2\n\nExit status: 0 every case ended in a way that runs end, with finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa stress`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct StressArguments {
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
+    // A build without MuJoCo's world has no hard cases of it; where only the library is missing, they could not but fail.
+    if cfg!(feature = "sim") {
+        check_world(WorldKind::Mujoco).map_err(Failure::World)?;
+    }
+    let tasks = StressTask::all()?;
+    let indices: Vec<usize> = (0..tasks.len()).collect();
+    let mut progress = Progress::new(tasks.len());
+    let mut rows: Vec<(usize, StressRow)> = Vec::with_capacity(tasks.len());
+    let mut failure = None;
+    stream_in_parallel(
+        &indices,
+        arguments.jobs.threads(),
+        || None,
+        |slot, index| answer(slot, worker, &index.to_string()),
+        |index, answer| {
+            match row(&tasks[index], answer) {
+                Ok(row) => rows.push((index, row)),
+                Err(cause) => failure = Some(cause),
+            }
+            progress.done(tasks[index].name());
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    );
+    progress.finish();
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    rows.sort_by_key(|(index, _)| *index);
+    let rows: Vec<StressRow> = rows.into_iter().map(|(_, row)| row).collect();
+    output::documents(arguments.format, &rows, || stress_tables(&rows))?;
+    Ok(if rows.iter().all(StressRow::is_sound) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// A process for cases, so that one that ends it costs no other.
+fn worker() -> Result<Worker, StartError> {
+    Worker::start(Command::new(std::env::current_exe()?).arg("worker"), &engine_version())
+}
+
+fn row(task: &StressTask, answer: Result<Answer, StartError>) -> Result<StressRow, Failure> {
+    match answer? {
+        Answer::Line(line) => serde_json::from_str(&line).map_err(Failure::Answer),
+        Answer::Crash(reason) => Ok(task.crashed(reason)),
+    }
+}

@@ -1,0 +1,117 @@
+//! `vibrissa sweep`
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs, PruneOption};
+use super::output;
+use super::progress::{Kept, Progress};
+use super::trials::make_directory;
+use crate::file::CommandFiles;
+use crate::report::summary_table;
+use crate::sweep::{Plan, Results, Shard, Sweep, SweepLine, SweepSummary, read_line};
+use crate::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
+
+const EXAMPLE: &str = "Example:\n  vibrissa sweep sweeps/corners.yaml --out out/corners\n\nExit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa sweep`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct SweepArguments {
+    /// Sweep file: scenes, policies and the parameters to vary
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    prune: PruneOption,
+    /// Run only the K-th of N parts; the part of a run depends on its key alone
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
+    shard: Shard,
+    #[command(flatten)]
+    jobs: Jobs,
+    /// Directory of the results, by default out/NAME; a sweep continues with the results in it
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+}
+
+pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let plan = Plan::read(&arguments.file, !arguments.prune.no_prune, &mut files)?;
+    plan.analysed_policies(&mut files)?.iter().for_each(output::warnings);
+    plan.check(output::message)?;
+    let sweep = &plan.sweep;
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
+    make_directory(Some(&directory))?;
+    let path = directory.join(arguments.shard.file_name());
+    files.growing("--out", &path)?;
+    let header = plan.header(arguments.shard);
+    let (mut results, mut done) = Results::open(&path, &header, sweep)?;
+    let resumed = done.len();
+    let runs = sweep.runs().filter(|run| arguments.shard.has(&run.key()));
+    let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
+    let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
+    let fingerprint = header.fingerprint();
+    let start = || worker(arguments, &fingerprint);
+    let mut failure = None;
+    stream_in_parallel(
+        &left,
+        arguments.jobs.threads(),
+        || None,
+        |slot, index| answer(slot, start, &index.to_string()),
+        |task, answer| {
+            let index = left[task];
+            let added = line(sweep, index, answer).and_then(|line| {
+                let (key, figures) = read_line(&line).map_err(Failure::Answer)?;
+                results.add(&line)?;
+                done.insert(index, figures);
+                progress.done(key);
+                Ok(())
+            });
+            failure = added.err();
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    );
+    progress.finish();
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    let summary = SweepSummary::new(sweep, &done, resumed);
+    tell(&summary, &path, arguments.format)?;
+    Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
+}
+
+/// A process for runs: this program once more, so that what ends it ends no other run.
+fn worker(arguments: &SweepArguments, fingerprint: &str) -> Result<Worker, StartError> {
+    let mut command = Command::new(std::env::current_exe()?);
+    command.arg("worker").arg(&arguments.file);
+    if arguments.prune.no_prune {
+        command.arg("--no-prune");
+    }
+    Worker::start(&mut command, fingerprint)
+}
+
+/// The line of the run with this index.
+fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result<String, Failure> {
+    Ok(match (answer?, sweep.run(index)) {
+        (Answer::Crash(reason), Some(run)) => {
+            output::message(format_args!("{}: crashed: {reason}", run.key()));
+            output::json_line(&SweepLine::crashed(&run, reason))?
+        }
+        (Answer::Line(line) | Answer::Crash(line), _) => line,
+    })
+}
+
+/// Prints what became of the runs whose results are at `path`.
+pub(super) fn tell(summary: &SweepSummary, path: &Path, format: Format) -> Result<(), Failure> {
+    output::document(format, summary, || [summary_table(&summary.groups)])?;
+    if format.json {
+        return Ok(());
+    }
+    output::result(format_args!("results: {}", PathBuf::from(path).display()))
+}

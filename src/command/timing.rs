@@ -1,0 +1,55 @@
+//! `vibrissa timing`
+
+use clap::Args;
+
+use super::bench::{BenchTrials, bench_trials};
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::Format;
+use super::output;
+use super::progress::Progress;
+use super::values::parse_repeats;
+use crate::file::CommandFiles;
+use crate::report::timing_table;
+use crate::scene::Outcome;
+use crate::study::timing::{Timing, TimingRow};
+
+const EXAMPLE: &str = "Example:\n  vibrissa timing --repeats 5\n\nExit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa timing`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct TimingArguments {
+    #[command(flatten)]
+    trials: BenchTrials,
+    /// Number of runs of every scene, from 1 to 1000; the figures are medians
+    #[arg(long, value_name = "N", default_value = "5", allow_negative_numbers = true, value_parser = parse_repeats)]
+    repeats: usize,
+    #[command(flatten)]
+    format: Format,
+}
+
+/// Runs every trial several times, one at a time. Each round has every trial once, so that disturbances of the machine affect all of them.
+pub(super) fn timing(arguments: &TimingArguments) -> Result<Exit, Failure> {
+    let trials = bench_trials(&arguments.trials, &mut CommandFiles::new())?;
+    let mut progress = Progress::new(trials.len() * arguments.repeats);
+    let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(arguments.repeats); trials.len()];
+    for _ in 0..arguments.repeats {
+        for ((_, trial), times) in trials.iter().zip(&mut times) {
+            progress.doing(&trial.scene.name);
+            times.push(Timing::take(trial).map_err(Failure::execute(trial))?);
+            progress.done(&trial.scene.name);
+        }
+    }
+    progress.finish();
+    let rows: Vec<TimingRow> = trials
+        .iter()
+        .zip(&times)
+        .filter_map(|((conditions, trial), times)| {
+            let (scene, policy) = (conditions.named(&trial.scene.name), trial.program.name.clone());
+            TimingRow::new(scene, policy, trial.world.kind.to_string(), times)
+        })
+        .collect();
+    output::documents(arguments.format, &rows, || [timing_table(&rows)])?;
+    Ok(if rows.iter().all(|row| row.outcome == Outcome::Completed) { Exit::Done } else { Exit::Unexpected })
+}

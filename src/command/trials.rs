@@ -1,0 +1,164 @@
+//! Trials of a command, their reports and their messages.
+
+use std::path::{Path, PathBuf};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::ops::ControlFlow;
+
+use super::failure::Failure;
+use super::options::Jobs;
+use super::output;
+use super::progress::Progress;
+use crate::diagnostic::printable;
+use crate::file::{CommandFiles, Output, OutputError};
+use crate::report::picture;
+use crate::results::{Document, Failsafes, RunResult};
+use crate::run::Trace;
+use crate::scene::Violation;
+use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
+
+/// The kept part of a trial's result. A trace is large.
+pub(super) struct Finished {
+    pub(super) result: RunResult,
+    /// The expectations of the scenario that do not hold.
+    pub(super) violations: Vec<Violation>,
+    /// The picture, if one was asked for.
+    pub(super) picture: Option<String>,
+}
+
+/// Runs all trials in parallel and returns their results in order. Trials are drawn if `is_drawn` is true for their violations. Standard
+/// error shows the progress.
+pub(super) fn run_all(
+    trials: &[Trial],
+    jobs: Jobs,
+    is_drawn: impl Fn(&[Violation]) -> bool + Sync,
+) -> Result<Vec<Finished>, Failure> {
+    let mut progress = Progress::new(trials.len());
+    let run = |trial: &Trial| finished(trial, &is_drawn);
+    let done = |finished: &Result<Finished, Failure>| {
+        if let Ok(Finished { result, .. }) = finished {
+            progress.done(format_args!("{}: {}", result.scenario, result.outcome));
+        }
+    };
+    let finished = in_parallel(trials, jobs.threads(), run, done);
+    progress.finish();
+    finished.into_iter().collect()
+}
+
+/// Runs one trial.
+pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -> Result<Finished, Failure> {
+    let result = trial.run().map_err(Failure::execute(trial))?;
+    let picture = is_drawn(&result.violations).then(|| drawn(trial, &result));
+    Ok(Finished { result: trial.document(&result), violations: result.violations, picture })
+}
+
+fn drawn(trial: &Trial, result: &TrialResult) -> String {
+    picture(&trial.scene, &trial.program.name, &result.run, &result.score)
+}
+
+/// The inputs of a trial, by the path of its scenario and the hashes of scenario and policy.
+pub(super) fn inputs(path: &Path, scenario_hash: &[u8], policy_hash: &[u8]) -> Inputs {
+    Inputs {
+        scenario: path.to_owned(),
+        scenario_hash: short_hash(scenario_hash),
+        policy_hash: short_hash(policy_hash),
+        ..Inputs::default()
+    }
+}
+
+/// Runs a trial and shows a progress bar on standard error if that is a terminal.
+pub(super) fn run_with_bar(trial: &Trial) -> Result<TrialResult, Failure> {
+    let bar = ProgressBar::new(milliseconds(trial.scene.stop.time));
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} % of at most {prefix}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.set_message(printable(&trial.scene.name).into_owned());
+    bar.set_prefix(format!("{} s", trial.scene.stop.time));
+    let result = run_each_second(trial, |trace| {
+        bar.set_position(milliseconds(seconds(trace)));
+        ControlFlow::Continue(())
+    });
+    bar.finish_and_clear();
+    result
+}
+
+/// Runs a trial. `each_second` receives the trace after each simulated second, and may stop the run.
+pub(super) fn run_each_second(
+    trial: &Trial,
+    mut each_second: impl FnMut(&Trace) -> ControlFlow<()>,
+) -> Result<TrialResult, Failure> {
+    let mut next = 1.0;
+    let progress = |trace: &Trace| {
+        if seconds(trace) < next {
+            return ControlFlow::Continue(());
+        }
+        next = seconds(trace).floor() + 1.0;
+        each_second(trace)
+    };
+    trial.run_with(progress).map_err(Failure::execute(trial))
+}
+
+/// The simulated time (s).
+pub(super) fn seconds(trace: &Trace) -> f64 {
+    trace.ticks.last().map_or(0.0, |tick| tick.time)
+}
+
+fn milliseconds(seconds: f64) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive time, only to be shown")]
+    let milliseconds = (seconds * 1e3) as u64;
+    milliseconds
+}
+
+/// The places for the picture and the result of a run.
+pub(super) struct ReportFiles {
+    picture: Output,
+    result: Output,
+}
+
+impl ReportFiles {
+    /// `stem` with their extensions, in the directory that `--out` gives.
+    pub(super) fn new(stem: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let picture = files.output("--out", &extended(stem, "svg"))?;
+        Ok(Self { picture, result: files.output("--out", &extended(stem, "json"))? })
+    }
+
+    /// Writes the picture and the result.
+    pub(super) fn write(self, trial: &Trial, result: &TrialResult, document: &RunResult) -> Result<(), Failure> {
+        self.picture.write(drawn(trial, result))?;
+        self.result.write(serde_json::to_string_pretty(&document.versioned())? + "\n")?;
+        Ok(())
+    }
+}
+
+/// Makes the directory for reports.
+pub(super) fn make_directory(directory: Option<&Path>) -> Result<(), Failure> {
+    directory.map_or(Ok(()), |directory| std::fs::create_dir_all(directory).map_err(Failure::folder(directory)))
+}
+
+/// A path with an extension after its name. Names of scenarios may contain points.
+pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
+    let mut path = stem.as_os_str().to_owned();
+    path.push(".");
+    path.push(extension);
+    path.into()
+}
+
+/// Prints the notable events of a run.
+pub(super) fn tell(result: &RunResult) {
+    let RunResult { scenario, outcome, reason, collisions, .. } = result;
+    if let Some(reason) = reason {
+        output::message(format_args!("{scenario}: {outcome}: {reason}"));
+    }
+    if collisions.count > 0 {
+        let touched = collisions.time_s;
+        output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
+    }
+    if let Failsafes { count, first_s: Some(time), first_state: Some(state), first_cause: Some(cause) } =
+        &result.failsafes
+    {
+        let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
+        output::message(format_args!(
+            "{scenario}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}"
+        ));
+    }
+}

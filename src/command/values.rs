@@ -1,0 +1,76 @@
+//! Parsers of the values of arguments.
+
+use std::f64::consts::PI;
+use std::fmt::Display;
+use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use crate::trial::processors;
+use vibrissa_runtime::machine::NESTING_LIMIT;
+use vibrissa_runtime::units::{Dimension, parse_quantity};
+
+/// The most runs at a time for each processor. More of them only take memory.
+const JOBS_PER_PROCESSOR: usize = 32;
+/// The most times that something is measured.
+const MOST_REPEATS: usize = 1000;
+/// The most scenes of a family, and the most runs of a scenario.
+const MOST_RUNS: u64 = 100_000;
+/// How far starts may vary (m): farther than any scene is wide.
+const MOST_JITTER: f64 = 10.0;
+
+/// How many runs to do at a time.
+pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
+    let most = processors().get().saturating_mul(JOBS_PER_PROCESSOR);
+    let jobs =
+        parse_whole(text, 1..=most).map_err(|range| format!("{range}, {JOBS_PER_PROCESSOR} for each processor"))?;
+    Ok(NonZeroUsize::new(jobs).unwrap_or(NonZeroUsize::MIN))
+}
+
+/// How often to measure something.
+pub(super) fn parse_repeats(text: &str) -> Result<usize, String> {
+    parse_whole(text, 1..=MOST_REPEATS)
+}
+
+/// How many scenes to draw of a family, or how many runs to do of a scenario.
+pub(super) fn parse_runs(text: &str) -> Result<u64, String> {
+    parse_whole(text, 1..=MOST_RUNS)
+}
+
+/// How many levels of states to show.
+pub(super) fn parse_depth(text: &str) -> Result<usize, String> {
+    parse_whole(text, 1..=NESTING_LIMIT)
+}
+
+/// What tells one draw from others: a seed, or the number of a scene.
+pub(super) fn parse_seed(text: &str) -> Result<u64, String> {
+    parse_whole(text, 0..=u64::MAX)
+}
+
+fn parse_whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>) -> Result<T, String> {
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("write a whole number from {} to {}", range.start(), range.end()))
+}
+
+/// A coefficient of friction from 0 to 1.
+pub(super) fn parse_friction(text: &str) -> Result<f64, String> {
+    let friction = text.trim().parse().ok().filter(|friction| (0.0..=1.0).contains(friction));
+    friction.ok_or_else(|| "write a number from 0 to 1, such as 0.3".to_owned())
+}
+
+/// How far starts may be from a scenario's (m).
+pub(super) fn parse_jitter(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::LENGTH, MOST_JITTER, "from 0 to 10 m, such as \"20 mm\"")
+}
+
+/// How far headings may be from a scenario's (rad): half a turn to either side is every heading.
+pub(super) fn parse_jitter_heading(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::ANGLE, PI, "from 0 to 180 deg, such as \"10 deg\"")
+}
+
+/// A quantity (SI) of this dimension from 0 to `most`, as `range` says.
+fn parse_size(text: &str, dimension: Dimension, most: f64, range: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
+    let fits = quantity.dimension == dimension && (0.0..=most).contains(&quantity.value_si);
+    fits.then_some(quantity.value_si).ok_or_else(|| format!("write {} {range}", dimension.phrase()))
+}

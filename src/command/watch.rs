@@ -1,0 +1,152 @@
+//! `vibrissa run --watch`
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
+
+use crate::file::CommandFiles;
+use crate::results::RunResult;
+use crate::run::Trace;
+use crate::score::Statistics;
+use crate::trial::{ExecuteError, Trial};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use super::run::{self, RunArguments};
+use super::trials::{make_directory, run_each_second, seconds};
+use crate::load::LoadError;
+
+/// Editors write a file in several steps; when nothing has happened for this long, they are done.
+const QUIET: Duration = Duration::from_millis(15);
+
+/// Runs again and again, whenever a file changes that a run depends on. It ends only with the program.
+pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
+    let mut watch = Watch::new()?;
+    // A file that is missing can come into being later.
+    let first = arguments.scenarios.iter().chain(&arguments.policy);
+    watch.add(first.cloned().collect())?;
+    make_directory(arguments.out.as_deref())?;
+    loop {
+        let mut files = CommandFiles::new();
+        let trials = run::trials(arguments, &mut files);
+        if watch.add(files.inputs().map(Path::to_owned).collect())? {
+            // What was written to a new folder before it was watched has been missed.
+            continue;
+        }
+        match trials.and_then(|trials| run_all(&trials, arguments, &mut files, &watch)) {
+            Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
+            Err(failure) => failure.report(),
+            Ok(results) => run::show(&results, arguments)?,
+        }
+        output::message(format_args!("watching {} files; Ctrl-C ends", watch.files.len()));
+        watch.wait();
+    }
+}
+
+fn run_all(
+    trials: &[Trial],
+    arguments: &RunArguments,
+    files: &mut CommandFiles,
+    watch: &Watch,
+) -> Result<Vec<RunResult>, Failure> {
+    let reports = run::reports(trials, arguments.out.as_deref(), files)?;
+    let run = |(trial, report): (&Trial, _)| {
+        let mut told = Ok(());
+        let finished = run_each_second(trial, |trace| {
+            told = tell(trial, trace);
+            if told.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        told?;
+        run::finish(trial, &finished?, report)
+    };
+    trials.iter().zip(reports).map(run).collect()
+}
+
+/// One line of how a run goes: the state at this second, and how far the tips were from the object since the last line.
+fn tell(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
+    let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state?)).map_or("Failure", String::as_str);
+    let now = seconds(trace);
+    let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
+    let surfaces = &trial.scene.truth.surfaces;
+    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| surfaces.distance(tip));
+    let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
+        format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
+    });
+    output::result(format_args!("{} {now:>5.0} s  {state}  {error}", trial.scene.name))
+}
+
+/// Eyes on files.
+struct Watch {
+    watcher: RecommendedWatcher,
+    events: Receiver<notify::Result<Event>>,
+    files: BTreeSet<PathBuf>,
+    folders: BTreeSet<PathBuf>,
+}
+
+impl Watch {
+    fn new() -> Result<Self, Failure> {
+        let (sender, events) = channel();
+        // The watcher does not tell that its thread cannot be started, and panics when it is asked for something then.
+        let thread = std::thread::Builder::new().spawn(|| ()).map_err(Failure::NoWatch)?;
+        let _ = thread.join();
+        // When the receiver is gone the program is about to end.
+        let watcher = notify::recommended_watcher(move |event| drop(sender.send(event)))?;
+        Ok(Self { watcher, events, files: BTreeSet::new(), folders: BTreeSet::new() })
+    }
+
+    /// Watches more files; whether a folder is new among theirs. Folders are watched, because editors replace files.
+    fn add(&mut self, files: BTreeSet<PathBuf>) -> Result<bool, Failure> {
+        let mut is_new = false;
+        for file in files {
+            // Events name files by absolute paths.
+            let file = std::path::absolute(&file).map_err(LoadError::read(&file))?;
+            let Some(folder) = file.parent().map(Path::to_owned) else { continue };
+            self.files.insert(file);
+            if !self.folders.contains(&folder) {
+                self.watcher.watch(&folder, RecursiveMode::NonRecursive)?;
+                self.folders.insert(folder);
+                is_new = true;
+            }
+        }
+        Ok(is_new)
+    }
+
+    /// Whether a file has changed since the last look.
+    fn has_changed(&self) -> bool {
+        let changed = self.events.try_iter().any(|event| self.concerns(&event));
+        if changed {
+            self.settle();
+        }
+        changed
+    }
+
+    /// Waits until a file changes.
+    fn wait(&self) {
+        while let Ok(event) = self.events.recv() {
+            if self.concerns(&event) {
+                return self.settle();
+            }
+        }
+    }
+
+    /// Waits until nothing more happens to the files.
+    fn settle(&self) {
+        let mut until = Instant::now() + QUIET;
+        while let Ok(event) = self.events.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            if self.concerns(&event) {
+                until = Instant::now() + QUIET;
+            }
+        }
+    }
+
+    /// Whether an event is about one of the files. If events were lost, it may have been.
+    fn concerns(&self, event: &notify::Result<Event>) -> bool {
+        let Ok(event) = event else { return true };
+        event.need_rescan() || (!event.kind.is_access() && event.paths.iter().any(|path| self.files.contains(path)))
+    }
+}

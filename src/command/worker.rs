@@ -1,0 +1,86 @@
+//! `vibrissa worker`: a process for runs of a sweep, or for stress tests.
+
+use std::io::stdin;
+use std::path::PathBuf;
+use std::sync::mpsc::channel;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::PruneOption;
+use super::output;
+use super::trials::finished;
+use crate::diagnostic::{Colour, terminal};
+use crate::file::CommandFiles;
+use crate::load::LoadError;
+use crate::results::Document;
+use crate::study::stress::StressTask;
+use crate::sweep::{Plan, Shard, SweepLine, SweepRun};
+use crate::trial::{StartError, engine_version};
+
+/// The arguments of `vibrissa worker`.
+#[derive(Debug, Args)]
+pub(super) struct WorkerArguments {
+    /// Sweep file; stress tests without one
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+    #[command(flatten)]
+    prune: PruneOption,
+}
+
+/// Greets with the fingerprint of the sweep, and answers every index of a run with the run's line. Without a sweep it is the version, and the
+/// index of a hard case.
+pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
+    let Some(file) = &arguments.file else {
+        let tasks = StressTask::all()?;
+        return serve(&engine_version(), |index| {
+            let task = usize::try_from(index).ok().and_then(|index| tasks.get(index));
+            task.map(|task| serde_json::to_string(&task.run()))
+        });
+    };
+    let plan = Plan::read(file, !arguments.prune.no_prune, &mut CommandFiles::new())?;
+    serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
+        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run).versioned()))
+    })
+}
+
+/// Greets, and answers every index with a line, until there is none or nobody asks any more.
+fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>>) -> Result<Exit, Failure> {
+    output::result(greeting)?;
+    let (sender, requests) = channel();
+    let listen = move || {
+        for request in stdin().lines().map_while(Result::ok) {
+            if sender.send(request).is_err() {
+                break;
+            }
+        }
+        // Whoever asks is gone, also in the middle of a run: nobody waits for its result.
+        std::process::exit(0);
+    };
+    std::thread::Builder::new().spawn(listen).map_err(StartError::Process)?;
+    for request in requests {
+        let Some(line) = request.parse().ok().and_then(&line) else {
+            return Ok(Exit::Unusable);
+        };
+        output::result(line?)?;
+    }
+    Ok(Exit::Done)
+}
+
+fn line(plan: &Plan, run: &SweepRun<'_>) -> SweepLine {
+    let finished = plan.trial(run).map_err(Failure::from).and_then(|trial| Ok((finished(&trial, |_| false)?, trial)));
+    match finished {
+        Ok((finished, trial)) => {
+            SweepLine::ran(run, trial.scene.description, finished.violations.is_empty(), finished.result)
+        }
+        Err(failure) => SweepLine::refused(run, reason(&failure)),
+    }
+}
+
+fn reason(failure: &Failure) -> String {
+    match failure {
+        Failure::Load(LoadError::Faults { source_text, faults }) => terminal(source_text, faults, Colour::Plain),
+        other => other.to_string(),
+    }
+}

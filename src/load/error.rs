@@ -1,0 +1,94 @@
+//! Errors of reading files.
+
+use std::path::{Path, PathBuf};
+
+use vibrissa_runtime::machine::ArtifactError;
+
+use crate::calibration::SetsError;
+use crate::diagnostic::{Diagnostic, Source};
+use crate::scenario::unreadable;
+use crate::scene::FileReference;
+
+use super::text::reason;
+
+/// Why a file cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum LoadError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        cause: std::io::Error,
+    },
+    /// The path is not UTF-8 text.
+    #[error(
+        "cannot read {}: its path is not UTF-8 text; give the file or folder another name, or go into the folder and name the file from there",
+        path.as_os_str().as_encoded_bytes().escape_ascii()
+    )]
+    Name {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The text has errors.
+    #[error("{}", faults.len())]
+    Faults {
+        /// The text.
+        source_text: Box<Source>,
+        /// The errors.
+        faults: Vec<Diagnostic>,
+    },
+    /// The file is no compiled policy that can be used.
+    #[error("{}: {cause}", path.display())]
+    Artifact {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        cause: ArtifactError,
+    },
+    /// The file is a compiled policy where a text is needed.
+    #[error("{} is a compiled machine, which does not hold its text; give the policy that it was made from, {origin}", path.display())]
+    Compiled {
+        /// The file.
+        path: PathBuf,
+        /// The path of the text when it was compiled.
+        origin: String,
+    },
+    /// The file has no contact sets that can be used.
+    #[error("{}: {cause}", path.display())]
+    Sets {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        cause: SetsError,
+    },
+}
+
+impl LoadError {
+    /// The error of reading the file at `path`.
+    pub(crate) fn read(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Read { path, cause }
+    }
+
+    /// The error of the compiled policy at `path`.
+    pub(crate) fn artifact(path: &Path) -> impl FnOnce(ArtifactError) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Artifact { path, cause }
+    }
+
+    /// The error that is one diagnostic of a text.
+    #[must_use]
+    pub(crate) fn at(source: &Source, fault: Diagnostic) -> Self {
+        Self::Faults { source_text: Box::new(source.clone()), faults: vec![fault] }
+    }
+
+    /// Converts a file that cannot be read into a diagnostic at the place in `source` that names it. Other errors stay as they are.
+    pub(crate) fn named_in(source: &Source, file: &FileReference) -> impl FnOnce(Self) -> Self {
+        |error| match error {
+            Self::Read { path, cause } => Self::at(source, unreadable(file, &reason(&path, &cause))),
+            other => other,
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Reading the files that a command names: scenarios, policies, contact sets.
+
+mod error;
+mod policy;
+mod scenario;
+mod text;
+
+pub(crate) use error::LoadError;
+#[cfg(feature = "lsp")]
+pub(crate) use policy::library_for_editor;
+pub(crate) use policy::{
+    Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_text, program,
+    with_libraries, with_settings,
+};
+pub(crate) use scenario::{beside, built_in_scenario, contact_sets, outline_file, scenario, scenario_in};
+pub(crate) use text::{read, read_standard};
+
+use sha2::Sha256;
+
+/// A value that was read from a file, with a hash of the file.
+pub(crate) struct Loaded<T> {
+    /// The value.
+    pub(crate) value: T,
+    /// The hash of the text.
+    pub(crate) hash: Sha256,
+}

@@ -1,0 +1,146 @@
+//! Policies, as texts or compiled.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, Program};
+
+use super::scenario::beside;
+use super::text::{SIZE_LIMIT, name, reason, text};
+use super::{LoadError, Loaded};
+use crate::built_in::{DEFAULT_POLICY, TextFile};
+use crate::diagnostic::{Diagnostic, Source};
+use crate::file::CommandFiles;
+use crate::policy::chart::Chart;
+use crate::policy::{self, Compiled, Library, PolicyTest, gather_and_compile};
+use crate::scene::Scene;
+
+/// The content of a policy file.
+pub(crate) enum PolicyFile {
+    Text(Source),
+    Machine(Box<Artifact>),
+}
+
+/// Reads a policy's text or a compiled machine, which is one by how it begins, or is meant to be by its name; the hash is that of the file
+/// alone.
+pub(crate) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
+    let bytes = files.read(path, ARTIFACT_LIMIT).map_err(LoadError::read(path))?;
+    let hash = Sha256::new().chain_update(&bytes);
+    let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
+        PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(LoadError::artifact(path))?))
+    } else {
+        PolicyFile::Text(Source::new(name(path)?, text(&bytes).map_err(LoadError::read(path))?))
+    };
+    Ok(Loaded { value, hash })
+}
+
+/// A policy's text with those of the files that it uses.
+pub(crate) fn with_libraries(source: &Source, files: &mut CommandFiles) -> Source {
+    policy::gather(source, &mut |path| library(Path::new(path), files))
+}
+
+/// The text of a file that a policy uses.
+fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
+    files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
+}
+
+/// The same for an editor, which writes to no file.
+#[cfg(feature = "lsp")]
+pub(crate) fn library_for_editor(path: &str) -> Result<String, String> {
+    let path = Path::new(path);
+    crate::file::read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
+}
+
+/// A policy that is ready to run.
+pub(crate) struct Policy {
+    pub(crate) artifact: Artifact,
+    /// `None` if it was compiled before.
+    pub(crate) text: Option<PolicyText>,
+}
+
+/// The text of a policy that compiled.
+pub(crate) struct PolicyText {
+    pub(crate) source: Source,
+    pub(crate) warnings: Vec<Diagnostic>,
+    pub(crate) tests: Vec<PolicyTest>,
+}
+
+/// Reads a policy's text and compiles it, or a compiled machine.
+pub(crate) fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    let Loaded { value, hash } = policy_file(path, files)?;
+    match value {
+        PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
+        PolicyFile::Text(source) => compiled(&source, &mut |path| library(Path::new(path), files)),
+    }
+}
+
+/// The policy for the scene that was read from `source`: the one that is asked for, or else the one that the scene names, or else the
+/// one that is built in.
+pub(crate) fn policy_for(
+    asked: Option<&Path>,
+    scene: &Scene,
+    source: &Source,
+    files: &mut CommandFiles,
+) -> Result<Loaded<Policy>, LoadError> {
+    match (asked, &scene.policy) {
+        (Some(path), _) => policy(path, files),
+        (None, Some(file)) => {
+            let path = beside(Path::new(&source.name), &file.path);
+            policy(&path, files).map_err(LoadError::named_in(source, file))
+        }
+        (None, None) => built_in_policy(&DEFAULT_POLICY),
+    }
+}
+
+/// Reads a policy's machine alone: what the compiler warns of takes most of its time.
+pub(crate) fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>, LoadError> {
+    let Loaded { value, hash } = policy_file(path, files)?;
+    let source = match value {
+        PolicyFile::Machine(artifact) => return Ok(Loaded { value: artifact.program, hash }),
+        PolicyFile::Text(source) => with_libraries(&source, files),
+    };
+    let hash = Sha256::new().chain_update(&source.text);
+    match policy::compile(&source) {
+        Ok(value) => Ok(Loaded { value, hash }),
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),
+    }
+}
+
+/// A policy that is part of the program. It uses the standard library alone.
+pub(crate) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
+    let source = Source::new(file.path, file.text);
+    compiled(&source, &mut |_| Err("it is no part of the program".to_owned()))
+}
+
+fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>, LoadError> {
+    let (source, compiled) = gather_and_compile(source, library);
+    let hash = Sha256::new().chain_update(&source.text);
+    match compiled {
+        Ok(Compiled { artifact, tests, warnings }) => {
+            let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests }) };
+            Ok(Loaded { value, hash })
+        }
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),
+    }
+}
+
+/// Reads a policy's text where a compiled machine will not do.
+pub(crate) fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    match policy_file(path, files)?.value {
+        PolicyFile::Text(source) => Ok(source),
+        PolicyFile::Machine(artifact) => {
+            Err(LoadError::Compiled { path: path.to_owned(), origin: artifact.origin.file.clone() })
+        }
+    }
+}
+
+pub(crate) fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, LoadError> {
+    let source = with_libraries(&policy_text(path, files)?, files);
+    policy::chart(&source).map_err(|faults| LoadError::Faults { source_text: Box::new(source), faults })
+}
+
+/// The hash of a policy with parameters that are set, by name, to values (SI).
+#[must_use]
+pub(crate) fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str, f64)>) -> Sha256 {
+    settings.fold(policy, |hash, (name, value)| hash.chain_update(format!("\0{name}={value}")))
+}

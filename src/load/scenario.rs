@@ -1,0 +1,64 @@
+//! Scenarios and contact sets.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::calibration::ContactSet;
+
+use super::text::{read, reason};
+use super::{LoadError, Loaded};
+use crate::built_in::TextFile;
+use crate::calibration::read_sets;
+use crate::diagnostic::Source;
+use crate::file::CommandFiles;
+use crate::outline;
+use crate::scenario;
+use crate::scene::Scene;
+
+/// Reads a scenario with the files that it refers to; the hash is that of all of them.
+pub(crate) fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
+    scenario_in(&read(path, files)?, files)
+}
+
+/// The same of a text that has been read.
+pub(crate) fn scenario_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
+    read_scenario(source, |name| outline_file(&beside(Path::new(&source.name), name), files))
+}
+
+/// The bytes of a file that a scenario names.
+pub(crate) fn outline_file(path: &Path, files: &mut CommandFiles) -> Result<Vec<u8>, String> {
+    files.read(path, outline::SIZE_LIMIT).map_err(|cause| reason(path, &cause))
+}
+
+/// The path of a file that the file at `path` names relative to itself.
+pub(crate) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
+}
+
+/// A scenario that is part of the program.
+pub(crate) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, LoadError> {
+    read_scenario(&Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
+}
+
+fn read_scenario(
+    source: &Source,
+    mut file: impl FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<Loaded<Scene>, LoadError> {
+    let mut hash = Sha256::new().chain_update(&source.text);
+    let scene = scenario::read_with(source, &mut |name| {
+        let bytes = file(name)?;
+        hash.update([0]);
+        hash.update(&bytes);
+        Ok(bytes)
+    });
+    match scene {
+        Ok(value) => Ok(Loaded { value, hash }),
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source.clone()), faults }),
+    }
+}
+
+/// Reads touches that were measured.
+pub(crate) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, LoadError> {
+    let source = read(path, files)?;
+    read_sets(source.text.as_bytes()).map_err(|cause| LoadError::Sets { path: path.to_owned(), cause })
+}

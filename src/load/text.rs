@@ -1,0 +1,61 @@
+//! Texts of bounded size.
+
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+
+use vibrissa_runtime::units::suggest;
+
+use super::LoadError;
+use crate::diagnostic::{NotUtf8, Source, utf8};
+use crate::file::CommandFiles;
+
+/// The most bytes that a text may have: as many as the largest scenario may have. Policies are smaller still.
+pub(super) const SIZE_LIMIT: usize = 1 << 20;
+
+/// The name of a file as messages tell it. Paths within a text start from it, so that it must be the path, letter by letter.
+pub(super) fn name(path: &Path) -> Result<String, LoadError> {
+    path.to_str().map(str::to_owned).ok_or_else(|| LoadError::Name { path: path.to_owned() })
+}
+
+/// Reads a text.
+pub(crate) fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    let name = name(path)?;
+    let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(path))?;
+    Ok(Source::new(name, text))
+}
+
+pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {
+    let unusable = |cause: &str| Error::new(ErrorKind::InvalidData, cause);
+    if bytes.len() > SIZE_LIMIT {
+        return Err(unusable(
+            "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
+        ));
+    }
+    let text = utf8(bytes).map_err(|fault| unusable(&format!("{fault}; {}", NotUtf8::ADVICE)))?;
+    Ok(text.to_owned())
+}
+
+/// Reads standard input.
+pub(crate) fn read_standard(files: &mut CommandFiles) -> Result<Source, LoadError> {
+    let name = "standard input";
+    let text =
+        files.read_standard(SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(Path::new(name)))?;
+    Ok(Source::new(name, text))
+}
+
+/// Why a file cannot be read; where there is none, with the name that was probably meant.
+pub(super) fn reason(path: &Path, cause: &Error) -> String {
+    if cause.kind() != ErrorKind::NotFound {
+        return cause.to_string();
+    }
+    let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+    let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+    // Of names that are equally near the first is suggested, and a folder has no order of its own.
+    siblings.sort_unstable();
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
+        Some(meant) => format!("{cause}; did you mean `{meant}`?"),
+        None => cause.to_string(),
+    }
+}

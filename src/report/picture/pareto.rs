@@ -1,0 +1,31 @@
+//! Settings as a picture.
+
+use super::front::{FrontPoint, front_picture};
+use crate::study::pareto::{Pareto, ParetoRow};
+
+/// What settings change, in the order of the picture's colours.
+const AXES: [&str; 8] =
+    ["links", "step", "contacts", "integrator", "solver", "world", "tip model", "default, fine, or several"];
+
+/// A picture of run time against error: on the left against the exact contour, on the right against the fine run. Lines are the fronts of all
+/// settings; filled points are on the front of their world. Settings that did not complete are not there. A self-contained SVG.
+#[must_use]
+pub fn pareto_picture(pareto: &Pareto) -> String {
+    let points: Vec<FrontPoint> = pareto.settings.iter().filter_map(point).collect();
+    let title = format!("{}, policy {}: run time against error", pareto.scenario, pareto.policy);
+    let subtitle = "lines: the fronts of all settings; filled: on the front of its world; ring: the default";
+    let errors = ["mean distance from the exact contour, mm", "mean distance from the contour of the fine run, mm"];
+    front_picture(&title, subtitle, "run time over that of the default", errors, &AXES, &points)
+}
+
+/// The point of a setting that completed. What is off by nothing has no place on the scale.
+fn point(row: &ParetoRow) -> Option<FrontPoint> {
+    let cost = row.relative_time.filter(|time| *time > 0.0)?;
+    let error = |error: Option<f64>, on: bool, on_of_world: bool| {
+        error.filter(|error| *error > 0.0 && row.completed()).map(|error| (error, on, on_of_world))
+    };
+    let (on, of_world) = (row.on_front, row.on_front_of_world);
+    let errors = [error(row.error_mm, on.exact, of_world.exact), error(row.fine_mm, on.fine, of_world.fine)];
+    let kind = AXES.iter().position(|axis| *axis == row.axis).unwrap_or(AXES.len() - 1);
+    row.completed().then(|| FrontPoint { name: row.setting.clone(), kind, cost, errors })
+}

@@ -1,0 +1,115 @@
+//! The bench as a table.
+
+use super::super::number::{mean_std, millimetres};
+use super::super::table::{NONE, Table, percent};
+use crate::results::TipShares;
+use crate::study::bench::{BenchRow, Verdict};
+
+/// The number of columns that name a run and its verdict.
+pub(in crate::report) const NAMES: usize = 4;
+
+/// The headings of the table's columns.
+pub(in crate::report) const HEADINGS: [&str; 21] = [
+    "scene",
+    "policy",
+    "outcome",
+    "against the thesis",
+    "error mm",
+    "thesis: error mm",
+    "outliers",
+    "coverage",
+    "retrieval mm",
+    "thesis: retrieval mm",
+    "axis mm",
+    "thesis: axis mm",
+    "collisions",
+    "wall coverage",
+    "in 95 %",
+    "corners",
+    "corner place mm",
+    "corner time s",
+    "corner path m",
+    "path m",
+    "sim s",
+];
+
+/// A table of the bench with a row for every run. It tells whether a figure is worse than the thesis's, which stands beside it.
+#[must_use]
+pub fn bench_table(rows: &[BenchRow]) -> Table {
+    Table::new(NAMES, HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()))
+}
+
+/// A line for every policy: how many tips it recorded in all scenes together, which share of them are outliers, and which lies within
+/// the 95 % interval that the tips report.
+#[must_use]
+pub fn pooled_tips(rows: &[BenchRow]) -> String {
+    let mut policies: Vec<&str> = Vec::new();
+    for row in rows {
+        if !policies.contains(&row.result.policy.as_str()) {
+            policies.push(&row.result.policy);
+        }
+    }
+    let line = |policy: &str| {
+        let mine = rows.iter().filter(|row| row.result.policy == policy).map(|row| &row.result.error_mm);
+        let tips: TipShares = mine.map(|error| TipShares::of_run(error.n, error.outliers, error.within_band)).sum();
+        let share = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
+        format!(
+            "{policy}: {} tips, {} outliers, {} within their 95 % interval",
+            tips.count,
+            share(tips.outlier_share(), 3),
+            share(tips.within_band_share(), 1)
+        )
+    };
+    policies.into_iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// The cells of a row, with the verdict that a cell bears.
+pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21] {
+    let result = &row.result;
+    let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
+    let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
+        let found = plain(found.mean.map(|mean| mean_std(mean, found.std))).0;
+        let reported = reported.map(|reported| match reported.std {
+            Some(std) => format!("{} ± {}", reported.mean, std),
+            None => reported.mean.to_string(),
+        });
+        [(found, verdict), plain(reported)]
+    });
+    let [[error, thesis_error], [radius, thesis_radius], [axis, thesis_axis]] = [error, radius, axis];
+    let corners = result.corners.as_ref();
+    [
+        plain(Some(row.scene())),
+        plain(Some(result.policy.clone())),
+        plain(Some(result.outcome.to_string())),
+        plain(against_thesis(row)),
+        error,
+        thesis_error,
+        plain(result.error_mm.outliers.map(|share| percent(share, 2))),
+        plain(Some(percent(result.coverage, 1))),
+        radius,
+        thesis_radius,
+        axis,
+        thesis_axis,
+        plain(Some(result.collisions.count.to_string())),
+        plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
+        plain(result.error_mm.within_band.map(|share| percent(share, 1))),
+        plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),
+        plain(corners.and_then(|corners| corners.place_mm.mean).map(millimetres)),
+        plain(corners.and_then(|corners| corners.time_s.mean).map(|time| format!("{time:.1}"))),
+        plain(corners.and_then(|corners| corners.path_m.mean).map(|path| format!("{path:.2}"))),
+        plain(Some(format!("{:.2}", result.path_m))),
+        plain(Some(format!("{:.1}", result.sim_s))),
+    ]
+}
+
+/// Whether the figures that the thesis reports are better, or which of them are worse.
+fn against_thesis(row: &BenchRow) -> Option<String> {
+    let verdicts = row.figures().map(|(.., verdict)| verdict);
+    let worse = ["error", "retrieval", "axis"].into_iter().zip(verdicts);
+    let worse: Vec<_> = worse.filter(|(_, verdict)| *verdict == Some(Verdict::Worse)).map(|(name, _)| name).collect();
+    match verdicts.iter().flatten().count() {
+        0 => None,
+        _ if worse.is_empty() => Some("better".to_owned()),
+        _ => Some(format!("worse: {}", worse.join(", "))),
+    }
+}

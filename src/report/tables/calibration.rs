@@ -1,0 +1,19 @@
+//! The held-out errors of a calibration as a table.
+
+use super::super::table::Table;
+use crate::calibration::HeldOut;
+
+/// A table of how well fits hold.
+#[must_use]
+pub fn held_out_table(rows: &[HeldOut]) -> Table {
+    let cells = rows.iter().map(|row| {
+        vec![
+            row.model.to_owned(),
+            row.sets.to_string(),
+            format!("{:.3}", row.rms_mm),
+            format!("{:.3}", row.max_mm),
+            row.range.clone(),
+        ]
+    });
+    Table::new(1, ["model", "sets held out", "rms mm", "max mm", "range"], cells)
+}

@@ -1,0 +1,26 @@
+//! Tables of results and studies.
+
+pub(super) mod bench;
+mod calibration;
+mod comparison;
+mod estimators;
+mod families;
+mod pareto;
+mod results;
+mod stress;
+mod sweep;
+mod tally;
+mod timing;
+mod worlds;
+
+pub use bench::{bench_table, pooled_tips};
+pub use calibration::held_out_table;
+pub use comparison::comparison_tables;
+pub use estimators::estimators_tables;
+pub use families::families_table;
+pub use pareto::pareto_table;
+pub use results::results_table;
+pub use stress::stress_tables;
+pub use sweep::summary_table;
+pub use timing::timing_table;
+pub use worlds::worlds_table;

@@ -1,0 +1,62 @@
+//! Settings as a table.
+
+use super::super::table::{NONE, Table};
+use crate::results::Ending;
+use crate::study::pareto::{Front, Pareto, ParetoRow};
+
+const HEADINGS: [&str; 10] = [
+    "setting",
+    "on the front",
+    "on its world's front",
+    "relative time",
+    "exact error mm",
+    "fine error mm",
+    "coverage",
+    "× real time",
+    "least time",
+    "greatest time",
+];
+
+/// A table with a row for every setting. It tells whether the setting is on a front of time against error. Errors are against the exact
+/// contour and against the fine run. Times are over that of the default. The caption says how far the fine run is reproducible.
+#[must_use]
+pub fn pareto_table(pareto: &Pareto) -> Table {
+    let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));
+    Table::new(3, HEADINGS, pareto.settings.iter().map(cells))
+        .under(format!("A fine run whose start is 1 mm behind differs from the fine run by {floor}."))
+}
+
+fn cells(row: &ParetoRow) -> Vec<String> {
+    let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);
+    let ratio = |value: f64| if value < 10.0 { format!("{value:.2}") } else { format!("{value:.1}") };
+    let error = |error: f64| format!("{error:.4}");
+    let [least, greatest] = [0, 1].map(|end| row.relative_time_range.map(|range| range[end]));
+    let (front, front_of_world) = match row.outcome {
+        Ending::Completed => (names(row.on_front), names(row.on_front_of_world)),
+        Ending::Timeout => ("timeout", ""),
+        Ending::Failed => ("failed", ""),
+        Ending::Diverged => ("diverged", ""),
+        Ending::Crashed | Ending::Refused => ("refused", ""),
+    };
+    vec![
+        row.setting.clone(),
+        front.to_owned(),
+        front_of_world.to_owned(),
+        shown(row.relative_time, &ratio),
+        shown(row.error_mm, &error),
+        shown(row.fine_mm, &error),
+        shown(row.coverage, &|coverage| format!("{:.1} %", 100.0 * coverage)),
+        shown(row.processor_s.filter(|time| *time > 0.0), &|time| format!("{:.0}", row.sim_s / time)),
+        shown(least, &ratio),
+        shown(greatest, &ratio),
+    ]
+}
+
+fn names(front: Front) -> &'static str {
+    match front {
+        Front { exact: true, fine: true } => "exact, fine",
+        Front { exact: true, fine: false } => "exact",
+        Front { exact: false, fine: true } => "fine",
+        Front { exact: false, fine: false } => "",
+    }
+}

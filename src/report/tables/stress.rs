@@ -1,0 +1,32 @@
+//! Hard cases as tables.
+
+use super::super::table::{NONE, Table};
+use crate::study::stress::StressRow;
+
+/// Two tables: how every case ended, and the largest stable step of every setting.
+#[must_use]
+pub fn stress_tables(rows: &[StressRow]) -> [Table; 2] {
+    let cases = rows.iter().filter_map(|row| match row {
+        StressRow::Case { name, world, drive, outcome, reason, sim_s, finite } => Some(vec![
+            name.clone(),
+            world.clone(),
+            drive.clone(),
+            serde_json::to_value(outcome).ok()?.as_str()?.to_owned(),
+            if *finite { String::new() } else { "not finite".to_owned() },
+            format!("{sim_s:.2}"),
+            reason.clone().unwrap_or_default(),
+        ]),
+        StressRow::Step { .. } => None,
+    });
+    let steps = rows.iter().filter_map(|row| match row {
+        StressRow::Step { name, world, largest_ms, .. } => {
+            let largest = largest_ms.map_or_else(|| NONE.to_owned(), |step| format!("{step:.2}"));
+            Some(vec![name.clone(), world.clone(), largest])
+        }
+        StressRow::Case { .. } => None,
+    });
+    [
+        Table::new(7, ["case", "world", "driven", "outcome", "numbers", "sim s", "reason"], cases),
+        Table::new(2, ["setting", "world", "largest stable step ms"], steps),
+    ]
+}

@@ -1,0 +1,43 @@
+//! The comparison of simulators as a table.
+
+use super::super::table::{NONE, Table};
+use crate::study::worlds::WorldsRow;
+
+const HEADINGS: [&str; 11] = [
+    "scene",
+    "policy",
+    "simulation",
+    "its run",
+    "tip mm",
+    "contour mm",
+    "moment µN m",
+    "of the moment",
+    "left out",
+    "p95 tip mm",
+    "p95 moment µN m",
+];
+
+/// A table with a line for every scene, policy and simulation: how far tips and moments are from the reference's, mean and 95th percentile, what
+/// share of the moment that is; how far contours are apart; what share of the ticks was left out, and how the policy's run ended.
+#[must_use]
+pub fn worlds_table(rows: &[WorldsRow]) -> Table {
+    let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);
+    let lines = rows.iter().map(|row| {
+        let millimetres = |value: f64| format!("{value:.4}");
+        let moment = |value: f64| format!("{value:.2}");
+        vec![
+            row.scenario.clone(),
+            row.policy.clone(),
+            row.simulation.to_owned(),
+            row.outcome.name().to_owned(),
+            shown(row.tip_mm.map(|tip| tip.mean), &millimetres),
+            shown(row.contour_mm, &millimetres),
+            shown(row.moment_un_m.map(|apart| apart.mean), &moment),
+            shown(row.moment_share, &|share| format!("{:.2} %", 100.0 * share)),
+            format!("{:.1} %", 100.0 * row.left_out),
+            shown(row.tip_mm.map(|tip| tip.p95), &millimetres),
+            shown(row.moment_un_m.map(|apart| apart.p95), &moment),
+        ]
+    });
+    Table::new(4, HEADINGS, lines)
+}

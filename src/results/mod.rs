@@ -1,0 +1,14 @@
+//! Results as JSON documents: runs, ticks, and counts over runs.
+
+mod document;
+mod run_result;
+mod tally;
+mod tick_line;
+
+pub use document::{Document, Versioned};
+pub use run_result::{
+    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,
+    RunResult, TickUs, TipErrorMm,
+};
+pub use tally::{Ending, Figures, Tally, TipShares};
+pub use tick_line::{TickLine, tick_lines};

@@ -1,0 +1,83 @@
+//! One scene, one policy, several simulations.
+
+use std::sync::Arc;
+
+use super::row::{Apart, WorldsRow};
+use super::simulation::Simulation;
+use super::track::{Instant, Track};
+use crate::run::Run;
+use crate::scene::Scene;
+use crate::score::Estimate;
+use crate::trial::{ExecuteError, Trial};
+use vibrissa_runtime::machine::Program;
+
+/// Runs a policy in a scene in a simulation, the `reference`, and compares others with it.
+///
+/// Tips and moments: the whiskers of every simulation, the reference's too, are carried along the poses of the reference's run, so that all are
+/// asked the same; two runs in a loop do not stay in step. What counts are the ticks of a whisker in which it touches in both
+/// simulations, and rings in neither: all readings of the tick are beyond the contact threshold, and no farther apart than that.
+///
+/// Contours: the policy runs in every simulation, and how far its tips are from the contour that the reference's run estimated is the mean of
+/// their distances. Perception takes whiskers to be the scene's, in all simulations.
+///
+/// # Errors
+/// [`ExecuteError`] when a run cannot begin.
+pub fn compare_worlds(
+    scene: &Scene,
+    program: &Arc<Program>,
+    reference: &Simulation,
+    others: &[Simulation],
+) -> Result<Vec<WorldsRow>, ExecuteError> {
+    let way = run(scene, program, reference)?;
+    let contour = Estimate::new(&way.trace);
+    let of_reference = Track::along(&way.trace, scene, reference)?;
+    let mut rows = Vec::with_capacity(others.len());
+    for simulation in others {
+        let own = run(scene, program, simulation)?;
+        let track = Track::along(&way.trace, scene, simulation)?;
+        let (pairs, touching) = pairs(&of_reference, &track, scene.rig.sensing.contact_threshold);
+        let of = |distance: fn(&(Instant, Instant)) -> f64| Apart::of(pairs.iter().map(distance).collect());
+        let bending: f64 = pairs.iter().map(|(reference, _)| reference.moment.abs()).sum();
+        let moment = of(|(reference, other)| 1e6 * (other.moment - reference.moment).abs());
+        rows.push(WorldsRow {
+            scenario: scene.name.clone(),
+            policy: program.name.clone(),
+            simulation: simulation.name,
+            reference: reference.name,
+            outcome: own.outcome.into(),
+            reason: own.reason.clone(),
+            along_s: way.trace.period * track.ticks.len().min(of_reference.ticks.len()) as f64,
+            stopped: track.fault.or_else(|| of_reference.fault.clone()),
+            compared: pairs.len(),
+            left_out: if touching > 0 { 1.0 - pairs.len() as f64 / touching as f64 } else { 0.0 },
+            tip_mm: of(|(reference, other)| 1e3 * (other.tip - reference.tip).norm()),
+            moment_share: moment.map(|moment| 1e-6 * moment.mean * pairs.len() as f64 / bending),
+            moment_un_m: moment,
+            contour_mm: Estimate::new(&own.trace).apart(&contour).map(|distance| 1e3 * distance),
+        });
+    }
+    Ok(rows)
+}
+
+/// The run of a policy in a simulation. Control assumes the rig of the scene.
+fn run(scene: &Scene, program: &Arc<Program>, simulation: &Simulation) -> Result<Run, ExecuteError> {
+    let mut trial = Trial::new(simulation.scene(scene), Arc::clone(program));
+    trial.assumed_rig = scene.rig.clone();
+    trial.world = simulation.world.into();
+    Ok(trial.run()?.run)
+}
+
+/// What two simulations make of the same whisker in the same tick, where it is compared; and how many there are in which it touches in
+/// either.
+fn pairs(reference: &Track, other: &Track, threshold: f64) -> (Vec<(Instant, Instant)>, usize) {
+    let whiskers = reference.ticks.iter().zip(&other.ticks).flat_map(|(one, two)| one.iter().zip(two));
+    let touching = whiskers.filter(|(one, two)| one.least.max(two.least) > threshold);
+    let (mut pairs, mut count) = (Vec::new(), 0);
+    for (&one, &two) in touching {
+        count += 1;
+        if one.least.min(two.least) > threshold && one.range.max(two.range) <= threshold {
+            pairs.push((one, two));
+        }
+    }
+    (pairs, count)
+}

@@ -1,0 +1,10 @@
+//! Simulations of worlds against each other: the same policy, the same scenes.
+
+mod compare;
+mod row;
+mod simulation;
+mod track;
+
+pub use compare::compare_worlds;
+pub use row::{Apart, WorldsRow};
+pub use simulation::Simulation;

@@ -1,0 +1,82 @@
+//! Whiskers that are carried along a way.
+
+use crate::geometry::{Point2, Pose, wrap};
+use crate::run::Trace;
+use crate::scene::Scene;
+use crate::trial::{ExecuteError, build_world};
+use vibrissa_runtime::signal::Command;
+
+use super::simulation::Simulation;
+
+/// How many times as heavy as a platform what carries the whiskers is: none of them pushes it aside.
+const HEAVY: f64 = 100.0;
+/// Time constant of its servos (s), a sixth of a tick at 30 Hz. Where the velocity changes by `Δv`, it ends the tick `Δv` times this from
+/// where it should be, 0.25 mm for 50 mm/s, which the next command puts right. It is so in every simulation.
+const SERVO: f64 = 5e-3;
+
+/// What a simulation makes of whiskers on the way.
+pub(super) struct Track {
+    /// Tick by tick, the whiskers in the rig's order; as many as the simulation goes along with.
+    pub(super) ticks: Vec<Vec<Instant>>,
+    /// Why it went no farther.
+    pub(super) fault: Option<String>,
+}
+
+/// One whisker in one tick.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant {
+    /// Where the tip is at the end of the tick (m, world frame).
+    pub(super) tip: Point2,
+    /// The moment of the spring at the base (N m) at the end of the tick.
+    pub(super) moment: f64,
+    /// The least of the base angle (rad) in the tick, by its size.
+    pub(super) least: f64,
+    /// How far apart (rad) the base angles of the tick are.
+    pub(super) range: f64,
+}
+
+impl Track {
+    /// Carries a simulation's whiskers from the scene's start to where the platform was at every tick of a run.
+    pub(super) fn along(way: &Trace, scene: &Scene, simulation: &Simulation) -> Result<Self, ExecuteError> {
+        let mut scene = simulation.scene(scene);
+        let rig = &mut scene.rig;
+        rig.platform.mass *= HEAVY;
+        rig.platform.inertia *= HEAVY;
+        rig.platform.servo = SERVO;
+        (rig.sensing.angle_noise, rig.sensing.angle_resolution) = (0.0, 0.0);
+        let mut world = build_world(&scene, simulation.world.into(), scene.seed)?;
+        let mut body = scene.start;
+        let (mut ticks, mut fault) = (Vec::with_capacity(way.ticks.len()), None);
+        for aim in way.ticks.iter().map(|tick| tick.body) {
+            let samples = match world.advance(&towards(&body, &aim, way.period)) {
+                Ok(samples) => samples.to_vec(),
+                Err(cause) => {
+                    fault = Some(cause.to_string());
+                    break;
+                }
+            };
+            body = samples.last().map_or(body, |sample| sample.body);
+            let whiskers = scene.rig.whiskers.iter().enumerate().map(|(index, whisker)| {
+                let angles = || samples.iter().map(|sample| sample.whiskers[index].base_angle);
+                let range = |(low, high): (f64, f64), angle: f64| (low.min(angle), high.max(angle));
+                let (low, high) = angles().fold((f64::INFINITY, f64::NEG_INFINITY), range);
+                Instant {
+                    tip: world.tip(index),
+                    moment: whisker.hinge.stiffness * angles().next_back().unwrap_or_default(),
+                    least: angles().map(f64::abs).fold(f64::INFINITY, f64::min),
+                    range: high - low,
+                }
+            });
+            ticks.push(whiskers.collect());
+        }
+        Ok(Self { ticks, fault })
+    }
+}
+
+/// The command that gets from one pose to another in a time (s).
+fn towards(from: &Pose, to: &Pose, period: f64) -> Command {
+    Command {
+        velocity_world: (to.position - from.position) / period,
+        yaw_rate: wrap(to.heading - from.heading) / period,
+    }
+}

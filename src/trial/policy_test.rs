@@ -1,0 +1,57 @@
+//! The verdict on a run that a policy's test asked for.
+
+use super::trial::TrialResult;
+use crate::diagnostic::Diagnostic;
+use crate::policy::{PolicyTest, RunFigure};
+use crate::run::Run;
+use crate::scene::{Metric, Outcome};
+use crate::score::Score;
+use vibrissa_runtime::machine::Program;
+
+/// The expectations of a `test` that do not hold for the `result` of `program`. Empty if the test passed.
+#[must_use]
+pub fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) -> Vec<Diagnostic> {
+    let figure = |wanted| figure(wanted, program, &result.run, &result.score);
+    test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
+}
+
+/// A figure of a run (SI, truths as 1 and 0); not a number if the run does not have it.
+fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64 {
+    let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
+    let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
+    match figure {
+        RunFigure::Completed => ended(Outcome::Completed),
+        RunFigure::Failed => ended(Outcome::Failed),
+        RunFigure::TimedOut => ended(Outcome::Timeout),
+        RunFigure::Diverged => ended(Outcome::Diverged),
+        RunFigure::Time => run.trace.ticks.last().map_or(0.0, |tick| tick.time),
+        RunFigure::ErrorMean => measured(Metric::ErrorMean),
+        RunFigure::ErrorP95 => measured(Metric::ErrorP95),
+        RunFigure::ErrorMax => measured(Metric::ErrorMax),
+        RunFigure::Outliers => measured(Metric::Outliers),
+        RunFigure::Hausdorff => measured(Metric::Hausdorff),
+        RunFigure::Coverage => measured(Metric::Coverage),
+        RunFigure::CornerPlaceMax => measured(Metric::CornerPlaceMax),
+        RunFigure::CornerTimeMax => measured(Metric::CornerTimeMax),
+        RunFigure::CornerPathMax => measured(Metric::CornerPathMax),
+        RunFigure::Collisions => measured(Metric::Collisions),
+        RunFigure::Visits(state) => {
+            let mut was_active = false;
+            let entered = run.trace.ticks.iter().filter(|tick| {
+                let active = is_active(program, state, tick.state);
+                let before = std::mem::replace(&mut was_active, active);
+                active && !before
+            });
+            entered.count() as f64
+        }
+        RunFigure::TimeIn(state) => {
+            let ticks = run.trace.ticks.iter().filter(|tick| is_active(program, state, tick.state));
+            ticks.count() as f64 * run.trace.period
+        }
+    }
+}
+
+/// Whether a state is active when the innermost active one is `innermost`: the same, or one around it.
+fn is_active(program: &Program, state: usize, innermost: Option<usize>) -> bool {
+    innermost.is_some_and(|innermost| program.contains(state, innermost))
+}

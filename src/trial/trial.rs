@@ -1,0 +1,183 @@
+//! A trial and its result.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::rig::Rig;
+
+use super::worlds::{ExecuteError, build_world, engine_hash};
+use crate::results::{Hashes, Identity, RunResult};
+use crate::run::{Run, Trace, drive};
+use crate::scene::{Scene, Violation, WorldSetup};
+use crate::score::Score;
+use crate::world::World;
+
+/// A policy in a scene and a world: everything that a run depends on.
+///
+/// ```
+/// use std::sync::Arc;
+/// use vibrissa::diagnostic::Source;
+/// use vibrissa::scene::WorldKind;
+/// use vibrissa::{built_in, policy, scenario, trial::Trial};
+/// let disk = built_in::SCENARIOS[0];
+/// let scene = scenario::read(&Source::new(disk.path, disk.text)).unwrap();
+/// let text = "machine Ahead\ninitial state Go { action { velocity = (50 mm/s, 0 m/s) } }\n";
+/// # let text = include_str!("../../policies/bang.fsm");
+/// let program = policy::compile(&Source::new("ahead.fsm", text)).unwrap();
+/// let mut trial = Trial::new(scene, Arc::new(program));
+/// trial.world = WorldKind::QuasiStatic.into();
+/// let result = trial.run().unwrap();
+/// assert!(result.run.trace.ticks.len() > 100);
+/// ```
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The scene. Its rig is the one that is simulated.
+    pub scene: Scene,
+    /// The rig that control assumes: that of the scene, unless a model error is studied.
+    pub assumed_rig: Rig,
+    /// The compiled policy.
+    pub program: Arc<Program>,
+    /// The world.
+    pub world: WorldSetup,
+    /// Seed of the sensor noise.
+    pub seed: u64,
+    /// The files that the trial was made from.
+    pub inputs: Inputs,
+}
+
+/// The files that a trial was made from. Empty for a trial that was made in memory.
+#[derive(Debug, Clone, Default)]
+pub struct Inputs {
+    /// Path of the scenario, for messages.
+    pub scenario: PathBuf,
+    /// Hash of the scenario and its files.
+    pub scenario_hash: String,
+    /// Hash of the policy, its libraries and its parameters.
+    pub policy_hash: String,
+    /// Wall time of reading and compiling.
+    pub preparation: Duration,
+}
+
+/// The result of a trial.
+#[derive(Debug, Clone)]
+pub struct TrialResult {
+    /// The run.
+    pub run: Run,
+    /// Its score against the exact geometry.
+    pub score: Score,
+    /// The expectations of the scene that do not hold.
+    pub violations: Vec<Violation>,
+}
+
+impl Trial {
+    /// A policy in a scene, in the world and with the seed of the scene.
+    #[must_use]
+    pub fn new(scene: Scene, program: Arc<Program>) -> Self {
+        Self {
+            assumed_rig: scene.rig.clone(),
+            world: scene.world.unwrap_or_default().into(),
+            seed: scene.seed,
+            inputs: Inputs::default(),
+            scene,
+            program,
+        }
+    }
+
+    /// Runs and scores the trial.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the run cannot begin. The run itself tells how it ended.
+    pub fn run(&self) -> Result<TrialResult, ExecuteError> {
+        self.run_with(|_| ControlFlow::Continue(()))
+    }
+
+    /// Runs and scores the trial. `progress` receives the trace after every tick, and may stop the run.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the run cannot begin, or if `progress` stopped it.
+    pub fn run_with(&self, progress: impl FnMut(&Trace) -> ControlFlow<()>) -> Result<TrialResult, ExecuteError> {
+        let before = Instant::now();
+        let world = std::thread::scope(|scope| {
+            let prepare = || Perception::prepare(&self.assumed_rig, &self.program.tip_models);
+            // If the system starts no thread, perception is prepared when it is built.
+            let _ = std::thread::Builder::new().spawn_scoped(scope, prepare);
+            self.world()
+        });
+        let control = self.control()?;
+        let mut world = world?;
+        let built = before.elapsed();
+        let mut run = self.drive(control, world.as_mut(), progress)?;
+        run.start += built + self.inputs.preparation;
+        Ok(self.scored(run))
+    }
+
+    /// Runs and scores the trial in a `world` of the caller.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the rig does not have what the policy needs.
+    pub fn run_in(&self, world: &mut dyn World) -> Result<TrialResult, ExecuteError> {
+        let run = self.drive(self.control()?, world, |_| ControlFlow::Continue(()))?;
+        Ok(self.scored(run))
+    }
+
+    /// Builds the world of the trial.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the world refuses the scene.
+    pub fn world(&self) -> Result<Box<dyn World>, ExecuteError> {
+        build_world(&self.scene, self.world, self.seed)
+    }
+
+    fn control(&self) -> Result<Control, ExecuteError> {
+        Ok(Control::new(&self.assumed_rig, Arc::clone(&self.program))?)
+    }
+
+    fn drive(
+        &self,
+        control: Control,
+        world: &mut dyn World,
+        progress: impl FnMut(&Trace) -> ControlFlow<()>,
+    ) -> Result<Run, ExecuteError> {
+        let period = self.scene.rig.sensing.control_rate.recip();
+        drive(world, control, &self.scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
+    }
+
+    fn scored(&self, run: Run) -> TrialResult {
+        let score = Score::new(&run, &self.scene.truth, &self.scene.rig);
+        let expectations = self.scene.expect.iter();
+        let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
+        TrialResult { violations: violations.collect(), run, score }
+    }
+
+    /// The result as a JSON document.
+    #[must_use]
+    pub fn document(&self, result: &TrialResult) -> RunResult {
+        RunResult::new(self.identity(), &result.run, &result.score)
+    }
+
+    /// The names and hashes that identify the trial.
+    fn identity(&self) -> Identity {
+        Identity {
+            scenario: self.scene.name.clone(),
+            policy: self.program.name.clone(),
+            world: self.world.kind.to_string(),
+            seed: self.seed,
+            hash: Hashes {
+                scenario: self.inputs.scenario_hash.clone(),
+                policy: self.inputs.policy_hash.clone(),
+                engine: short_hash(&engine_hash(&self.scene, self.world)),
+            },
+        }
+    }
+}
+
+/// The first sixteen hexadecimal digits of a hash: enough to tell files apart.
+#[must_use]
+pub fn short_hash(hash: &[u8]) -> String {
+    hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}

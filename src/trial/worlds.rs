@@ -1,0 +1,100 @@
+//! The worlds that this build has, and the versions of their simulators.
+
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::control::BindError;
+
+#[cfg(feature = "sim")]
+use crate::mujoco::MujocoWorld;
+use crate::mujoco::mjcf;
+use crate::quasi_static::{QuasiStaticError, QuasiStaticWorld};
+use crate::scene::{Scene, WorldKind, WorldSetup};
+use crate::world::World;
+
+/// Why a run could not begin.
+#[derive(Debug, thiserror::Error)]
+pub enum ExecuteError {
+    /// The scenario's rig does not have what the policy needs.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// It was broken off.
+    #[error("the run was broken off")]
+    Interrupted,
+    /// The world could not be built.
+    #[cfg(feature = "sim")]
+    #[error(transparent)]
+    Mujoco(#[from] crate::mujoco::MujocoError),
+    /// The quasi-static world could not be built.
+    #[error(transparent)]
+    QuasiStatic(#[from] QuasiStaticError),
+    /// The program was built without the world.
+    #[error("this build has no world `{0}`; build it with the feature `sim`, or run in the world `quasistatic`")]
+    NoWorld(WorldKind),
+}
+
+/// Builds a world of a scene. `seed` fixes the sensor noise.
+///
+/// # Errors
+/// [`ExecuteError`] if the world refuses the scene.
+pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+    let Scene { rig, physics, solids, start, .. } = scene;
+    match world.kind {
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => {
+            let build = if world.prune { MujocoWorld::pruned } else { MujocoWorld::new };
+            Ok(Box::new(build(rig, physics, solids, *start, seed)?))
+        }
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(world.kind)),
+        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, physics, solids, *start, seed)?)),
+    }
+}
+
+/// Checks that the world can be had.
+///
+/// # Errors
+/// [`ExecuteError`] when this build has it not, or when its simulator's library cannot be loaded.
+pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
+    match kind {
+        #[cfg(feature = "sim")]
+        WorldKind::Mujoco => {
+            crate::mujoco::engine_version().map(|_| ()).map_err(|cause| ExecuteError::Mujoco(cause.into()))
+        }
+        #[cfg(not(feature = "sim"))]
+        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
+        WorldKind::QuasiStatic => Ok(()),
+    }
+}
+
+/// The versions of this program and of its simulator.
+#[must_use]
+pub fn engine_version() -> String {
+    format!("{} with {}", env!("CARGO_PKG_VERSION"), simulator())
+}
+
+/// The version of MuJoCo, if this build has it and its library can be loaded.
+fn simulator() -> &'static str {
+    #[cfg(feature = "sim")]
+    return crate::mujoco::engine_version().unwrap_or("none");
+    #[cfg(not(feature = "sim"))]
+    return "none";
+}
+
+/// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
+/// the model that it is given, and whether that is pruned.
+#[must_use]
+pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
+    let engine = match world.kind {
+        WorldKind::Mujoco => simulator(),
+        WorldKind::QuasiStatic => world.kind.name(),
+    };
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update([0]);
+    hash.update(engine);
+    hash.update([0]);
+    // It has all of the rig but its longest step, the solids and the start, whichever world they are for.
+    hash.update(mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start));
+    hash.update([u8::from(world.prune)]);
+    hash.update(scene.physics.calm_step.to_le_bytes());
+    hash.finalize().into()
+}
