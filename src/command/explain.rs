@@ -12,6 +12,7 @@ use super::output;
 use crate::file::CommandFiles;
 use crate::load;
 use crate::mujoco::Pruning;
+use crate::results::Document;
 
 const EXAMPLE: &str = "Example:\n  vibrissa explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
 
@@ -30,6 +31,10 @@ pub(super) struct ExplainArguments {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
+}
+
+impl Document for Pruning {
+    const FORMAT: &'static str = "pruning";
 }
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {

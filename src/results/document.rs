@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use crate::mujoco::Pruning;
-
 /// What a command writes as JSON: an object that names its format and the version of that.
 ///
 /// A version is raised when a key goes, gets another name or another meaning. A key that is added does not raise it. `docs/json.md` has the
@@ -28,8 +26,4 @@ pub struct Versioned<'d, D: ?Sized> {
     version: u32,
     #[serde(flatten)]
     document: &'d D,
-}
-
-impl Document for Pruning {
-    const FORMAT: &'static str = "pruning";
 }

@@ -17,6 +17,7 @@ Commands:
             --wheel FILE   take them from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
+  imports check that modules import only what ARCHITECTURE.md allows
   prose   measure the sentences and terms of the documentation
   links   follow the links between the pages of the documentation
   book    build the documentation as a book in target/book
@@ -32,6 +33,7 @@ pub(crate) enum Command {
     Setup(Options),
     Demo,
     Test,
+    Imports,
     Prose,
     Links,
     Book,
@@ -62,6 +64,7 @@ impl Command {
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
             "test" => Self::Test,
+            "imports" => Self::Imports,
             "prose" => Self::Prose,
             "links" => Self::Links,
             "book" => Self::Book,

@@ -9,8 +9,10 @@ use thiserror::Error;
 use crate::book::{self, BookError};
 use crate::cargo::{NotStarted, cargo};
 use crate::checkout::Checkout;
+use crate::imports::{self, ImportsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
+use crate::runtime::{self, RuntimeError};
 use crate::setup::{self, Options, SetupError};
 
 /// One thing that must hold.
@@ -23,6 +25,8 @@ enum Work {
     Cargo(CargoRun),
     CoreIsFreeOfMujoco,
     Setup,
+    Imports,
+    Runtime,
     Prose,
     Links,
     Book,
@@ -48,6 +52,10 @@ pub(crate) enum CheckError {
     #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
     LeftBehind(String),
     #[error(transparent)]
+    Imports(#[from] ImportsError),
+    #[error(transparent)]
+    Runtime(#[from] RuntimeError),
+    #[error(transparent)]
     Prose(#[from] ProseError),
     #[error(transparent)]
     Links(#[from] LinkError),
@@ -70,10 +78,12 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 13] = [
+const CHECKS: [Check; 15] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
+    Check { title: "order of the modules", work: Work::Imports },
+    Check { title: "dependencies and targets of the runtime", work: Work::Runtime },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
     check_in(
         // mujoco-rs's build script would stop at a directory that does not exist.
@@ -137,6 +147,8 @@ impl Check {
             Work::Cargo(run) => run.succeed(self.title, root),
             Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
+            Work::Imports => Ok(imports::check(root)?),
+            Work::Runtime => Ok(runtime::check(root)?),
             Work::Prose => Ok(prose::check(root)?),
             Work::Links => Ok(links::check(root)?),
             Work::Book => the_book_is_built(root),

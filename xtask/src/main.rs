@@ -11,9 +11,11 @@ mod checks;
 mod demo;
 mod fuzz;
 mod hash;
+mod imports;
 mod links;
 mod platform;
 mod prose;
+mod runtime;
 mod setup;
 mod sign_of_life;
 mod stamp;
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
         Command::Prose => status(prose::check(&root)),
+        Command::Imports => status(imports::check(&root)),
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),

@@ -63,3 +63,44 @@ const fn tunnelled(scenario: &'static str, error: (f64, f64), axis: (f64, f64)) 
 const fn reported((mean, std): (f64, f64)) -> Reported {
     Reported { mean, std: Some(std) }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use std::path::Path;
+
+    use super::*;
+    use crate::built_in::{POLICIES, SCENARIOS, TextFile};
+    use crate::diagnostic::Source;
+    use crate::policy::{compile, gather};
+    use crate::scenario;
+
+    #[test]
+    fn the_bench_has_every_scenario_of_the_folder_and_each_is_called_like_its_file() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+        let files = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
+        let files = files.filter(|path| path.extension().is_some_and(|end| end == "yaml"));
+        let mut there: Vec<_> = files.map(|path| path.file_name().unwrap().to_owned()).collect();
+        there.sort();
+        let mut known: Vec<_> =
+            SCENARIOS.iter().map(|file| Path::new(file.path).file_name().unwrap().to_owned()).collect();
+        known.sort();
+        assert_eq!(known, there, "list it in SCENARIOS");
+        for file in SCENARIOS {
+            let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
+            assert_eq!(format!("scenarios/{}.yaml", scene.name), file.path);
+            assert!(thesis_figures(&scene.name).is_some(), "{} is no scene of the thesis", scene.name);
+        }
+        let order: Vec<_> = THESIS.iter().map(|figures| format!("scenarios/{}.yaml", figures.scenario)).collect();
+        let place = |file: &TextFile| order.iter().position(|path| path == file.path);
+        assert!(SCENARIOS.iter().map(place).is_sorted());
+    }
+
+    #[test]
+    fn the_policies_need_nothing_but_the_program() {
+        for file in POLICIES {
+            let source = gather(&Source::new(file.path, file.text), &mut |path| Err(format!("{path} is not built in")));
+            compile(&source).unwrap();
+        }
+    }
+}
