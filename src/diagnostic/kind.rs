@@ -1,32 +1,32 @@
-//! The fault itself.
+//! The diagnostic.
 
 use super::Span;
 use serde::Serialize;
 
-/// The most faults that are told of one source: nobody reads more, and a text can hold a hundred thousand.
+/// The maximum number of diagnostics per source. A text can have a hundred thousand, and nobody reads more than a few.
 pub const FAULT_LIMIT: usize = 50;
 
-/// How bad it is.
+/// The severity of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The input cannot be used.
     Error,
-    /// The input can be used, and is probably not what was meant.
+    /// The input can be used, but is probably a mistake.
     Warning,
 }
 
-/// A note at a place.
+/// A note at a position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Label {
-    /// The place.
+    /// The position.
     pub span: Span,
     /// The note; may be empty.
     pub text: String,
 }
 
-/// One fault in a source: what, where, and what to do about it.
+/// One fault in a source: message, position and advice.
 ///
 /// ```
 /// use vibrissa::diagnostic::{Colour, Diagnostic, Source, Span, terminal};
@@ -37,28 +37,28 @@ pub struct Label {
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
     /// A stable code: `S0xxx` for scenarios, `P0xxx` for policies.
     pub code: &'static str,
-    /// What is wrong, in one line.
+    /// The message, in one line.
     pub message: String,
-    /// Where it is wrong.
+    /// The position of the fault.
     pub primary: Label,
-    /// Other places that have to do with it.
+    /// Related positions.
     pub secondary: Vec<Label>,
-    /// What to do.
+    /// Advice.
     pub hints: Vec<String>,
 }
 
 impl Diagnostic {
-    /// An error at a place.
+    /// An error at a position.
     #[must_use]
     pub fn error(code: &'static str, message: impl Into<String>, span: Span, label: impl Into<String>) -> Self {
         Self::new(Severity::Error, code, message.into(), Label { span, text: label.into() })
     }
 
-    /// A warning at a place.
+    /// A warning at a position.
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>, span: Span, label: impl Into<String>) -> Self {
         Self::new(Severity::Warning, code, message.into(), Label { span, text: label.into() })
@@ -68,21 +68,21 @@ impl Diagnostic {
         Self { severity, code, message, primary, secondary: Vec::new(), hints: Vec::new() }
     }
 
-    /// The same with one more place that has to do with it.
+    /// Adds a related position with a note.
     #[must_use]
     pub fn note(mut self, span: Span, text: impl Into<String>) -> Self {
         self.secondary.push(Label { span, text: text.into() });
         self
     }
 
-    /// The same with one more piece of advice.
+    /// Adds a piece of advice.
     #[must_use]
     pub fn hint(mut self, text: impl Into<String>) -> Self {
         self.hints.push(text.into());
         self
     }
 
-    /// The same with all places `by` bytes farther on.
+    /// Moves all positions by `by` bytes.
     #[must_use]
     pub fn moved(mut self, by: usize) -> Self {
         for Label { span, .. } in std::iter::once(&mut self.primary).chain(&mut self.secondary) {

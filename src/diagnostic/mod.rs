@@ -1,4 +1,4 @@
-//! Faults in what the user wrote: one type with its place, and its renderings.
+//! Errors and warnings in texts that the user wrote: one type with its position, and its renderings.
 
 mod kind;
 mod printable;

@@ -1,10 +1,12 @@
-//! Text as a terminal may be given it.
+//! Text that is safe to print to a terminal.
 
 use std::borrow::Cow;
 
-/// The text with every letter that a terminal would obey, and not show, written as its number: `\u{1b}`. That is so of control characters
-/// but for line ends and tabs, and of those that change the direction of what follows, or part lines. Names of files and what messages
-/// quote come from others, who could otherwise recolour, hide or reorder what a terminal shows.
+/// The text, with every character that a terminal would interpret replaced by its code: `\u{1b}`.
+///
+/// These are control characters other than line ends and tabs, characters that change the text direction, and line
+/// separators. File names and quoted texts may come from other people. They could otherwise recolour, hide or reorder
+/// the output of a terminal.
 ///
 /// ```
 /// use vibrissa::diagnostic::printable;
@@ -15,14 +17,14 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| letter.escape_unicode().to_string())
 }
 
-/// The same of JSON, whose texts have escapes of their own; it stays what it was for whoever reads it.
+/// Same as [`printable`], for JSON. It uses JSON's own escapes, so a reader of the JSON gets the original text.
 #[must_use]
 pub fn printable_json(json: &str) -> Cow<'_, str> {
     // All of these are below 2^16.
     replaced(json, |letter| format!("\\u{:04x}", u32::from(letter)))
 }
 
-/// The same of a text in which places count: every letter that is not shown has another in its place that has as many bytes.
+/// Same as [`printable`], without a change of byte positions. Each replaced character becomes one with as many bytes.
 pub(super) fn same_length(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| {
         let stand_in = match letter.len_utf8() {
@@ -51,7 +53,7 @@ fn replaced(text: &str, stand_in: impl Fn(char) -> String) -> Cow<'_, str> {
     Cow::Owned(made)
 }
 
-/// Whether a terminal obeys a letter instead of showing it.
+/// True if a terminal interprets a character instead of showing it.
 fn is_obeyed(letter: char) -> bool {
     let is_direction =
         matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -64,7 +66,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Letters of which many are obeyed.
+    /// Texts in which many characters are control characters.
     fn texts() -> impl Strategy<Value = String> {
         let letter = prop_oneof![
             any::<char>(),

@@ -1,32 +1,32 @@
-//! Diagnostics for programs.
+//! Diagnostics for other programs.
 
 use super::{Diagnostic, Label, Position, Severity, Source};
 use serde::Serialize;
 
-/// A diagnostic with its places as lines and columns, to be serialised.
+/// A diagnostic with its positions as lines and columns, for serialisation.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Record {
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
     /// The stable code.
     pub code: &'static str,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// Where it is wrong.
+    /// The position of the fault.
     #[serde(flatten)]
     pub primary: RecordLabel,
-    /// Other places that have to do with it.
+    /// Related positions.
     pub secondary: Vec<RecordLabel>,
-    /// What to do.
+    /// Advice.
     pub hints: Vec<String>,
 }
 
-/// A note at a place, in lines and columns from 1; columns count characters.
+/// A note at a position. Lines and columns count from 1, and columns count characters.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RecordLabel {
-    /// The name of the source, or of the part of it.
+    /// The name of the source, or of its part.
     pub file: String,
     /// The note.
     pub label: String,
@@ -34,9 +34,9 @@ pub struct RecordLabel {
     pub line: usize,
     /// Column of the first character.
     pub column: usize,
-    /// Line of the place behind the last character.
+    /// Line of the position after the last character.
     pub end_line: usize,
-    /// Column of the place behind the last character.
+    /// Column of the position after the last character.
     pub end_column: usize,
 }
 

@@ -1,20 +1,20 @@
-//! A text with a name, and places in it.
+//! A named text, and positions in it.
 
 use std::ops::Range;
 
 use super::Position;
 
-/// A stretch of a [`Source`], in bytes.
+/// A range of bytes in a [`Source`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Span {
     /// The first byte.
     pub start: usize,
-    /// The byte behind the last.
+    /// The byte after the last.
     pub end: usize,
 }
 
 impl Span {
-    /// The span from `start` up to, not including, `end`.
+    /// The span from `start` to `end`, without `end`.
     #[must_use]
     pub const fn new(start: usize, end: usize) -> Self {
         Self { start, end }
@@ -33,17 +33,19 @@ impl From<Range<usize>> for Span {
     }
 }
 
-/// A text with the name that messages show: a file's path, usually. Files that it uses may be parts of it: their texts
-/// follow the first, each behind a line end, and places in them are told by their own names and lines.
+/// A text with the name that messages show, usually the path of a file.
+///
+/// The files that it uses may be its further parts. Their texts follow the first one, each after a line end. Positions
+/// in them are shown with their own names and lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
     /// The name of the first part.
     pub name: String,
-    /// The text of all parts. Another text is another source: its lines are counted when it is made.
+    /// The text of all parts. It must not change, because the lines are counted when the source is created.
     pub text: String,
     /// The first byte of each line.
     line_starts: Vec<usize>,
-    /// The parts behind the first.
+    /// The parts after the first.
     parts: Vec<Part>,
 }
 
@@ -52,12 +54,12 @@ pub struct Source {
 struct Part {
     name: String,
     start: usize,
-    /// Why there is no text, if there is none.
+    /// The reason for which there is no text, if there is none.
     absence: Option<String>,
 }
 
 impl Source {
-    /// A text under a name.
+    /// A text with a name.
     #[must_use]
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
@@ -65,7 +67,7 @@ impl Source {
         Self { name: name.into(), text, line_starts, parts: Vec::new() }
     }
 
-    /// Adds a part. Instead of a text it may have the reason why there is none.
+    /// Adds a part: its text, or the reason for which there is none.
     pub fn add(&mut self, name: impl Into<String>, text: Result<&str, String>) {
         self.text.push('\n');
         let start = self.text.len();
@@ -76,7 +78,7 @@ impl Source {
         self.parts.push(Part { name: name.into(), start, absence });
     }
 
-    /// How many parts there are, the first included.
+    /// Number of parts, including the first.
     #[must_use]
     pub fn count(&self) -> usize {
         1 + self.parts.len()
@@ -91,13 +93,13 @@ impl Source {
         }
     }
 
-    /// Why a part has no text, if it has none.
+    /// The reason for which a part has no text, if it has none.
     #[must_use]
     pub fn absence(&self, part: usize) -> Option<&str> {
         self.parts.get(part.checked_sub(1)?)?.absence.as_deref()
     }
 
-    /// Where the text of a part lies; at the end of all, if there is no part with this index.
+    /// Span of the text of a part. If there is no such part, the span is empty and at the end of all texts.
     #[must_use]
     pub fn part_span(&self, part: usize) -> Span {
         let start = |part: usize| part.checked_sub(1).map_or(Some(0), |index| Some(self.parts.get(index)?.start));
@@ -110,7 +112,7 @@ impl Source {
         self.parts.partition_point(|part| part.start <= byte)
     }
 
-    /// Line and column of a byte in its part; of the end of the text, if the byte lies beyond it.
+    /// Line and column of a byte in its part. Beyond the end of the text, those of the end.
     #[must_use]
     pub fn line_column(&self, byte: usize) -> Position {
         let byte = self.text.floor_char_boundary(byte);
@@ -124,13 +126,13 @@ impl Source {
         }
     }
 
-    /// The text of a span; the part within the text, if it reaches beyond.
+    /// The text of a span. If the span exceeds the text, only the part within the text.
     #[must_use]
     pub fn slice(&self, span: Span) -> &str {
         &self.text[self.clamp(span)]
     }
 
-    /// The span cut to the text, to the part that it begins in, and to whole characters.
+    /// The span, limited to the text, to the part in which it begins, and to whole characters.
     pub(super) fn clamp(&self, span: Span) -> Range<usize> {
         let start = self.text.floor_char_boundary(span.start);
         let end = span.end.min(self.part_span(self.part_at(start)).end);
@@ -138,7 +140,7 @@ impl Source {
     }
 }
 
-/// Where lines of a text end: the bytes behind their line ends.
+/// The bytes after the line ends of a text.
 fn ends(text: &str) -> impl Iterator<Item = usize> {
     text.match_indices('\n').map(|(newline, _)| newline + 1)
 }

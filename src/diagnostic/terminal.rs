@@ -1,21 +1,23 @@
-//! Diagnostics for a person at a terminal.
+//! Diagnostics for a terminal.
 
 use super::printable::same_length;
 use super::{Diagnostic, Label, Severity, Source, printable};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-/// Whether a rendering carries terminal colours.
+/// The choice between plain text and terminal colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Colour {
-    /// Text alone.
+    /// Plain text.
     #[default]
     Plain,
     /// ANSI escape sequences.
     Ansi,
 }
 
-/// Renders diagnostics one below the other: the message, the place with its line and label, the hints. Ends with a
-/// newline unless there are none. Whatever a terminal would obey is shown by its number, or in the text by another letter.
+/// Renders diagnostics, each with its message, its position, the line with its label, and the advice. The text ends
+/// with a newline unless there are no diagnostics.
+///
+/// Control characters are replaced: by their codes in messages, and by other characters in lines of the source.
 #[must_use]
 pub fn terminal(source: &Source, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let renderer = match colour {
@@ -34,7 +36,7 @@ fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> Stri
     let mut labels = vec![(AnnotationKind::Primary, &diagnostic.primary)];
     labels.extend(diagnostic.secondary.iter().map(|label| (AnnotationKind::Context, label)));
     let part = |label: &Label| source.part_at(source.clamp(label.span).start);
-    // The part with the fault comes first, then others that have to do with it.
+    // The part with the fault comes first, then the parts with related positions.
     let mut parts: Vec<usize> = Vec::new();
     for part in labels.iter().map(|(_, label)| part(label)) {
         if !parts.contains(&part) {

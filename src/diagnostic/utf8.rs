@@ -1,26 +1,26 @@
-//! Bytes that should be a text.
+//! Texts from bytes.
 
 use super::{Position, Source};
 
-/// Why bytes are no text.
+/// The error for bytes that are not UTF-8.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("it is not UTF-8 text: in line {}, column {} the byte 0x{byte:02X} begins no letter", place.line, place.column)]
 pub struct NotUtf8 {
-    /// Where the first byte stands that is at fault.
+    /// Position of the first invalid byte.
     pub place: Position,
     /// That byte.
     pub byte: u8,
 }
 
 impl NotUtf8 {
-    /// What to do about it.
+    /// Advice for the user.
     pub const ADVICE: &str = "save it as UTF-8, or is it the wrong file?";
 }
 
-/// The text that bytes are in UTF-8.
+/// Decodes bytes as UTF-8.
 ///
 /// # Errors
-/// [`NotUtf8`] with the place of the first byte that is at fault.
+/// [`NotUtf8`] with the position of the first invalid byte.
 pub fn utf8(bytes: &[u8]) -> Result<&str, NotUtf8> {
     std::str::from_utf8(bytes).map_err(|fault| {
         let good = fault.valid_up_to();
@@ -38,7 +38,7 @@ mod tests {
     fn the_place_of_a_byte_that_is_at_fault_is_told_in_lines_and_letters() {
         let fault = utf8(b"one\n\xc3\xbcber \xb5m\n").map_err(|fault| (fault.place, fault.byte));
         assert_eq!(fault, Err((Position { line: 2, column: 6 }, 0xb5)));
-        // A letter that is cut off.
+        // A truncated character.
         let fault = utf8(b"\xc3").map_err(|fault| (fault.place, fault.byte));
         assert_eq!(fault, Err((Position { line: 1, column: 1 }, 0xc3)));
         assert_eq!(utf8("\u{fc}".as_bytes()), Ok("\u{fc}"));

@@ -1,4 +1,4 @@
-//! Which request is answered by what.
+//! Dispatch of requests.
 
 use gen_lsp_types::json_rpc::{Error, Id, ResponseObject};
 use gen_lsp_types::{

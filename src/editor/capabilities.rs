@@ -1,4 +1,4 @@
-//! What client and server can do.
+//! Capabilities of client and server.
 
 use gen_lsp_types::{
     CodeActionKind, CodeActionOptions, CompletionOptions, InitializeResult, PositionEncodingKind, RenameOptions,
@@ -8,18 +8,18 @@ use serde_json::Value;
 
 use super::position::Encoding;
 
-/// What matters of what the client can do.
+/// The capabilities of the client that matter here.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Client {
     pub(super) encoding: Encoding,
-    /// It fills in the fields of what it inserts.
+    /// The client supports snippets with placeholders.
     pub(super) snippets: bool,
-    /// It shows other places with a diagnostic.
+    /// The client shows related positions of a diagnostic.
     pub(super) related: bool,
 }
 
 impl Client {
-    /// Reads the parameters of `initialize`. Whatever they do not say, the client cannot.
+    /// Reads the parameters of `initialize`. Missing capabilities are taken as unsupported.
     pub(super) fn new(parameters: &Value) -> Self {
         let can = |path: &str| parameters.pointer(&format!("/capabilities/{path}")).cloned().unwrap_or_default();
         let encodings: Vec<PositionEncodingKind> =
@@ -32,7 +32,7 @@ impl Client {
     }
 }
 
-/// What the server can do.
+/// The capabilities of the server.
 pub(super) fn initialized(client: Client) -> InitializeResult {
     let capabilities = ServerCapabilities {
         position_encoding: Some(client.encoding.kind()),

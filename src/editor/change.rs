@@ -1,4 +1,4 @@
-//! Changes to a policy that an editor can ask for: another name, the layout, a quick fix.
+//! Requests for changes of a policy: renaming, formatting, quick fixes.
 
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -29,7 +29,7 @@ impl Server<'_> {
         let (document, at) = self.place(place)?;
         let known = self.known(document);
         let asked_in = known.first().map_or(&document.index, |document| &document.index);
-        // What cannot be renamed says why where it stands, before other files are asked.
+        // A refusal has its reason in the file of the request, so this file is asked before the others.
         asked_in.rename(at, &asked.new_name).map_err(|refusal| refused(&refusal))?;
         let Some(origin) = asked_in.origin(at) else { return Ok(None) };
         let mut changes = HashMap::new();
@@ -44,7 +44,7 @@ impl Server<'_> {
         Ok(Some(WorkspaceEdit { changes: Some(changes), ..Default::default() }))
     }
 
-    /// The layout. A text that cannot be read stays as it is; its faults are told already.
+    /// Formats the text. A text with syntax errors is not changed, and its diagnostics are already published.
     pub(super) fn format(&self, asked: &DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>, Error> {
         let document = self.document(&asked.text_document.uri)?;
         let Ok(formatted) = format(&document.source) else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! What can be written at a place.
+//! Completion.
 
 use gen_lsp_types::json_rpc::Error;
 use gen_lsp_types::{
@@ -35,7 +35,7 @@ fn item(candidate: Candidate, range: Range, snippets: bool) -> CompletionItem {
     }
 }
 
-/// The protocol's nearest kind.
+/// The nearest kind of the protocol.
 fn kind(kind: CandidateKind) -> CompletionItemKind {
     match kind {
         CandidateKind::Word => CompletionItemKind::Keyword,

@@ -1,4 +1,4 @@
-//! Faults and warnings of a policy, for the editor.
+//! Diagnostics of a policy for the editor.
 
 use std::fmt::Write;
 
@@ -11,17 +11,18 @@ use crate::diagnostic::{self, Severity};
 use super::capabilities::Client;
 use super::document::Document;
 
-/// Warnings of what nothing uses, which editors show faded.
+/// Warnings about unused names, which editors show faded.
 const UNUSED: [&str; 4] = ["P0504", "P0505", "P0506", "P0507"];
 
-/// All that is wrong with a document.
+/// All diagnostics of a document.
 pub(super) fn diagnostics(uri: &Uri, document: &Document, client: Client) -> PublishDiagnosticsParams {
     let faults = document.faults.iter().filter_map(|fault| diagnostic(document, fault, client));
     PublishDiagnosticsParams { uri: uri.clone(), version: Some(document.version), diagnostics: faults.collect() }
 }
 
-/// One fault. What a terminal shows below the message stands in it, a line each. A fault of another file is told where the document
-/// uses that; none, if it does so no more.
+/// One diagnostic. Its message contains everything that a terminal shows, one line each.
+///
+/// A fault in another file is shown at the `use` of that file. Returns `None` if the document no longer uses the file.
 pub(super) fn diagnostic(document: &Document, fault: &diagnostic::Diagnostic, client: Client) -> Option<Diagnostic> {
     let source = document.index.source();
     let part = source.part_at(fault.primary.span.start);

@@ -9,18 +9,18 @@ use crate::policy::{Checked, Library, check};
 use super::position::{Encoding, Lines};
 use super::uri;
 
-/// A text and all that is known of it.
+/// A text with the results of its analysis.
 #[derive(Debug)]
 pub(super) struct Document {
     pub(super) uri: Uri,
-    /// The text alone.
+    /// The text without the files that it uses.
     pub(super) source: Source,
-    /// The editor's number of the text.
+    /// The editor's version number of the text.
     pub(super) version: i32,
     pub(super) index: Index,
-    /// Its faults and those of the files that it uses, or what it is warned of. Places are those of the index's source.
+    /// The errors of the text and its used files, or else the warnings. Positions refer to the source of the index.
     pub(super) faults: Vec<Diagnostic>,
-    /// Whether the text has changed since it was looked at.
+    /// True if the text has changed since its last analysis.
     is_stale: bool,
     lines: Lines,
     encoding: Encoding,
@@ -35,7 +35,7 @@ impl Document {
         Self { uri, source, version, index, faults, is_stale: false, lines, encoding }
     }
 
-    /// Looks at the text anew, and at the files that it uses.
+    /// Analyses the text and the files that it uses.
     pub(super) fn look(&mut self, library: &mut Library<'_>) {
         let whole = gather(&self.source, library);
         self.lines = Lines::new(&self.source.text);
@@ -44,18 +44,18 @@ impl Document {
         self.is_stale = false;
     }
 
-    /// Whether it has to be looked at before something is said of it.
+    /// True if the text must be analysed before requests are answered.
     pub(super) fn is_stale(&self) -> bool {
         self.is_stale
     }
 
-    /// Whether it uses the file at a path, or would if that were there.
+    /// True if the document uses the file at a path. The file need not exist.
     pub(super) fn uses(&self, path: &str) -> bool {
         let source = self.index.source();
         (1..source.count()).any(|part| source.part_name(part) == path)
     }
 
-    /// Carries out changes one after the other. What is known of the text is that of the old one until it is looked at.
+    /// Applies changes one after the other. The index stays that of the old text until the next analysis.
     pub(super) fn change(&mut self, version: i32, changes: Vec<TextDocumentContentChangeEvent>) {
         let mut text = std::mem::take(&mut self.source.text);
         for change in changes {
@@ -80,12 +80,12 @@ impl Document {
         self.lines.span(&self.source.text, range, self.encoding)
     }
 
-    /// The range of a place in the text itself.
+    /// The range of a span in the document's own text.
     pub(super) fn range(&self, span: Span) -> lsp::Range {
         self.lines.range(&self.source.text, span, self.encoding)
     }
 
-    /// The location of a place in the text or in a file that it uses; `None` in the standard library, which is no file.
+    /// The location of a span in the text or in a used file. `None` in the standard library, which is not a file.
     pub(super) fn location(&self, span: Span) -> Option<Location> {
         let source = self.index.source();
         let part = source.part_at(span.start);

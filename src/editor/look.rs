@@ -1,4 +1,4 @@
-//! What a place means, and where that is elsewhere.
+//! Navigation: definitions, references, hover texts, outlines.
 
 use gen_lsp_types::json_rpc::Error;
 use gen_lsp_types::{
@@ -59,7 +59,7 @@ impl Server<'_> {
     }
 }
 
-/// The items of a policy with what they declare. What is declared stands behind what it is declared in.
+/// The items of a policy as a tree. Declared names are children of the item that contains them.
 fn outline(document: &Document) -> Vec<DocumentSymbol> {
     let symbols = document.index.symbols();
     let mut inside: Vec<Vec<DocumentSymbol>> = symbols.iter().map(|_| Vec::new()).collect();
@@ -81,7 +81,7 @@ fn outline(document: &Document) -> Vec<DocumentSymbol> {
     items
 }
 
-/// The protocol's nearest kind; `None` for what is no part of an outline.
+/// The nearest kind of the protocol. `None` for names that are not in an outline.
 fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
     Some(match kind {
         SymbolKind::Whisker => LspSymbolKind::Field,

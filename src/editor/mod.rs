@@ -1,8 +1,9 @@
-//! The language server of policies: what editors ask over the Language Server Protocol, answered from `policy`.
+//! The language server for policies. It answers requests of the Language Server Protocol from `policy`.
 //!
-//! Only the protocol is here: its messages, its life, its places in lines and UTF-16. What is known of a text, `policy` knows.
-//! One message is answered after the other, so that an answer always belongs to the text that the editor had when it asked. A text is
-//! compiled when something is asked, or when nothing comes in any more: of changes that wait in a row the last alone.
+//! This module contains only the protocol: its messages, its life cycle, and its positions in lines and UTF-16. All
+//! knowledge of a text is in `policy`. Messages are answered one after the other, so an answer refers to the text that
+//! the editor had when it asked. A text is compiled when a request needs it, or when no more messages arrive. Of
+//! several queued changes only the last is compiled.
 
 mod answer;
 mod capabilities;

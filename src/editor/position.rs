@@ -1,4 +1,4 @@
-//! Places as the protocol counts them: lines and columns from 0, columns in the units of an encoding.
+//! Positions of the protocol. Lines and columns count from 0, and columns count units of an encoding.
 
 use std::ops::Range;
 
@@ -6,12 +6,12 @@ use gen_lsp_types::{self as lsp, PositionEncodingKind};
 
 use crate::diagnostic::Span;
 
-/// What columns count.
+/// The unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Encoding {
     /// Bytes.
     Utf8,
-    /// Units of UTF-16, in which every client can count.
+    /// Units of UTF-16, which every client supports.
     #[default]
     Utf16,
     /// Characters.
@@ -19,7 +19,7 @@ pub(super) enum Encoding {
 }
 
 impl Encoding {
-    /// The one to use with a client that can count in `offered`: bytes, if it can, for we do.
+    /// The encoding for a client that supports `offered`. Bytes are preferred, because the compiler uses them.
     pub(super) fn choose(offered: &[PositionEncodingKind]) -> Self {
         if offered.contains(&PositionEncodingKind::UTF8) {
             Self::Utf8
@@ -68,8 +68,8 @@ impl Lines {
         Self(lines)
     }
 
-    /// The byte at a position; beyond the end of its line that end, beyond the last line that of the text. A position within a
-    /// character is its beginning.
+    /// The byte at a position. Beyond the end of its line, the end of the line. Beyond the last line, the end of the
+    /// text. Within a character, the start of that character.
     pub(super) fn byte(&self, text: &str, position: lsp::Position, encoding: Encoding) -> usize {
         let line = usize::try_from(position.line).ok().and_then(|line| self.0.get(line));
         let Some(line) = line else { return text.len() };
@@ -84,7 +84,7 @@ impl Lines {
         line.end
     }
 
-    /// The position of a byte; within a line's end that of the end.
+    /// The position of a byte. Within a line end, the position of the line end.
     pub(super) fn position(&self, text: &str, byte: usize, encoding: Encoding) -> lsp::Position {
         let byte = text.floor_char_boundary(byte);
         let line = self.0.partition_point(|line| line.start <= byte).saturating_sub(1);
@@ -98,7 +98,7 @@ impl Lines {
         lsp::Range { start: position(span.start), end: position(span.end.max(span.start)) }
     }
 
-    /// The span of a range, whichever end comes first.
+    /// The span of a range. Its ends may be in any order.
     pub(super) fn span(&self, text: &str, range: lsp::Range, encoding: Encoding) -> Span {
         let [a, b] = [range.start, range.end].map(|position| self.byte(text, position, encoding));
         Span::new(a.min(b), a.max(b))

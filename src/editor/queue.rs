@@ -1,4 +1,4 @@
-//! Messages that came in and are not answered yet.
+//! Messages that were received and not yet answered.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead};
@@ -12,10 +12,10 @@ use serde_json::Value;
 
 use super::wire::{self, Incoming, error};
 
-/// The most messages that are read ahead. An editor that sends more of them waits.
+/// The maximum number of messages that are read ahead. An editor that sends more must wait.
 const AHEAD: usize = 1024;
 
-/// Messages in the order in which they came. A thread reads them while others are answered.
+/// Messages in the order of their arrival. A thread reads them while others are answered.
 pub(super) struct Queue {
     read: Receiver<io::Result<Incoming>>,
     waiting: VecDeque<io::Result<Incoming>>,
@@ -28,7 +28,7 @@ impl Queue {
     /// The system does not start a thread.
     pub(super) fn of(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
         let (sender, read) = sync_channel(AHEAD);
-        // It is not waited for: it may stand in the middle of reading when the server ends.
+        // The thread is never joined, because it may be blocked in a read when the server ends.
         Builder::new().spawn(move || {
             loop {
                 let message = wire::read(&mut input);
@@ -41,7 +41,7 @@ impl Queue {
         Ok(Self { read, waiting: VecDeque::new() })
     }
 
-    /// The next message; `None` if there is none within a `patience`.
+    /// The next message. `None` if none arrives within `patience`.
     pub(super) fn next(&mut self, patience: Option<Duration>) -> Option<io::Result<Incoming>> {
         while self.waiting.len() < AHEAD
             && let Ok(message) = self.read.try_recv()
@@ -62,7 +62,7 @@ impl Queue {
         }
     }
 
-    /// Adds a message. One that takes back a request which waits has this refused.
+    /// Adds a message. A cancellation refuses the request that it names, if this request still waits.
     fn add(&mut self, message: io::Result<Incoming>) {
         let cancelled = match &message {
             Ok(Incoming::Message(message)) => cancelled(message),
@@ -85,7 +85,7 @@ impl Queue {
     }
 }
 
-/// The request that a message takes back, if it is one that does.
+/// The request that a message cancels, if it is a cancellation.
 fn cancelled(message: &RequestObject) -> Option<Id> {
     let is_cancellation = Method::from(message.method()) == Method::CancelRequest;
     let id = message.params().filter(|_| is_cancellation).and_then(|parameters: &Value| parameters.get("id"));

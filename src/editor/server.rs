@@ -1,4 +1,4 @@
-//! The life of the server, and the documents that are open.
+//! The life cycle of the server, and its open documents.
 
 use std::collections::HashMap;
 use std::io::{self, BufRead, Write};
@@ -20,19 +20,19 @@ use super::queue::Queue;
 use super::uri;
 use super::wire::{self, Incoming, error};
 
-/// For how long nothing comes in before a changed text is looked at that nothing is asked of.
+/// The time without messages after which a changed text is analysed without a request.
 const QUIET: Duration = Duration::from_millis(10);
 
-/// How a server ended.
+/// The manner in which a server ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ended {
-    /// As the protocol has it: told to shut down, then to exit.
+pub enum Ended {
+    /// Shutdown and then exit, as the protocol requires.
     Orderly,
-    /// Told to exit without being told to shut down, or left by the editor.
+    /// Exit without shutdown, or end of the input.
     Abrupt,
 }
 
-/// Where a server is in its life.
+/// The phase of a server's life cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
     Uninitialized,
@@ -40,29 +40,25 @@ enum Phase {
     ShutDown,
 }
 
-/// Gives the text of a file that no editor has open by its path, or says why it cannot.
-pub(super) type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
+/// Returns the text of a file that is not open in the editor, or the reason for which there is none.
+pub type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
 
-/// A server.
+/// The language server.
 pub(super) struct Server<'l> {
     phase: Phase,
     pub(super) client: Client,
     documents: HashMap<Uri, Document>,
-    /// Those that have another text, or were closed, since they were looked at.
+    /// Documents that were changed or closed since their last analysis.
     changed: Vec<Uri>,
     library: &'l Library<'l>,
 }
 
-/// Serves an editor until it says that it is done or its end of `input` is closed. Files that policies use and that are not open are
-/// those of `library`.
+/// Serves an editor until it asks for the end or closes `input`. `library` provides the files that policies use and
+/// that are not open.
 ///
 /// # Errors
-/// Reading or writing failed: the editor is gone.
-pub(crate) fn serve(
-    input: impl BufRead + Send + 'static,
-    output: &mut dyn Write,
-    library: &Library<'_>,
-) -> io::Result<Ended> {
+/// Reading or writing failed, because the editor has gone.
+pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
     let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
     let mut queue = Queue::of(input)?;
@@ -119,7 +115,7 @@ impl Server<'_> {
         }
     }
 
-    /// Takes note of what the editor says. What cannot be understood is passed over: nobody waits for an answer.
+    /// Handles a notification. Unintelligible ones are ignored, because nobody waits for an answer.
     fn notification(&mut self, method: &str, parameters: Value) {
         if let Some(uri) = self.note(method, parameters)
             && !self.changed.contains(&uri)
@@ -128,7 +124,7 @@ impl Server<'_> {
         }
     }
 
-    /// The same; gives the document that has another text now.
+    /// Handles a notification. Returns the document whose text it changed.
     fn note(&mut self, method: &str, parameters: Value) -> Option<Uri> {
         match Method::from(method) {
             Method::TextDocumentDidOpen => {
@@ -155,7 +151,7 @@ impl Server<'_> {
         }
     }
 
-    /// Looks at all documents that have another text, and tells what there is to say of them.
+    /// Analyses all changed documents and publishes their diagnostics.
     fn catch_up(&mut self, output: &mut dyn Write) -> io::Result<()> {
         for changed in std::mem::take(&mut self.changed) {
             for news in self.news(&changed) {
@@ -165,7 +161,7 @@ impl Server<'_> {
         Ok(())
     }
 
-    /// What there is to say now that a document has another text, or is closed: of itself, and of those that use it.
+    /// The messages to publish after a document was changed or closed: for it, and for the documents that use it.
     fn news(&mut self, changed: &Uri) -> Vec<RequestObject> {
         if self.documents.get(changed).is_some_and(Document::is_stale) {
             self.look(changed);
@@ -185,7 +181,7 @@ impl Server<'_> {
         news
     }
 
-    /// Looks at a document anew.
+    /// Analyses a document.
     fn look(&mut self, uri: &Uri) {
         if let Some((uri, mut document)) = self.documents.remove_entry(uri) {
             document.look(&mut |path: &str| self.text(path));
@@ -193,7 +189,7 @@ impl Server<'_> {
         }
     }
 
-    /// The text of a file that a document uses: as it is in the editor, if it is open there.
+    /// The text of a used file. If the file is open in the editor, its current text.
     fn text(&self, path: &str) -> Result<String, String> {
         let open = self.documents.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         match open {
@@ -205,8 +201,8 @@ impl Server<'_> {
         }
     }
 
-    /// Every file that is known: `first`, the others that are open, and those that all of these use. All are looked at anew, so that
-    /// what one says of a place in another is so.
+    /// Every known file: `first`, the other open files, and all files that these use. All are analysed again, so that
+    /// positions across files are valid.
     pub(super) fn known(&self, first: &Document) -> Vec<Document> {
         let mut open: Vec<&Document> = self.documents.values().filter(|document| document.uri != first.uri).collect();
         open.sort_by(|a, b| a.uri.as_ref().cmp(b.uri.as_ref()));
@@ -221,7 +217,7 @@ impl Server<'_> {
             let source = known[index].index.source().clone();
             for part in (1..source.count()).filter(|&part| source.absence(part).is_none()) {
                 let name = source.part_name(part);
-                // The standard library has no address.
+                // The standard library has no URI.
                 if let Some(uri) = uri::of_path(name)
                     && known.iter().all(|document| document.source.name != name)
                 {
@@ -237,7 +233,7 @@ impl Server<'_> {
         self.documents.get(uri).ok_or_else(unknown)
     }
 
-    /// The document and the byte of a place in it.
+    /// The document, and the byte of a position in it.
     pub(super) fn place(&self, place: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
         let document = self.document(&place.text_document.uri)?;
         Ok((document, document.byte(place.position)))

@@ -1,4 +1,4 @@
-//! The paths of files as addresses.
+//! Conversion between file paths and URIs.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use gen_lsp_types::Uri;
 
 const SCHEME: &str = "file://";
 
-/// The path of the file that an address names, if it names one of this machine.
+/// The path of the file that a URI names, if it is on this machine.
 pub(super) fn path(uri: &Uri) -> Option<String> {
     let rest = uri.as_ref().strip_prefix(SCHEME)?;
     let rest = rest.strip_prefix("localhost").unwrap_or(rest);
@@ -16,7 +16,7 @@ pub(super) fn path(uri: &Uri) -> Option<String> {
     Some(if is_drive { path[1..].to_owned() } else { path })
 }
 
-/// The address of the file at a path from the root.
+/// The URI of the file at an absolute path.
 pub(super) fn of_path(path: &str) -> Option<Uri> {
     let root = match path.get(1..2) {
         _ if path.starts_with('/') => "",
@@ -35,7 +35,7 @@ pub(super) fn of_path(path: &str) -> Option<Uri> {
     Some(Uri::from(uri))
 }
 
-/// A text with what stands for `%41` and the like.
+/// Decodes percent-encoding, such as `%41`.
 fn decoded(text: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();

@@ -1,4 +1,4 @@
-//! Messages on the wire: JSON behind a header that gives its length.
+//! Framing of messages: JSON after a header with its length.
 
 use std::io::{self, BufRead, Read, Write};
 
@@ -7,24 +7,24 @@ use gen_lsp_types::json_rpc::{Error, Id, RequestObject};
 use serde::Serialize;
 use serde_json::Value;
 
-/// The most bytes of a message. A policy has 256 KiB at most; an editor may send a file that is none.
+/// The maximum size of a message (bytes). A policy has at most 256 KiB, but an editor may send other files.
 const MESSAGE_LIMIT: usize = 64 << 20;
-/// The most bytes that are read of a line before a message.
+/// The maximum length of a header line (bytes).
 const LINE_LIMIT: u64 = 4096;
 
-/// What came in.
+/// A message from the editor.
 #[derive(Debug, PartialEq)]
 pub(super) enum Incoming {
     Message(RequestObject),
-    /// Something that is to be answered with an error.
+    /// A request that must be answered with an error.
     Faulty(Id, Error),
-    /// Something that needs no answer.
+    /// A message that needs no answer.
     Nothing,
-    /// There is no more.
+    /// The end of the input.
     End,
 }
 
-/// Reads the next message. What is before a header is passed over.
+/// Reads the next message. Text before a header is ignored.
 pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Incoming> {
     let Some(length) = read_header(input)? else { return Ok(Incoming::End) };
     if length > MESSAGE_LIMIT {
@@ -37,7 +37,7 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Incoming> {
     Ok(if body.len() < length { Incoming::End } else { message(&body) })
 }
 
-/// Reads up to the empty line behind a header, and gives the length of the message behind it.
+/// Reads a header up to its empty line. Returns the length of the message.
 fn read_header(input: &mut dyn BufRead) -> io::Result<Option<usize>> {
     let mut length = None;
     let mut line = Vec::new();
@@ -61,7 +61,7 @@ fn message(body: &[u8]) -> Incoming {
         Err(fault) => return Incoming::Faulty(Id::Null, error(ErrorCodes::ParseError, fault.to_string())),
     };
     if value.get("method").is_none() && (value.get("result").is_some() || value.get("error").is_some()) {
-        // An answer, though nothing was asked.
+        // A response without a request.
         return Incoming::Nothing;
     }
     let id = value.get("id").cloned().and_then(|id| serde_json::from_value(id).ok()).unwrap_or(Id::Null);

@@ -10,40 +10,40 @@ use super::output::{Output, OutputError, Stream, Way};
 use super::regular::{self, read_at_most};
 use super::special;
 
-/// What one command reads and writes. No file is both, and none is written twice, whatever names and links lead to it.
+/// The inputs and outputs of one command. No file is both, and no file is written twice, under any name or link.
 #[derive(Debug)]
 pub struct CommandFiles {
-    /// All that was asked for, be it there or not, in that order.
+    /// All requested inputs in the order of the requests, including those that do not exist.
     inputs: Vec<PathBuf>,
     uses: HashMap<Identity, Use>,
     /// Standard output and standard error.
     streams: [Option<Identity>; 2],
 }
 
-/// What a file is used for.
+/// The use of a file.
 #[derive(Debug, Clone)]
 enum Use {
     Input(PathBuf),
     Output { argument: &'static str, path: PathBuf },
 }
 
-/// What an output's path leads to.
+/// The kind of an output file.
 enum Goal {
-    /// A regular file, or nothing yet.
+    /// A regular file, or no file yet.
     Regular,
-    /// What else there is, such as a pipe.
+    /// Any other file, such as a pipe.
     Special,
     /// A stream of the program.
     Stream(Stream),
 }
 
-/// A file is an output already.
+/// The error for an input that is already an output.
 #[derive(Debug, thiserror::Error)]
 #[error("this command writes to the same file: {0}; give one of them another place")]
 struct IsOutput(String);
 
 impl CommandFiles {
-    /// Those of a command that has not begun.
+    /// The files of a command that has not begun.
     #[must_use]
     #[expect(clippy::new_without_default, reason = "it looks at the program's streams")]
     pub fn new() -> Self {
@@ -54,18 +54,18 @@ impl CommandFiles {
         }
     }
 
-    /// The bytes of a regular file, but no more than show that there are more than `limit`.
+    /// Reads a regular file, at most `limit` bytes and one more. A longer result shows that the file exceeds the limit.
     ///
     /// # Errors
-    /// It is none, it cannot be read, or the command writes to it.
+    /// The file is not regular, cannot be read, or is an output of the command.
     pub fn read(&mut self, path: &Path, limit: usize) -> Result<Vec<u8>> {
         self.open(path).and_then(|file| read_at_most(file, limit))
     }
 
-    /// The same of standard input, whatever that is.
+    /// Reads standard input, of any kind, with the same limit.
     ///
     /// # Errors
-    /// It cannot be read, or the command's messages or results go to the same file.
+    /// It cannot be read, or the messages or results of the command go to the same file.
     pub fn read_standard(&mut self, limit: usize) -> Result<Vec<u8>> {
         // A terminal is all three streams.
         if let Some((identity, true)) = stream_identity(&stdin()) {
@@ -77,7 +77,7 @@ impl CommandFiles {
     /// Opens a regular file for reading.
     ///
     /// # Errors
-    /// As of [`Self::read`].
+    /// Those of [`Self::read`].
     pub fn open(&mut self, path: &Path) -> Result<File> {
         self.inputs.push(path.to_owned());
         let file = regular::open(path)?;
@@ -87,7 +87,7 @@ impl CommandFiles {
         Ok(file)
     }
 
-    /// Notes that a file is read.
+    /// Records that a file is read.
     fn read_once(&mut self, identity: Identity, path: &Path) -> Result<()> {
         let output = match (self.stream(&identity), self.uses.get(&identity)) {
             (Some(stream), _) => stream.to_string(),
@@ -100,15 +100,15 @@ impl CommandFiles {
         Err(Error::new(ErrorKind::InvalidInput, IsOutput(output)))
     }
 
-    /// The paths that were to be read until now, also those where there was nothing.
+    /// The paths of all inputs until now, including those that do not exist.
     pub fn inputs(&self) -> impl Iterator<Item = &Path> {
         self.inputs.iter().map(PathBuf::as_path)
     }
 
-    /// A place to write to, which `argument` names. Where everything is asked for before the work begins, nothing is lost by a refusal.
+    /// An output, named by `argument`. Request all outputs before the work begins, so that a refusal loses no results.
     ///
     /// # Errors
-    /// [`OutputError`] when it cannot be written, is an input, or is an output already.
+    /// [`OutputError`] if the file cannot be written, is an input, or is already an output.
     pub fn output(&mut self, argument: &'static str, path: &Path) -> std::result::Result<Output, OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
         let way = match self.goal(path).map_err(unwritable)? {
@@ -122,10 +122,10 @@ impl CommandFiles {
         Ok(Output::new(argument, path, way))
     }
 
-    /// The same of a file to which lines are added. The caller opens it.
+    /// An output to which lines are appended. The caller opens the file.
     ///
     /// # Errors
-    /// [`OutputError`] as of [`Self::output`], and when it is no regular file, or a stream of the program goes there.
+    /// [`OutputError`] as of [`Self::output`], and if the file is not regular or receives a stream of the program.
     pub fn growing(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
         match self.goal(path).map_err(unwritable)? {
@@ -137,7 +137,7 @@ impl CommandFiles {
         }
     }
 
-    /// What an output's path leads to.
+    /// The kind of the file at an output's path.
     fn goal(&self, path: &Path) -> Result<Goal> {
         let Ok(about) = path.metadata() else { return Ok(Goal::Regular) };
         if about.is_dir() {
@@ -151,7 +151,7 @@ impl CommandFiles {
         })
     }
 
-    /// Notes that a regular file is written.
+    /// Records that a regular file is written.
     fn write_once(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
         place(path).map_err(|cause| OutputError::Unwritable { argument, path: path.to_owned(), cause })?;
         let identities: Vec<_> = Identity::of(path).collect();
@@ -168,14 +168,14 @@ impl CommandFiles {
         Ok(())
     }
 
-    /// The program's own stream that a file is.
+    /// The program's own stream that a file is, if it is one.
     fn stream(&self, identity: &Identity) -> Option<Stream> {
         let [out, error] = self.streams.each_ref().map(|stream| stream.as_ref() == Some(identity));
         if out { Some(Stream::Output) } else { error.then_some(Stream::Error) }
     }
 }
 
-/// What a stream is, and whether that is a regular file.
+/// The identity of a stream, and true if the stream is a regular file.
 #[cfg(unix)]
 fn stream_identity(stream: &impl std::os::fd::AsFd) -> Option<(Identity, bool)> {
     let about = File::from(stream.as_fd().try_clone_to_owned().ok()?).metadata().ok()?;

@@ -1,23 +1,23 @@
-//! What makes two paths lead to one file.
+//! The identity of a file under all its names.
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
-/// The most links that lead on from each other.
+/// The maximum number of links in a chain.
 const LINKS: usize = 40;
 
 /// A property that no two files share.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) enum Identity {
-    /// The device and the number of the inode: they are the same under all names, hard links included.
+    /// The device and the number of the inode. They are the same under all names, including hard links.
     Inode(u64, u64),
-    /// The path without links, of a file that may not exist yet.
+    /// The path without links. The file need not exist.
     Place(PathBuf),
 }
 
 impl Identity {
-    /// The identities of the file at a path. There are none if nothing can be there, because a folder is missing.
+    /// The identities of the file at a path. There are none if its folder does not exist.
     pub(super) fn of(path: &Path) -> impl Iterator<Item = Self> {
         let inode = path.metadata().ok().and_then(|about| Self::inode(&about));
         inode.into_iter().chain(place(path).ok().map(Self::Place))
@@ -36,14 +36,15 @@ impl Identity {
     }
 }
 
-/// Whether a file that is open is still the one at a path: it may have been replaced since.
+/// True if an open file is still the one at a path. Another file may have replaced it.
 #[must_use]
 pub fn is_at(file: &File, path: &Path) -> bool {
     let inode = |about: Result<Metadata>| about.ok().and_then(|about| Identity::inode(&about));
     !cfg!(unix) || inode(file.metadata()) == inode(path.metadata())
 }
 
-/// Where a path leads when all links are followed. The file itself need not exist, so that a link may lead to one that is yet to be written.
+/// The path with all links resolved. The file itself need not exist, because a link may lead to a file that is not yet
+/// written.
 pub(super) fn place(path: &Path) -> Result<PathBuf> {
     match path.canonicalize() {
         Err(cause) if cause.kind() == ErrorKind::NotFound => {}
@@ -60,7 +61,7 @@ pub(super) fn place(path: &Path) -> Result<PathBuf> {
     Err(Error::other("too many links lead on from each other"))
 }
 
-/// The folder that a file is in.
+/// The folder of a file.
 pub(super) fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -73,7 +74,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
 
-    /// The oracle is the system: it follows the links when the file is made.
+    /// The oracle is the system: it follows the links when the file is created.
     #[test]
     fn the_place_of_a_file_is_known_before_the_file_is_there() {
         use std::os::unix::fs::symlink;
@@ -81,7 +82,8 @@ mod tests {
         let root = folder.path();
         std::fs::create_dir_all(root.join("a/b")).unwrap();
         symlink("a/b", root.join("to_b")).unwrap();
-        // Each leads to the one before it: beside it, from another folder, absolutely, through a link to a folder.
+        // Each leads to the previous one: in the same folder, from another folder, absolutely, through a link to a
+        // folder.
         symlink("../new", root.join("a/one")).unwrap();
         symlink("../one", root.join("a/b/two")).unwrap();
         symlink(root.join("to_b/two"), root.join("three")).unwrap();

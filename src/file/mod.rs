@@ -1,5 +1,6 @@
-//! Files: regular ones are read within a bound, told apart by what they are, and written as a whole or not at all. No other code opens
-//! a file; `clippy.toml` forbids it.
+//! Access to files: bounded reading of regular files, identities, atomic writing.
+//!
+//! No other code opens a file. `clippy.toml` forbids it.
 #![expect(clippy::disallowed_methods, reason = "this is the place where files are opened")]
 
 mod command_files;

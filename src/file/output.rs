@@ -1,4 +1,4 @@
-//! A place that a command writes to.
+//! An output of a command.
 
 use std::fmt;
 use std::fs::File;
@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::replace::replace;
 
-/// A place that a command may write to: nothing that it reads, and nothing that it writes elsewhere. [`CommandFiles`](super::CommandFiles) gives it.
+/// An output file of a command. The command neither reads it nor writes another output to it.
+/// [`CommandFiles`](super::CommandFiles) creates outputs.
 #[derive(Debug)]
 pub struct Output {
     argument: &'static str,
@@ -15,14 +16,14 @@ pub struct Output {
     way: Way,
 }
 
-/// How to write.
+/// The method of writing.
 #[derive(Debug)]
 pub(super) enum Way {
-    /// By a new file in the place of the old one.
+    /// A new file replaces the old one.
     Replace,
-    /// What is no regular file, such as a pipe, is open and written to.
+    /// The file is not a regular one, such as a pipe. It is open and written to.
     Open(File),
-    /// What is one of the program's own streams, under whatever name, goes there with the rest.
+    /// The file is one of the program's own streams, under any name. It is written through that stream.
     Stream(Stream),
 }
 
@@ -42,39 +43,39 @@ impl fmt::Display for Stream {
     }
 }
 
-/// Why nothing is written to a place.
+/// The error for an output that cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error("cannot write {}: {cause}; give another place with {argument}", path.display())]
     Unwritable {
-        /// The argument that names the place, or its folder.
+        /// The argument that names the file or its folder.
         argument: &'static str,
-        /// The place.
+        /// The path.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         cause: Error,
     },
-    /// The command reads it.
+    /// The command reads the file.
     #[error("cannot write {}: this command reads it as {}; give another place with {argument}", path.display(), input.display())]
     Input {
-        /// The argument that names the place, or its folder.
+        /// The argument that names the file or its folder.
         argument: &'static str,
-        /// The place.
+        /// The path.
         path: PathBuf,
-        /// The same file, as it was read.
+        /// The path under which the file was read.
         input: PathBuf,
     },
-    /// The command writes something else to it.
+    /// The command writes another output to the file.
     #[error("cannot write {}: {other_argument} writes it as {}; give another place with {argument}", path.display(), other.display())]
     Twice {
-        /// The argument that names the place, or its folder.
+        /// The argument that names the file or its folder.
         argument: &'static str,
-        /// The place.
+        /// The path.
         path: PathBuf,
-        /// The argument that names it first.
+        /// The argument of the first output.
         other_argument: &'static str,
-        /// The same place, as that names it.
+        /// The path of the first output.
         other: PathBuf,
     },
 }
@@ -84,13 +85,13 @@ impl Output {
         Self { argument, path: path.to_owned(), way }
     }
 
-    /// The place, as the command line names it.
+    /// The path on the command line.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes it, as a whole or not at all if it is a regular file.
+    /// Writes the content. A regular file is written completely or not at all.
     ///
     /// # Errors
     /// [`OutputError::Unwritable`].

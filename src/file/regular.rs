@@ -4,7 +4,7 @@ use std::fs::{File, FileType, OpenOptions};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-/// What a path leads to that is no regular file.
+/// The error for a path that leads to something other than a regular file.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("it is {}, not a regular file; {}", .0.0, .0.1)]
 struct NotRegular((&'static str, &'static str));
@@ -12,16 +12,16 @@ struct NotRegular((&'static str, &'static str));
 /// Opens a regular file for reading.
 ///
 /// # Errors
-/// It cannot be opened, or it is something else: a pipe may never begin or never end, a device neither.
+/// The file cannot be opened or is not regular. Reading a pipe or a device may wait for ever or never end.
 pub fn open(path: &Path) -> Result<File> {
     check(path.metadata()?.file_type())?;
     File::open(path)
 }
 
-/// Opens a regular file for reading and appending; an empty one is made where there is none.
+/// Opens a regular file for reading and appending. Creates an empty one if there is none.
 ///
 /// # Errors
-/// As of [`open`], and when it cannot be written.
+/// Those of [`open`], or the file cannot be written.
 pub fn append(path: &Path) -> Result<File> {
     match path.metadata() {
         Ok(about) => check(about.file_type())?,
@@ -31,18 +31,18 @@ pub fn append(path: &Path) -> Result<File> {
     OpenOptions::new().read(true).append(true).create(true).open(path)
 }
 
-/// The bytes of a regular file, but no more than show that there are more than `limit`.
+/// Reads a regular file, at most `limit` bytes and one more. A longer result shows that the file exceeds the limit.
 ///
 /// # Errors
-/// As of [`open`], and when it cannot be read.
+/// Those of [`open`], or the file cannot be read.
 pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>> {
     read_at_most(open(path)?, limit)
 }
 
-/// The same of what is open.
+/// Reads an open file, at most `limit` bytes and one more.
 ///
 /// # Errors
-/// It cannot be read.
+/// The file cannot be read.
 pub fn read_at_most(from: impl Read, limit: usize) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(limit as u64 + 1).read_to_end(&mut bytes)?;

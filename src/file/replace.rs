@@ -1,4 +1,4 @@
-//! A file's content, replaced as a whole.
+//! Atomic replacement of a file's content.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Result, Write};
@@ -6,28 +6,31 @@ use std::path::Path;
 
 use super::identity::{folder, place};
 
-/// Temporary files are called `.vibrissa-`, letters and digits drawn at random, `.tmp`. One is left only where the program was killed.
+/// Prefix of temporary files. Random letters and digits follow, and then `.tmp`. Such a file remains only if the
+/// program was killed.
 const PREFIX: &str = ".vibrissa-";
 const SUFFIX: &str = ".tmp";
 const RANDOM: usize = 12;
 
-/// Replaces the content of the file at `path`, or makes the file. Whoever reads it, also after a kill, a full disk or a loss of power, finds the
-/// old content or the new one. A link stays, and what it leads to is replaced. The file keeps its mode, and its owner where that is
-/// allowed; a new one has the mode that the umask leaves. Another hard link of the old file keeps the old content.
+/// Replaces the content of the file at `path`, or creates the file.
+///
+/// A reader finds either the old or the new content, even after a kill, a full disk or a loss of power. A symbolic link
+/// stays, and its target is replaced. The file keeps its mode, and its owner if the system allows it. A new file has
+/// the mode that the umask leaves. Other hard links of the old file keep the old content.
 ///
 /// # Errors
-/// The file may not be written, its folder may not, or there is no room. Then the old content is there. Only if the folder cannot be synced, the
-/// new one may be.
+/// The file or its folder may not be written, or the disk is full. Then the old content is there. If only the
+/// synchronisation of the folder failed, the new content may be there.
 pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
     let path = place(path)?;
     let folder = folder(&path);
-    // A new name is given without asking whether the file may be written. Opening asks; nothing is changed by it.
+    // Renaming does not ask for permission to write the file. Opening does, and changes nothing.
     let old = match OpenOptions::new().write(true).open(&path) {
         Ok(old) => Some(old),
         Err(cause) if cause.kind() == ErrorKind::NotFound => None,
         Err(cause) => return Err(cause),
     };
-    // In the same folder, because only within a file system a new name takes the place of the old one at once.
+    // In the same folder, because a rename is atomic only within one file system.
     let mut new = builder().tempfile_in(folder)?;
     if let Some(old) = old {
         keep_mode(&old, new.as_file())?;
@@ -46,20 +49,21 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // Of which the umask takes its part, as of that of any new file.
+        // The umask applies to this mode, as to that of any new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder
 }
 
-/// Gives a new file the owner and the mode of the old one, before it has content that not everybody may read.
+/// Gives a new file the owner and the mode of the old one, before it has content that must not be readable by everyone.
 fn keep_mode(old: &File, new: &File) -> Result<()> {
     let old = old.metadata()?;
     #[cfg(unix)]
     {
         use std::os::unix::fs::{MetadataExt, fchown};
         let about = new.metadata()?;
-        // Only root may give files away, others may to groups that they belong to. Whoever else replaces a file of another user owns it.
+        // Only root may change owners. Other users may change the group to one of their own. Otherwise the new file
+        // belongs to the current user.
         if about.gid() != old.gid() {
             let _ = fchown(new, None, Some(old.gid()));
         }
@@ -70,14 +74,15 @@ fn keep_mode(old: &File, new: &File) -> Result<()> {
     new.set_permissions(old.permissions())
 }
 
-/// Makes the name of a new file outlast a loss of power.
+/// Synchronises the folder, so that the name of a new file survives a loss of power.
 ///
 /// # Errors
-/// The file's folder cannot be synced.
+/// The folder of the file cannot be synchronised.
 #[cfg(unix)]
 pub fn sync_name(path: &Path) -> Result<()> {
     match File::open(folder(path)).and_then(|folder| folder.sync_all()) {
-        // Some file systems cannot sync a folder, and a folder that may be written need not be one that may be opened.
+        // Some file systems cannot synchronise a folder, and a folder that may be written need not be one that may be
+        // opened.
         Err(cause)
             if matches!(
                 cause.kind(),

@@ -1,13 +1,13 @@
-//! What is no regular file, opened for writing: a pipe, a terminal, a device.
+//! Pipes, terminals and devices, opened for writing.
 
 use std::fs::{File, OpenOptions};
 use std::io::Result;
 use std::path::Path;
 
-/// Opens it for writing. A pipe that nobody reads would be waited for without end.
+/// Opens the file for writing. Opening a pipe without a reader would wait for ever.
 ///
 /// # Errors
-/// It cannot be opened, or nobody reads the pipe.
+/// The file cannot be opened, or the pipe has no reader.
 #[cfg(unix)]
 pub(super) fn open(path: &Path) -> Result<File> {
     use std::io::{Error, ErrorKind};
@@ -17,7 +17,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
     use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
     use rustix::io::Errno;
 
-    /// How long whoever reads a pipe may take to open it: a shell starts both at once.
+    /// The time that a reader of a pipe has to open it. A shell starts both programs at once.
     const PATIENCE: Duration = Duration::from_secs(1);
     const PAUSE: Duration = Duration::from_millis(10);
 
@@ -27,7 +27,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
     loop {
         match options.open(path) {
             Ok(file) => {
-                // Only opening must not wait. Whoever reads slowly gets everything.
+                // Only opening must not wait. A slow reader gets everything.
                 fcntl_setfl(&file, fcntl_getfl(&file)? - OFlags::NONBLOCK)?;
                 return Ok(file);
             }
@@ -42,7 +42,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
     }
 }
 
-/// A pipe would take nothing.
+/// The error for a pipe without a reader.
 #[cfg(unix)]
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("it is a pipe that nobody reads; start what reads it, or remove it")]
