@@ -1,4 +1,4 @@
-//! Where a program comes from, for its artifact.
+//! Artifacts of programs.
 
 use sha2::{Digest, Sha256};
 
@@ -7,12 +7,12 @@ use vibrissa_runtime::machine::{Artifact, Origin, Program, SourceMap, StatePlace
 
 use super::ast::{File, Guard, Transition};
 
-/// The artifact of a program and of the text and its syntax tree that it comes from.
+/// The artifact of a program, with its source text and syntax tree.
 pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifact {
     let origin = Origin {
-        // The same policy gives the same bytes wherever it lies.
+        // Without the folder, so that the same policy gives the same bytes everywhere.
         file: source.name.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
-        // All texts: those of the files that it uses too.
+        // The hash covers all texts, including those of used files.
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };

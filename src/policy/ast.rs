@@ -1,39 +1,39 @@
-//! The syntax tree of a policy. Every node knows its place in the source.
+//! The syntax tree of a policy. Every node has its span in the source.
 
 use crate::diagnostic::Span;
 
-/// A name and where it stands.
+/// A name and its span.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Name {
     pub(super) text: String,
     pub(super) span: Span,
 }
 
-/// A whole file.
+/// A file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct File {
-    /// What the file is called behind `machine` or `library`.
+    /// The name after `machine` or `library`.
     pub(super) name: Name,
     pub(super) is_library: bool,
-    /// Whether it is a module of the standard library.
+    /// True for a module of the standard library.
     pub(super) is_standard: bool,
     pub(super) uses: Vec<Use>,
     pub(super) whiskers: Vec<Name>,
-    /// For each whisker, the tip model behind `by`.
+    /// For each whisker, the contact estimator after `by`.
     pub(super) tip_models: Vec<Option<Name>>,
-    /// For each whisker, whether `if fitted` stands behind it.
+    /// For each whisker, true if it is optional: `if fitted`.
     pub(super) optional: Vec<bool>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
     pub(super) laws: Vec<Law>,
-    /// In the order of the text: an outer state comes before the states in it.
+    /// In the order of the text, so an outer state precedes its inner states.
     pub(super) states: Vec<State>,
-    /// `var name = value` outside of every state
+    /// `var name = value` outside of all states
     pub(super) memory: Vec<(Name, Expression)>,
-    /// Where the first of the statements stands that are the machine's own.
+    /// Span of the first statement outside of all states.
     pub(super) acts: Option<Span>,
-    /// What the machine does every tick, whatever the state.
+    /// The statements outside of all states. They are executed in every tick.
     pub(super) body: Vec<Statement>,
     pub(super) always: Vec<Transition>,
     /// `failsafe -> target`
@@ -45,16 +45,16 @@ pub(super) struct File {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Use {
     pub(super) from: From,
-    /// Where that stands.
+    /// Span of the file's name.
     pub(super) span: Span,
-    /// The names that it brings; all of the file, if `None`.
+    /// The imported names. `None` if the whole file is imported.
     pub(super) names: Option<Vec<Name>>,
 }
 
-/// What a `use` names.
+/// The file that a `use` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum From {
-    /// A file of the standard library: `std`, `swipe`.
+    /// A module of the standard library: `std`, `swipe`.
     Module(Vec<Name>),
     /// A file by its path.
     Path(String),
@@ -68,7 +68,7 @@ pub(super) struct Parameter {
     pub(super) range: Option<(Bound, Bound)>,
 }
 
-/// A quantity with its sign.
+/// A quantity with a sign.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bound {
     pub(super) negative: bool,
@@ -76,7 +76,7 @@ pub(super) struct Bound {
     pub(super) span: Span,
 }
 
-/// A number and its unit, as written.
+/// A number and its unit, as in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Quantity {
     pub(super) number: String,
@@ -96,12 +96,12 @@ pub(super) struct Argument {
 pub(super) struct TypeName {
     pub(super) base: Name,
     pub(super) of: Option<Name>,
-    /// What the dimension before is multiplied with or divided by.
+    /// The factors after the first dimension, each with its operator: multiplication or division.
     pub(super) factors: Vec<(Binary, Name)>,
 }
 
 impl TypeName {
-    /// Where it stands.
+    /// Span of the whole name.
     pub(super) fn span(&self) -> Span {
         let others = self.of.iter().chain(self.factors.iter().map(|(_, factor)| factor));
         others.fold(self.base.span, |span, name| span.to(name.span))
@@ -128,10 +128,10 @@ pub(super) struct Law {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
     pub(super) name: Name,
-    /// Index of the state that it lies in.
+    /// Index of the state that contains this one.
     pub(super) parent: Option<usize>,
     pub(super) arguments: Vec<Argument>,
-    /// `initial Name(values)`, of which there is one in a state with states in it.
+    /// `initial Name(values)`. A state with inner states has exactly one.
     pub(super) initial: Vec<Step>,
     /// `var name = value`
     pub(super) memory: Vec<(Name, Expression)>,
@@ -155,7 +155,7 @@ pub(super) enum Guard {
     After(Expression),
 }
 
-/// `Name(values)`: a state and what it is entered with.
+/// `Name(values)`: a state and the values of its arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
     pub(super) name: Name,
@@ -166,9 +166,9 @@ pub(super) struct Step {
 /// `Name`, `Name(values)`, `Outer(values).Name(values)`, `resume Name(values)`, `Failure("reason")`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
-    /// Where `resume` stands: the state goes on where it was left.
+    /// Span of `resume`, which enters the inner state that was active last (history).
     pub(super) resume: Option<Span>,
-    /// The outer states that are written before the state.
+    /// The outer states before the state.
     pub(super) outer: Vec<Step>,
     pub(super) name: Name,
     pub(super) text: Option<Name>,
@@ -196,7 +196,7 @@ pub(super) enum Statement {
         name: Name,
         value: Expression,
     },
-    /// Conditions with their blocks, tried in order, and the block for when none holds.
+    /// Conditions with their blocks, in the order of evaluation, and the `else` block.
     If {
         branches: Vec<(Expression, Vec<Statement>)>,
         otherwise: Vec<Statement>,
@@ -220,7 +220,7 @@ pub(super) enum Statement {
 /// `steer mover along direction at speed facing angle`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Steer {
-    /// The whisker whose base is to move; `None` for the body.
+    /// The whisker whose base moves. `None` for the body.
     pub(super) whisker: Option<Expression>,
     pub(super) along: Expression,
     pub(super) speed: Expression,
@@ -238,7 +238,7 @@ pub(super) enum Turn {
 pub(super) struct Expression {
     pub(super) kind: Kind,
     pub(super) span: Span,
-    /// Levels of nesting below, which the parser bounds.
+    /// Levels of nesting below this node. The parser bounds them.
     pub(super) depth: usize,
 }
 
@@ -284,7 +284,7 @@ pub(super) enum Binary {
 }
 
 impl Binary {
-    /// How the operator is written.
+    /// The text of the operator.
     pub(super) fn symbol(self) -> &'static str {
         match self {
             Self::Or => "or",

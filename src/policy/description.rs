@@ -1,4 +1,4 @@
-//! What comments say about items.
+//! Descriptions of items in comments.
 
 use crate::diagnostic::{Source, Span};
 
@@ -7,9 +7,10 @@ use super::format::comment_behind;
 use super::grammar::is_word;
 use vibrissa_runtime::machine::{DESCRIPTION_LIMIT, Program};
 
-/// What the policy's author says about the item that is named at `name`: the comment behind it on the line of its name, or
-/// else the comment lines directly above it. Lines are joined to one; it has no control characters, and no more bytes than
-/// [`DESCRIPTION_LIMIT`].
+/// The description of the item whose name is at `name`: the comment at the end of its line, or else the comment lines
+/// directly above.
+///
+/// The result is one line without control characters, of at most [`DESCRIPTION_LIMIT`] bytes.
 pub(super) fn description(source: &Source, name: Span) -> Option<String> {
     let part = source.part_span(source.part_at(name.start));
     let behind = source.slice(Span::new(name.start, part.end));
@@ -21,10 +22,10 @@ pub(super) fn description(source: &Source, name: Span) -> Option<String> {
     (!text.is_empty()).then(|| bounded(text))
 }
 
-/// What is said in the comment lines above an item whose name stands behind the text `before`.
+/// The comment lines above an item. `before` is the text before its name.
 fn above(before: &str) -> String {
     let mut head = before.trim_end();
-    // Of several whiskers the keyword stands before the first.
+    // In a list of whiskers, the keyword precedes only the first.
     while let Some(others) = head.strip_suffix(',') {
         head = others.trim_end().trim_end_matches(is_word).trim_end();
     }
@@ -38,7 +39,7 @@ fn above(before: &str) -> String {
     lines.into_iter().rev().filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Gives the parameters of a program what is said about them in the file that it comes from.
+/// Adds descriptions to the parameters of a program. `file` is the file that declares them.
 pub(super) fn describe(program: &mut Program, source: &Source, file: &File) {
     for (parameter, written) in program.parameters.iter_mut().zip(&file.parameters) {
         parameter.description = description(source, written.name.span).unwrap_or_default();

@@ -1,6 +1,6 @@
-//! Words and signs of other languages, and what a policy has in their place.
+//! Constructs of other languages, with their equivalents in policies.
 
-/// Words that other languages have, and what to write instead.
+/// Words of other languages, with advice.
 const WORDS: [(&[&str], &str); 17] = [
     (
         &["while", "loop", "until", "repeat", "break", "continue", "foreach"],
@@ -45,12 +45,12 @@ const WORDS: [(&[&str], &str); 17] = [
     (&["pi", "PI"], "write an angle with its unit: `180 deg`"),
 ];
 
-/// What to write instead of a word that other languages have.
+/// Advice for a word of another language.
 pub(super) fn instead(word: &str) -> Option<&'static str> {
     WORDS.iter().find(|(words, _)| words.contains(&word)).map(|&(_, advice)| advice)
 }
 
-/// What to write instead of a target that other languages have for the end of a run that went well.
+/// Advice for a target that other languages use for a successful end.
 pub(super) fn instead_of_target(state: &str) -> Option<&'static str> {
     ["success", "succeeded", "done", "end", "finish", "finished", "completed", "exit"].contains(&state.to_lowercase().as_str()).then_some(
         "a run is completed when what the scenario's `stop` names has come about; a policy ends it only by `Failure(\"reason\")`, and stands still \

@@ -1,13 +1,13 @@
-//! "Did you mean …?"
+//! Suggestions for misspelled names.
 
 use crate::diagnostic::Diagnostic;
 use vibrissa_runtime::units::suggest;
 
-/// Names longer than this (bytes) get no suggestion: comparing them takes time that grows with the square of their length.
+/// The maximum length of names with suggestions (bytes). The time of a comparison is quadratic in the length.
 const NAME_LIMIT: usize = 64;
 
-/// Adds the one of `known` that `name` was probably meant to be to a diagnostic, if there is one. Of equally near ones it
-/// is the first in the alphabet.
+/// Adds a suggestion to a diagnostic: the name of `known` that is nearest to `name`. Among equally near names, the
+/// first in alphabetical order.
 pub(super) fn did_you_mean<'a>(
     diagnostic: Diagnostic,
     name: &str,

@@ -1,10 +1,12 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! The way of a policy: `grammar` (pest, `grammar/fsm.pest`) finds what stands in a text, which `pair` lays out flat and `parse` makes
-//! the syntax tree of `ast` of; `recover` has as much of it as can be had of a text with faults; `lower` checks names, types and units
-//! and writes the machine's code; `optimise` shortens that; `analysis` looks at both for what is probably not meant; `format` lays
-//! texts out. `description` reads what comments say of items. `builtins` is the one table of what the language offers, `docs/language.md`
-//! its description for users.
+//! - `grammar` parses a text with pest (`grammar/fsm.pest`). `pair` stores the result in a flat list.
+//! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors.
+//! - `lower` checks names, types and units, and generates code.
+//! - `analysis` finds probable mistakes in the tree and the code.
+//! - `optimise` shortens the code.
+//! - `format` formats texts. `description` reads comments of items. `index` answers questions of editors.
+//! - `builtins` has the tables of members and functions. `docs/language.md` describes the language for users.
 
 mod analysis;
 mod artifact;
@@ -41,15 +43,15 @@ use vibrissa_runtime::machine::{Artifact, Program};
 /// A policy that compiled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compiled {
-    /// The program, and where it comes from.
+    /// The program with its source.
     pub artifact: Artifact,
-    /// The tests that it carries, in the order of the text.
+    /// The tests of the policy, in the order of the text.
     pub tests: Vec<PolicyTest>,
-    /// What is probably not meant, in the order of the text (the first fifty).
+    /// Warnings about probable mistakes, in the order of the text (the first fifty).
     pub warnings: Vec<Diagnostic>,
 }
 
-/// What a file holds that has no fault.
+/// The content of a file without errors.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Checked {
     /// A machine.
@@ -62,15 +64,15 @@ pub enum Checked {
         laws: Vec<String>,
         /// Names of its derived values.
         values: Vec<String>,
-        /// What is probably not meant.
+        /// Warnings about probable mistakes.
         warnings: Vec<Diagnostic>,
     },
 }
 
-/// Adds to a source, as parts, all files that it uses: those of the standard library, and those that `library` gives. Whatever
-/// is said of the source then can show places in these files too.
+/// Adds all used files to a source as parts. They come from the standard library and from `library`.
 ///
-/// Faults are told when the source is compiled, also why a file could not be had.
+/// Diagnostics of the resulting source can have positions in these files. Errors, including files that could not be
+/// read, are reported by [`compile`].
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::{compile, gather}};
@@ -87,11 +89,11 @@ pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
     load::load(source, library).source
 }
 
-/// Compiles the text of a policy. Of the files that it uses only the standard library and parts of the source are known.
+/// Compiles the text of a policy. It may use the standard library and the parts of the source.
 ///
 /// # Errors
-/// Every fault that was found, in the order of their places: those of syntax, of the files' uses, of names, types, units and
-/// structure (the first fifty), or cycles of transitions that a tick cannot end.
+/// All errors, in the order of their positions: of syntax, imports, names, types, units and structure (the first
+/// fifty). If there are none, cycles of transitions that exceed the microstep limit of a tick.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile};
@@ -103,10 +105,10 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
     Ok(optimise::optimise(front(source, load(source))?.2.program))
 }
 
-/// Compiles the text of a policy, and looks for what is probably not meant.
+/// Compiles the text of a policy, and looks for probable mistakes.
 ///
 /// # Errors
-/// As [`compile`].
+/// Those of [`compile`].
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::compile_with_warnings};
@@ -118,7 +120,7 @@ pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic
     compile_loaded(source, load(source))
 }
 
-/// The source that [`gather`] makes, and what [`compile_with_warnings`] makes of that; every text is read once.
+/// Combines [`gather`] and [`compile_with_warnings`], and parses every text once.
 pub fn gather_and_compile(source: &Source, library: &mut Library<'_>) -> (Source, Result<Compiled, Vec<Diagnostic>>) {
     let loaded = load::load(source, library);
     let whole = loaded.source.clone();
@@ -129,7 +131,7 @@ pub fn gather_and_compile(source: &Source, library: &mut Library<'_>) -> (Source
 fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagnostic>> {
     let (source, files, lowered) = front(source, loaded)?;
     let warnings = analysis::warnings(&files, &lowered);
-    // Behind the analysis, which takes conditions as they are written.
+    // After the analysis, which reads conditions as they are written.
     let program = optimise::optimise(lowered.program);
     let artifact = artifact::artifact(&source, &files.main, program);
     Ok(Compiled { artifact, tests: lowered.tests, warnings })
@@ -138,7 +140,7 @@ fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagn
 /// Checks a policy or a library.
 ///
 /// # Errors
-/// As [`compile`].
+/// Those of [`compile`].
 pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
     let loaded = load(source);
     if !loaded.is_library() {
@@ -162,7 +164,7 @@ pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
 /// The statechart of a policy.
 ///
 /// # Errors
-/// Those of [`compile`]: only of a policy without fault can it be said what leads where.
+/// Those of [`compile`]. A policy with errors has no chart.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::chart};
@@ -198,19 +200,19 @@ fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Low
     Err(within(source, &whole, recovery.join(&whole, faults)))
 }
 
-/// The report of a library where a machine is needed.
+/// The diagnostic for a library where a machine is needed.
 fn library(file: &ast::File) -> Diagnostic {
     let message = format!("`{}` is a library and does nothing by itself", file.name.text);
     let fault = Diagnostic::error("P0603", message, file.name.span, "not a machine");
     fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both")
 }
 
-/// A source with all that it uses, as far as that is in it or in the standard library.
+/// Loads a source with its used files, as far as they are parts of it or in the standard library.
 fn load(source: &Source) -> Loaded {
     load::load(source, &mut |_: &str| Err("there is no such file among those given".to_owned()))
 }
 
-/// Faults as they can be shown in `source`, which may lack parts that `whole` has.
+/// Restricts diagnostics to `source`, which may lack parts of `whole`.
 fn within(source: &Source, whole: &Source, faults: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let is_in = |span: Span| span.start <= source.text.len();
     let shown = faults.into_iter().map(|mut fault| {

@@ -1,4 +1,4 @@
-//! What the grammar has found in a text, laid out flat: pest's own pairs count references, and end behind blanks.
+//! Pairs of the grammar in a flat list. Pest's own pairs count references and include trailing blanks.
 
 use pest::Token;
 
@@ -6,24 +6,24 @@ use crate::diagnostic::Span;
 
 use super::grammar::Rule;
 
-/// What the grammar has found for one of its rules. In a list of these, what it holds comes directly behind it.
+/// A matched rule. In a list, its inner matches follow it directly.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
     rule: Rule,
-    /// Where it stands in its text.
+    /// Span in the text.
     span: Span,
-    /// How many of the list it holds.
+    /// Number of inner matches, at all levels.
     inner: usize,
 }
 
-/// Everything that carries something; words and signs that only mark a place do not.
+/// All matches except those of keywords and marks without content.
 ///
-/// The blanks and comments behind its last part, which pest counts in, do not belong to what is found; the quote at the end of a
-/// text, which is no part, does.
+/// Pest includes blanks and comments after the last part. Here the span ends with the last part, or with the closing
+/// quote of a string.
 pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
     let tokens = pairs.tokens();
     let mut all: Vec<Found> = Vec::with_capacity(tokens.len() / 2);
-    // Those that have begun and not ended yet.
+    // The rules that have begun and not ended.
     let mut begun = Vec::new();
     let (mut end, mut has_parts) = (0, false);
     for token in tokens {
@@ -51,14 +51,14 @@ pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
     all
 }
 
-/// One of what the grammar has found, in its text.
+/// A matched rule in its text.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair<'i> {
     found: &'i Found,
-    /// What it holds.
+    /// The inner matches.
     inner: &'i [Found],
     text: &'i str,
-    /// Where the text begins among all texts.
+    /// First byte of the text in the whole source.
     start: usize,
 }
 
@@ -71,7 +71,7 @@ impl<'i> Pair<'i> {
         self.text.get(self.found.span.start..self.found.span.end).unwrap_or_default()
     }
 
-    /// Where it stands among all texts.
+    /// Span in the whole source.
     pub(super) fn place(self) -> Span {
         Span::new(self.start + self.found.span.start, self.start + self.found.span.end)
     }
@@ -81,22 +81,22 @@ impl<'i> Pair<'i> {
     }
 }
 
-/// What the grammar has found side by side, in the order of the text.
+/// Matches at one level, in the order of the text.
 #[derive(Debug, Clone)]
 pub(super) struct Pairs<'i> {
-    /// The rest of it, with all that it holds.
+    /// The remaining matches with their inner ones.
     rest: &'i [Found],
     text: &'i str,
     start: usize,
 }
 
 impl<'i> Pairs<'i> {
-    /// All that was found in a text that begins at `start`.
+    /// All matches in a text that begins at the byte `start` of the source.
     pub(super) fn new(all: &'i [Found], text: &'i str, start: usize) -> Self {
         Self { rest: all, text, start }
     }
 
-    /// The rule of the next.
+    /// The rule of the next match.
     pub(super) fn rule(&self) -> Option<Rule> {
         Some(self.rest.first()?.rule)
     }
@@ -113,7 +113,7 @@ impl<'i> Iterator for Pairs<'i> {
     }
 }
 
-/// Whether a pair is a word or a sign that only marks a place.
+/// True if a rule is a keyword or a mark without content.
 fn is_marker(rule: Rule) -> bool {
     matches!(
         rule,

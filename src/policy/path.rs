@@ -1,4 +1,4 @@
-//! What a `use` leads to.
+//! Resolution of the paths in `use`.
 
 use std::path::Path;
 
@@ -8,8 +8,9 @@ use super::ast::{From, Use};
 use super::hint::did_you_mean;
 use super::standard::{MODULES, ROOT, text};
 
-/// The name of the file that `used` means in the file `using`: `std.` and a module, or a path. Paths are told apart by how
-/// they are written: links of the file system make no difference.
+/// The name of the file that `used` means in the file `using`: `std.` and a module, or a path.
+///
+/// Paths are compared as text. Symbolic links are not resolved.
 pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>> {
     match &used.from {
         From::Path(path) => {
@@ -43,12 +44,12 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>
     }
 }
 
-/// The text of the standard module that a name means.
+/// The text of the standard module with this name.
 pub(super) fn standard(name: &str) -> Option<&'static str> {
     text(name.strip_prefix(ROOT)?.strip_prefix('.')?)
 }
 
-/// What is wrong with a path.
+/// The reason for which a path is not allowed.
 fn fault(path: &str) -> Option<&'static str> {
     if path.contains(['\\', ':']) || path.contains(char::is_control) {
         Some("a path has `/` between its folders, and no `\\` or `:`")
@@ -63,19 +64,19 @@ fn fault(path: &str) -> Option<&'static str> {
     }
 }
 
-/// The path `path` as seen from where the path of the file `using` is seen from.
+/// The path `path` of the file `using`, relative to the folder to which `using` is relative.
 fn join(using: &str, path: &str) -> String {
     let (root, using) = using.strip_prefix('/').map_or(("", using), |rest| ("/", rest));
     let folder = using.rsplit_once('/').map_or("", |(folder, _)| folder);
     format!("{root}{}", plain(folder.split('/').chain(path.split('/'))))
 }
 
-/// Whether two names mean the same file.
+/// True if two names mean the same file.
 pub(super) fn is_same(name: &str, other: &str) -> bool {
     plain(name.split('/')) == plain(other.split('/'))
 }
 
-/// A path without `.` and without any `..` that a folder stands before.
+/// Normalises a path: removes `.`, and every `..` that follows a folder.
 fn plain<'p>(parts: impl Iterator<Item = &'p str>) -> String {
     let mut plain: Vec<&str> = Vec::new();
     for part in parts {

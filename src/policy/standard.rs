@@ -1,9 +1,9 @@
-//! The standard library: laws and derived values that are part of the program.
+//! The standard library: laws and derived values that are built into the program.
 
-/// What every module's name begins with.
+/// The prefix of the modules' names.
 pub(super) const ROOT: &str = "std";
 
-/// The modules, in the order of the alphabet, with their texts.
+/// The modules with their texts, in alphabetical order.
 pub(super) const MODULES: [(&str, &str); 5] = [
     ("feelers", include_str!("../../policies/std/feelers.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
@@ -17,7 +17,7 @@ pub(super) fn text(module: &str) -> Option<&'static str> {
     MODULES.iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
 }
 
-/// The module that has a law or derived value of this name.
+/// The module that contains a law or derived value of this name.
 pub(super) fn module_with(name: &str) -> Option<&'static str> {
     let gives = |line: &str| {
         let rest = line.strip_prefix("law ").or_else(|| line.strip_prefix("let "));

@@ -1,4 +1,4 @@
-//! Errors of syntax in plain words: what was found, what could have stood there, what was probably meant.
+//! Messages for syntax errors: the found text, the expected constructs, the probable intention.
 
 use pest::error::{Error, ErrorVariant, InputLocation};
 
@@ -8,18 +8,18 @@ use super::foreign::instead;
 use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::hint::did_you_mean;
 
-/// What begins an item, in the order in which they usually come.
+/// The constructs that begin an item, in their usual order.
 const ITEM: &str =
     "an item (`use`, `whisker`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
 
-/// What some editors write before the text of a file.
+/// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// Words that can only stand outside of every brace.
+/// Keywords that occur only outside of all braces.
 const ITEM_WORDS: [&str; 10] =
     ["machine", "library", "use", "whisker", "param", "initial", "law", "state", "always", "test"];
 
-/// The diagnostic for pest's error.
+/// The diagnostic for an error of pest.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     let at = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
@@ -72,7 +72,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
 }
 
-/// The text ends where it should go on.
+/// The diagnostic for a text that ends too early.
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
     let place = Span::new(at, at);
     if rules.contains(&Rule::file) || rules.contains(&Rule::kw_machine) {
@@ -92,7 +92,7 @@ fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>)
         .note(Span::new(opened, opened + 1), format!("this `{bracket}` is never closed"))
 }
 
-/// The word, or else the character, at `at`; nothing at the end of the text.
+/// The word or the character at `at`. Empty at the end of the text.
 fn word_at(text: &str, at: usize) -> Span {
     let rest = &text[at.min(text.len())..];
     let word = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
@@ -100,17 +100,17 @@ fn word_at(text: &str, at: usize) -> Span {
     Span::new(at, at + length)
 }
 
-/// Whether the text that begins `rest` ends on its line.
+/// True if the string at the beginning of `rest` ends on its line.
 fn is_closed(rest: &str) -> bool {
     rest[1..].find(['"', '\n']).is_some_and(|end| rest[1 + end..].starts_with('"'))
 }
 
-/// Whether `found` is no closing bracket, or the one that closes `opened`.
+/// True if `found` is not a closing bracket, or closes `opened`.
 fn belongs(opened: &str, found: &str) -> bool {
     !["}", ")"].contains(&found) || (opened, found) == ("{", "}") || (opened, found) == ("(", ")")
 }
 
-/// What to do about signs and words that other languages have.
+/// Advice for signs and words of other languages.
 fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<String> {
     let starts = |with: &str| rest.starts_with(with);
     let is_block_due = rules.iter().any(|rule| matches!(rule, Rule::block | Rule::open_brace));
@@ -165,10 +165,10 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
     })
 }
 
-/// How a block is written.
+/// Advice on the notation of blocks.
 const BLOCK: &str = "a block stands in braces: `if condition { \u{2026} }`";
 
-/// What to do about a name where a statement should begin, by what follows it.
+/// Advice for a name at the beginning of a statement, depending on the following text.
 fn statement(name: &str, behind: &str) -> Option<String> {
     if behind.starts_with('(') {
         Some(format!("write `do {name}(\u{2026})` to run the statements of a law"))
@@ -181,28 +181,28 @@ fn statement(name: &str, behind: &str) -> Option<String> {
     }
 }
 
-/// Whether a word begins a statement.
+/// True if a word begins a statement.
 fn begins_statement(word: &str) -> bool {
     ["do", "hold", "if", "let", "mark", "record", "set", "steer", "stop"].contains(&word)
 }
 
-/// Whether a text ends in a number and a tab.
+/// True if a text ends with a number and a tab.
 fn is_behind_tab_and_number(text: &str) -> bool {
     let number = text.trim_end_matches([' ', '\t']);
     text[number.len()..].contains('\t') && number.ends_with(|letter: char| letter.is_ascii_digit())
 }
 
-/// Whether an expression could have begun where the error is.
+/// True if the grammar expected an expression.
 fn is_value_due(rules: &[Rule]) -> bool {
     rules.iter().any(|rule| matches!(rule, Rule::access | Rule::expression | Rule::mover))
 }
 
-/// What could have stood where the error is, most telling first.
+/// The expected constructs, the most informative first.
 fn expected(rules: &[Rule]) -> Option<String> {
     let mut known: Vec<(u8, &str)> = rules.iter().filter_map(|&rule| phrase(rule, rules)).collect();
     known.sort_unstable();
     known.dedup();
-    // Whatever ends in an expression can go on; that is worth saying only where nothing else can follow.
+    // Almost every position within an expression allows operators. They are listed only if nothing else can follow.
     let most = known.first()?.0.max(CONTINUES - 1);
     let phrases: Vec<&str> = known.iter().filter(|(rank, _)| *rank <= most).map(|&(_, phrase)| phrase).collect();
     Some(match phrases.as_slice() {
@@ -211,10 +211,10 @@ fn expected(rules: &[Rule]) -> Option<String> {
     })
 }
 
-/// The rank of what continues an expression.
+/// The rank of a construct that continues an expression.
 const CONTINUES: u8 = 5;
 
-/// What a rule is called in messages, with its rank.
+/// The name of a rule in messages, with its rank.
 fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
     Some(match rule {
         Rule::arrow => (0, "`->`"),
@@ -245,7 +245,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::bound => (0, "a number"),
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
         Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
-        // `param` stands for all words that begin an item, and `do` for all that begin a statement.
+        // `param` represents all words that begin an item, and `do` all words that begin a statement.
         Rule::kw_param => (2, ITEM),
         Rule::kw_do if among.contains(&Rule::kw_param) => (3, "a statement"),
         Rule::kw_state if among.contains(&Rule::kw_do) && !among.contains(&Rule::kw_param) => (3, "`state`"),
@@ -262,7 +262,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
     })
 }
 
-/// The word that a rule stands for.
+/// The keyword of a rule.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::file | Rule::machine | Rule::kw_machine => "machine",

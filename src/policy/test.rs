@@ -1,4 +1,4 @@
-//! The tests that a policy carries: runs of it, and what must be true of them.
+//! The tests of a policy: runs with expectations.
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
@@ -7,23 +7,23 @@ use vibrissa_runtime::machine::{
 };
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// A run of a policy in a scenario, and what must be true of it.
+/// A run of a policy in a scenario, with its expectations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolicyTest {
-    /// What it is about.
+    /// The title.
     pub title: String,
     /// The scenario's file, relative to the policy's.
     pub scenario: String,
-    /// Where the scenario is named.
+    /// Span of the scenario's name.
     pub scenario_span: Span,
-    /// The parameters that it sets, by index, and their values (SI).
+    /// The changed parameters, by index, with their values (SI).
     pub settings: Vec<(usize, f64)>,
-    /// What must be true of the run.
+    /// The expectations of the run.
     pub expectations: Vec<Expectation>,
 }
 
 impl PolicyTest {
-    /// Sets the parameters of its own policy's `program` as the test does.
+    /// Sets the parameters of the policy's own `program` to the values of the test.
     pub fn set(&self, program: &mut Program) {
         for &(parameter, value) in &self.settings {
             program.image[parameter] = value;
@@ -31,19 +31,19 @@ impl PolicyTest {
     }
 }
 
-/// Something that must be true of a run.
+/// A condition that a run must fulfil.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// Where it is written.
+    /// Span of the condition.
     pub span: Span,
     pub(super) code: Vec<Op>,
-    /// What registers hold before the figures are known.
+    /// Initial values of the registers.
     pub(super) image: Vec<f64>,
     pub(super) truth: Register,
     pub(super) figures: Vec<FigurePlace>,
 }
 
-/// Where an expectation reads a figure of the run.
+/// A register for a figure of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FigurePlace {
     pub(super) register: Register,
@@ -54,39 +54,39 @@ pub(super) struct FigurePlace {
 /// A figure of a run that expectations can read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunFigure {
-    /// Whether it ended as it should.
+    /// True if the run completed.
     Completed,
-    /// Whether the policy gave up.
+    /// True if the policy failed.
     Failed,
-    /// Whether the time was up before the loop closed.
+    /// True if the run reached its time limit before its end.
     TimedOut,
-    /// Whether the simulation can no longer be trusted.
+    /// True if the simulation diverged.
     Diverged,
     /// Simulated time (s).
     Time,
-    /// Mean distance of the tip estimates to the object (m).
+    /// Mean distance of the recorded tips from the object (m).
     ErrorMean,
-    /// Its 95th percentile (m).
+    /// 95th percentile of these distances (m).
     ErrorP95,
-    /// Its maximum (m).
+    /// Maximum of these distances (m).
     ErrorMax,
-    /// Share of the tip estimates whose error is more than their own standard deviation explains (0 to 1).
+    /// Share of the recorded tips whose error exceeds 0.1 mm plus four of their standard deviations (0 to 1).
     Outliers,
     /// Hausdorff distance between the object and the estimated contour (m).
     Hausdorff,
-    /// Share of the object's outline that was traced (0 to 1).
+    /// Share of the object's contour that was traced (0 to 1).
     Coverage,
-    /// The greatest distance of an estimated corner from the exact one (m).
+    /// Maximum distance of an estimated corner from the exact one (m).
     CornerPlaceMax,
-    /// The longest time that a corner cost (s).
+    /// Maximum time for a corner (s).
     CornerTimeMax,
-    /// The longest path of the platform that a corner cost (m).
+    /// Maximum path length of the platform for a corner (m).
     CornerPathMax,
-    /// How often the platform's body touched something.
+    /// Number of collisions of the platform's body.
     Collisions,
-    /// How often the state with this index was entered.
+    /// Number of entries of the state with this index.
     Visits(usize),
-    /// For how long the state with this index was active (s).
+    /// Total time in the state with this index (s).
     TimeIn(usize),
 }
 
@@ -108,8 +108,9 @@ impl RunFigure {
 }
 
 impl Expectation {
-    /// What is wrong with a run of `program` that has these figures (SI, truths as 1 and 0, not a number for what the run
-    /// does not have); `None` if the expectation holds.
+    /// The diagnostic for a run of `program` that violates the expectation. `None` if the expectation holds.
+    ///
+    /// `figure` returns figures in SI units, bools as 1 and 0, and NaN for a figure that the run does not have.
     pub fn violation(&self, program: &Program, figure: impl Fn(RunFigure) -> f64) -> Option<Diagnostic> {
         let mut registers = self.image.clone();
         let parameters = program.parameters.len();
@@ -117,7 +118,7 @@ impl Expectation {
         for place in &self.figures {
             registers[usize::from(place.register)] = figure(place.figure);
         }
-        // A test's code has far fewer operations than this.
+        // The code of a test has far fewer operations than this.
         let everything = 0..u32::try_from(self.code.len()).unwrap_or(u32::MAX);
         compute(&self.code, &everything, &mut registers, &mut Numb);
         if registers[usize::from(self.truth)] > 0.5 {
@@ -131,7 +132,7 @@ impl Expectation {
     }
 }
 
-/// Feels nothing: the code of expectations reads registers only.
+/// Senses without values. The code of expectations reads only registers.
 struct Numb;
 
 impl Senses for Numb {

@@ -14,11 +14,11 @@ pub(super) enum Type {
     Scalar(Dimension),
     Vector(Dimension),
     Whisker,
-    /// The contour behind a whisker's tip.
+    /// The local contour of a whisker.
     Contour,
     /// The platform.
     Body,
-    /// A whole run, as a test sees it.
+    /// A whole run, in a test.
     Run,
 }
 
@@ -28,16 +28,16 @@ impl Type {
     pub(super) const ANGLE: Self = Self::Scalar(Dimension::ANGLE);
     pub(super) const TIME: Self = Self::Scalar(Dimension::TIME);
     pub(super) const SPEED: Self = Self::Scalar(Dimension::SPEED);
-    /// A place or a way.
+    /// A position or a displacement.
     pub(super) const PLACE: Self = Self::Vector(Dimension::LENGTH);
     pub(super) const ANGULAR_SPEED: Self = Self::Scalar(Dimension::ANGULAR_SPEED);
 
-    /// How many registers a value takes.
+    /// Number of registers of a value.
     pub(super) fn width(self) -> u16 {
         if matches!(self, Self::Vector(_)) { 2 } else { 1 }
     }
 
-    /// The type that a name names, if it names one.
+    /// The type with a name, if there is one.
     pub(super) fn named(name: &TypeName) -> Option<Self> {
         let of = name.of.as_ref().map(|of| of.text.as_str());
         match (name.base.text.as_str(), of) {
@@ -52,7 +52,7 @@ impl Type {
     }
 }
 
-/// The dimension that `first` and the factors of a type's name make.
+/// The dimension of a type's name: `first` with the factors.
 fn product(first: &str, name: &TypeName) -> Option<Dimension> {
     name.factors.iter().try_fold(dimension(first)?, |product, (operator, factor)| {
         let factor = dimension(&factor.text)?;
@@ -60,7 +60,7 @@ fn product(first: &str, name: &TypeName) -> Option<Dimension> {
     })
 }
 
-/// The dimensions that type names can name.
+/// The dimensions with names.
 pub(super) const DIMENSIONS: [(&str, Dimension); 12] = [
     ("number", Dimension::NUMBER),
     ("length", Dimension::LENGTH),
@@ -95,7 +95,7 @@ impl fmt::Display for Type {
     }
 }
 
-/// A value that code computes: its type and where it is.
+/// A value in the code: its type and its first register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Value {
     pub(super) r#type: Type,

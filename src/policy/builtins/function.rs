@@ -1,6 +1,6 @@
 //! Functions.
 
-/// A function that the language offers.
+/// A built-in function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::policy) enum Function {
     Abs,
@@ -30,7 +30,7 @@ pub(in crate::policy) enum Function {
     Pid,
 }
 
-/// Every function, by its name, with how it is called and what it gives.
+/// Every function: its name, the function, its notation and its result.
 pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
     ("abs", Function::Abs, "abs(x)", "the magnitude of a number"),
     ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1"),
@@ -89,13 +89,13 @@ pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
     ),
 ];
 
-/// The function called `name`, with how it is called.
+/// The function with a name, and its notation.
 pub(in crate::policy) fn function(name: &str) -> Option<(Function, &'static str)> {
     FUNCTIONS.iter().find(|(known, ..)| *known == name).map(|&(_, function, usage, _)| (function, usage))
 }
 
 impl Function {
-    /// What it takes.
+    /// The arguments of the function.
     pub(in crate::policy) fn takes(self) -> &'static str {
         match self {
             Self::Abs | Self::Sign => "one number of any dimension",

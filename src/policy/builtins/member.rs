@@ -5,47 +5,47 @@ use crate::policy::types::Type;
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::units::Dimension;
 
-/// A member of a whisker, a contour or the body.
+/// A member of a whisker, a contour, the body or a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::policy) struct Member {
     pub(in crate::policy) name: &'static str,
     pub(in crate::policy) r#type: Type,
     pub(in crate::policy) source: MemberSource,
-    /// What it gives for a value in parentheses, if it takes one.
+    /// The vector that the member returns for an argument, if it takes one.
     pub(in crate::policy) at: Option<At>,
-    /// What it means, for the reference page.
+    /// The meaning, for hover texts and the reference page.
     pub(in crate::policy) meaning: &'static str,
 }
 
-/// Where a member's value comes from.
+/// The source of a member's value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::policy) enum MemberSource {
     Scalar(WhiskerScalar),
     Vector(WhiskerVector),
-    /// The contour of the whisker, which is known by the whisker.
+    /// The contour of the whisker. Its value is that of the whisker.
     Contour,
     Body(BodyScalar),
     BodyPosition,
-    /// Only for a value.
+    /// Only with an argument.
     At,
     Run(RunFigure),
-    /// How often a state was entered that is given as a value.
+    /// Number of entries of a state, which is the argument.
     Visits,
-    /// For how long a state was active that is given as a value.
+    /// Total time in a state, which is the argument.
     TimeIn,
 }
 
-/// What a member gives for a value.
+/// A vector that a member returns for an argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::policy) enum At {
-    /// The tip's place at a deflection.
+    /// Position of the tip at a base angle.
     Tip,
-    /// A vector of the contour at a distance behind its end.
+    /// A vector of the contour at a distance from its newest end.
     Contour(ContourVector),
 }
 
 impl At {
-    /// What the value is, its type, and an example.
+    /// The name of the argument, its type, and an example.
     pub(in crate::policy) fn takes(self) -> (&'static str, Type, &'static str) {
         match self {
             Self::Tip => ("deflection", Type::ANGLE, "300 urad"),

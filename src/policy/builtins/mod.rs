@@ -1,5 +1,4 @@
-//! What the language offers: members of whiskers, contours and the body, and functions. The checker reads these tables, and the
-//! reference page is made of them.
+//! Built-in members and functions. The compiler and the reference page use the same tables.
 
 mod function;
 mod member;

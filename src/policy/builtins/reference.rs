@@ -1,4 +1,4 @@
-//! The reference page, made of the tables that the checker reads.
+//! The reference page, generated from the tables of the compiler.
 
 use std::fmt::Write;
 
@@ -95,7 +95,7 @@ Places and directions are in the world (x right, y up) unless said otherwise.
     page
 }
 
-/// The standard library, as its files describe themselves.
+/// The standard library, described by the comments in its files.
 fn standard(page: &mut String) {
     *page += "\n## The standard library\n";
     for (module, text) in MODULES {
@@ -120,7 +120,7 @@ fn standard(page: &mut String) {
     }
 }
 
-/// What the value of a member is called.
+/// The name of a member's argument.
 fn value(at: At) -> &'static str {
     match at {
         At::Tip => "deflection",
@@ -132,7 +132,7 @@ fn row<const N: usize>(page: &mut String, cells: [&str; N]) {
     let _ = writeln!(page, "| {} |", cells.join(" | "));
 }
 
-/// A type in words, without its article.
+/// A type in words, without an article.
 fn shown(r#type: Type) -> String {
     let shown = r#type.to_string();
     shown.strip_prefix("a ").or_else(|| shown.strip_prefix("an ")).unwrap_or(&shown).to_owned()

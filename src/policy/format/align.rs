@@ -1,8 +1,8 @@
-//! Columns: what stands under one another in lines that follow one another.
+//! Alignment of columns in consecutive lines.
 
 use super::line::{Kind, Line, WIDTH};
 
-/// Aligns the `=` and the `in` of statements of one kind, and the comments at the ends of lines.
+/// Aligns `=` and `in` of statements of one kind, and comments at the ends of lines.
 pub(super) fn align(lines: &mut [Line<'_>]) {
     for mark in ["=", "in"] {
         let column = |line: &Line<'_>, below: Option<&Line<'_>>| assigned(line, below, mark);
@@ -12,7 +12,7 @@ pub(super) fn align(lines: &mut [Line<'_>]) {
     align_column(lines, comment, |line, below| line.indent == below.indent, Line::full_width);
 }
 
-/// The piece `mark` of a statement on one line that gives a plain name a value; `below` is the line below.
+/// Index of the piece `mark` in a statement on one line that assigns to a plain name. `below` is the next line.
 fn assigned(line: &Line<'_>, below: Option<&Line<'_>>, mark: &str) -> Option<usize> {
     if line.kind != Kind::Begin || below.is_some_and(|below| below.kind == Kind::Continuation) {
         return None;
@@ -22,8 +22,8 @@ fn assigned(line: &Line<'_>, below: Option<&Line<'_>>, mark: &str) -> Option<usi
     behind.iter().position(|piece| piece.text == mark && behind[0].text == "=").map(|index| equals + index)
 }
 
-/// Moves the pieces that `column` gives to one column, in every run of lines that have one, are alike to the next and have no
-/// blank line between them. A run of which a line would become too wide is left as it is.
+/// Aligns the pieces that `column` returns, in every run of consecutive similar lines without a blank line. A run is
+/// not aligned if a line would become too wide.
 fn align_column<'t>(
     lines: &mut [Line<'t>],
     column: impl Fn(&Line<'t>, Option<&Line<'t>>) -> Option<usize>,

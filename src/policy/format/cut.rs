@@ -1,14 +1,14 @@
-//! Where lines end.
+//! Line breaks.
 
 use super::line::{INDENT, Kind, Line, Piece, WIDTH};
 use super::spacing::{is_apart, may_break};
 use super::structure::{Place, Structure};
 use super::token::Kind as TokenKind;
 
-/// How much farther in the lines of a statement stand that follow its first.
+/// Additional indentation of the second and further lines of a statement.
 const CONTINUATION: usize = 2 * INDENT;
 
-/// The lines of a text.
+/// Divides a text into lines.
 pub(super) fn cut<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
     let mut broken = broken_by_the_author(structure);
     loop {
@@ -20,9 +20,9 @@ pub(super) fn cut<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
     }
 }
 
-/// For every block, whether a line ends in it.
+/// For every block, true if the author's text has a line break in it.
 fn broken_by_the_author(structure: &Structure<'_>) -> Vec<bool> {
-    // How many tokens up to each have a line end before them.
+    // For each token, the number of line breaks up to it.
     let ended: Vec<usize> = structure
         .places
         .iter()
@@ -34,7 +34,7 @@ fn broken_by_the_author(structure: &Structure<'_>) -> Vec<bool> {
     structure.blocks.iter().map(|block| !block.is_empty() && ended[block.open] < ended[block.close]).collect()
 }
 
-/// Breaks all blocks of a statement of which one is broken.
+/// Breaks all blocks of a statement if one of them is broken.
 fn break_together(structure: &Structure<'_>, broken: &mut [bool]) {
     let mut statement = vec![false; broken.len()];
     for (block, &broken) in structure.blocks.iter().zip(&*broken) {
@@ -45,7 +45,7 @@ fn break_together(structure: &Structure<'_>, broken: &mut [bool]) {
     }
 }
 
-/// Breaks the outermost blocks of lines that are too long; whether there was one.
+/// Breaks the outermost blocks of lines that are too long. True if there was one.
 fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [bool]) -> bool {
     let mut any = false;
     for line in lines.iter().filter(|line| line.width() > WIDTH) {
@@ -63,13 +63,13 @@ fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [b
     any
 }
 
-/// Cuts a text whose broken blocks are known.
+/// Divides a text whose broken blocks are known into lines.
 struct Cutter<'s, 't> {
     structure: &'s Structure<'t>,
     broken: &'s [bool],
-    /// The blocks that are open, the innermost last.
+    /// The open blocks, the innermost last.
     open: Vec<usize>,
-    /// How many parentheses of the statement at hand are open.
+    /// Number of open parentheses in the current statement.
     parentheses: usize,
     lines: Vec<Line<'t>>,
 }
@@ -81,7 +81,7 @@ impl<'s, 't> Cutter<'s, 't> {
 
     fn cut(mut self) -> Vec<Line<'t>> {
         let places = &self.structure.places;
-        // The token before that is no comment.
+        // The previous token that is not a comment.
         let mut before: Option<&Place<'t>> = None;
         for (index, place) in places.iter().enumerate() {
             if place.token.is("}") && place.block.is_some() {
@@ -121,7 +121,7 @@ impl<'s, 't> Cutter<'s, 't> {
         block.is_none_or(|block| self.broken[block])
     }
 
-    /// Whether a line ends between two neighbours.
+    /// True if a line ends between two neighbours.
     fn ends_line(&self, before: &Place<'_>, place: &Place<'_>) -> bool {
         let ended = place.token.line_ends > 0;
         if before.token.kind == TokenKind::Comment {
@@ -137,7 +137,7 @@ impl<'s, 't> Cutter<'s, 't> {
         }
     }
 
-    /// The line that begins with the token `index`; `before` is the last token before it that is no comment.
+    /// The line that begins with the token `index`. `before` is the previous token that is not a comment.
     fn line(&self, index: usize, before: Option<&Place<'_>>) -> Line<'t> {
         let place = &self.structure.places[index];
         let level = self.open.len();

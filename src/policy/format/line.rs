@@ -1,16 +1,16 @@
-//! Lines, and the blank ones between them.
+//! Lines, and blank lines between them.
 
 use std::ops::Range;
 
-/// Blanks a level of braces.
+/// Blanks per level of braces.
 pub(super) const INDENT: usize = 2;
-/// A block that fits in so many columns may stay on one line, and nothing is aligned beyond.
+/// The width in columns up to which a block may stay on one line, and up to which columns are aligned.
 pub(super) const WIDTH: usize = 100;
 
 /// A part of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece<'t> {
-    /// Blanks before it.
+    /// Blanks before the piece.
     pub(super) blanks: usize,
     pub(super) text: &'t str,
 }
@@ -21,16 +21,16 @@ impl Piece<'_> {
     }
 }
 
-/// What a line is to those around it.
+/// The kind of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A statement or an item begins here.
+    /// The beginning of a statement or an item.
     Begin,
     /// A comment between statements.
     Comment,
-    /// A block ends here.
+    /// The end of a block.
     Close,
-    /// The statement above goes on.
+    /// The continuation of a statement.
     Continuation,
 }
 
@@ -38,16 +38,16 @@ pub(super) enum Kind {
 #[derive(Debug, Clone)]
 pub(super) struct Line<'t> {
     pub(super) kind: Kind,
-    /// How many blocks are open around it.
+    /// Number of open blocks around the line.
     pub(super) level: usize,
-    /// Blanks before it.
+    /// Blanks before the line.
     pub(super) indent: usize,
     pub(super) pieces: Vec<Piece<'t>>,
-    /// Whether its last piece is a comment behind others.
+    /// True if the last piece is a comment after other pieces.
     pub(super) has_comment: bool,
-    /// Whether a blank line stands above it.
+    /// True if a blank line precedes it.
     pub(super) blank_before: bool,
-    /// The indices of its tokens.
+    /// Indices of its tokens.
     pub(super) tokens: Range<usize>,
 }
 
@@ -75,13 +75,13 @@ impl Line<'_> {
         self.kind == Kind::Comment && self.level == level
     }
 
-    /// Whether it is an item, or a state within a state.
+    /// True for an item, or for an inner state.
     fn is_item(&self) -> bool {
         self.kind == Kind::Begin && (self.level == 0 || self.pieces.first().is_some_and(|piece| piece.text == "state"))
     }
 }
 
-/// Puts a blank line before and behind every item whose block is broken; the comments above it belong to it.
+/// Adds a blank line before and after every item with a broken block. The comments above an item belong to it.
 pub(super) fn separate(lines: &mut [Line<'_>]) {
     for index in 0..lines.len() {
         let level = lines[index].level;
@@ -104,7 +104,7 @@ pub(super) fn separate(lines: &mut [Line<'_>]) {
     }
 }
 
-/// The text of lines.
+/// Converts lines to text.
 pub(super) fn render(lines: &[Line<'_>]) -> String {
     let mut text = String::new();
     for line in lines {

@@ -1,9 +1,8 @@
-//! The formatter: from the text of a policy to the same text, well laid out.
+//! The formatter. It changes only blanks and line breaks.
 //!
-//! It works on tokens and keeps every one of them, comments included, in their order. Only where a statement begins it asks
-//! the grammar; so a construct that the grammar gains is laid out like those before it. Where the author broke a statement it
-//! stays broken, a block on one line stays there if it fits, and everything else follows from the tokens alone. That is why
-//! formatting twice gives what formatting once does.
+//! It works on tokens and keeps all of them, including comments, in their order. Only the beginnings of statements come
+//! from the grammar, so a new construct needs no change here. A statement that the author broke stays broken. A block
+//! on one line stays there if it fits. Everything else follows from the tokens alone, so formatting is idempotent.
 
 mod align;
 mod cut;
@@ -20,11 +19,11 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 use super::grammar;
 use super::recover::faults;
 
-/// The text of a policy, laid out by the rules of `docs/language.md`.
+/// Formats the text of a policy by the rules of `docs/language.md`.
 ///
 /// # Errors
-/// The faults of syntax that keep the text from being read, or that the layout would make the text too long to be read. Names,
-/// types and units need not be right.
+/// The syntax errors that prevent parsing, or the report that the formatted text would be too long. Names, types and
+/// units are not checked.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::format};
@@ -54,11 +53,11 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     Ok(text)
 }
 
-/// Words that can stand in an item and outside of every bracket, but for the one that it begins with.
+/// Keywords that can occur in an item outside of all brackets, except the one with which it begins.
 const WITHIN_ITEMS: [&str; 7] = ["in", "and", "or", "not", "true", "false", "body"];
 
-/// The comment at the end of a line that begins with the name of an item, if it belongs to that item: if it stands behind the
-/// item's end, or directly behind the brace that opens its block.
+/// The comment at the end of a line that begins with the name of an item, if it belongs to this item. It does if it
+/// follows the end of the item, or directly follows its opening brace.
 pub(super) fn comment_behind(line: &str) -> Option<&str> {
     let (mut open, mut is_opened) = (0_usize, false);
     for token in token::tokens(line) {

@@ -1,15 +1,15 @@
-//! What stands between two tokens: nothing, a blank, or a line end.
+//! Spacing between two tokens on a line.
 
 use super::structure::{Place, Role};
 use super::token::{Kind, Token};
 
-/// Marks that have a blank on both sides unless a rule says otherwise. Around any other mark the author's blanks stay, so that
-/// two marks never become one that means something else.
+/// Marks with a blank on both sides, apart from exceptions. Around other marks the author's blanks stay, so that two
+/// marks cannot become one with another meaning.
 const MARKS: [&str; 22] = [
     "+", "-", "*", "/", "<", ">", "<=", ">=", "==", "!=", "=", "->", "..", ",", ":", "(", ")", "{", "}", "|", "[", "]",
 ];
 
-/// Whether a blank stands between two neighbours on one line.
+/// True if a blank separates two neighbours on one line.
 pub(super) fn is_apart(before: &Place<'_>, place: &Place<'_>) -> bool {
     let (left, right) = (&before.token, &place.token);
     if left.kind == Kind::Comment || right.kind == Kind::Comment {
@@ -30,7 +30,7 @@ fn is_known(token: &Token<'_>) -> bool {
     token.kind != Kind::Mark || MARKS.contains(&token.text)
 }
 
-/// Whether the author may end a line between two neighbours of one statement.
+/// True if the author may end a line between two neighbours of one statement.
 pub(super) fn may_break(before: &Place<'_>, place: &Place<'_>) -> bool {
     let (left, right) = (&before.token, &place.token);
     let head = before.begins || left.text == "else" || left.is("}") || right.is("{");

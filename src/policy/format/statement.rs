@@ -1,12 +1,13 @@
-//! Where statements and items begin: the one thing that tokens alone do not tell.
+//! First bytes of statements and items. Tokens alone do not determine them.
 
 use pest::iterators::Pairs;
 
 use crate::policy::grammar::Rule;
 
-/// The first bytes of all items of a file and of all that stands in its braces, ascending.
+/// The first bytes of all items of a file and of all elements in its braces, in ascending order.
 ///
-/// Whatever the grammar puts between an opening and a closing brace counts; so this knows no construct by its name.
+/// Every element that the grammar has between an opening and a closing brace counts. Therefore this code names no
+/// construct.
 pub(super) fn starts(pairs: Pairs<'_, Rule>) -> Vec<usize> {
     let mut starts = Vec::new();
     for pair in pairs.flatten() {

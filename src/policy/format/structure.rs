@@ -1,43 +1,43 @@
-//! Which tokens belong together: operators and their operands, brackets, blocks, statements.
+//! Groups of tokens: operators with operands, brackets, blocks, statements.
 
 use super::token::{Kind, Token};
 
-/// Words of the language that stand for a value.
+/// Keywords that are values.
 const VALUES: [&str; 3] = ["body", "true", "false"];
 
-/// What a token is to its neighbours.
+/// The role of a token among its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// A parenthesis or a bar that opens.
+    /// An opening parenthesis or bar.
     Opens,
-    /// A parenthesis or a bar that closes.
+    /// A closing parenthesis or bar.
     Closes,
-    /// A minus that has no operand before it.
+    /// A minus without a left operand.
     Prefix,
     /// A value, or a part of one that another part may follow without a blank.
     Operand,
     Other,
 }
 
-/// A token in its place.
+/// A token with its role.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place<'t> {
     pub(super) token: Token<'t>,
     pub(super) role: Role,
-    /// Whether a statement or an item begins here.
+    /// True if a statement or an item begins here.
     pub(super) begins: bool,
-    /// Of a brace: the block that it opens or closes.
+    /// The block that a brace opens or closes.
     pub(super) block: Option<usize>,
 }
 
-/// What stands between two braces.
+/// The content of a pair of braces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Block {
-    /// Index of the token that opens it.
+    /// Index of the opening brace.
     pub(super) open: usize,
-    /// Index of the token that closes it.
+    /// Index of the closing brace.
     pub(super) close: usize,
-    /// The first block of its statement, such as that of the `if` to which this is the `else`; a block by itself is its own.
+    /// The first block of the same statement: for `else`, the block of `if`. Otherwise the block itself.
     pub(super) first: usize,
 }
 
@@ -47,23 +47,23 @@ impl Block {
     }
 }
 
-/// The tokens of a text in their places, and its blocks.
+/// The tokens of a text with their roles, and its blocks.
 #[derive(Debug)]
 pub(super) struct Structure<'t> {
     pub(super) places: Vec<Place<'t>>,
-    /// In the order in which they open.
+    /// In the order of their opening braces.
     pub(super) blocks: Vec<Block>,
 }
 
-/// The structure of a text whose statements and items begin at the bytes `starts`, ascending.
+/// The structure of a text whose statements and items begin at the bytes `starts`, in ascending order.
 pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structure<'t> {
     let mut starts = starts.iter().copied().peekable();
     let mut before: Option<Place<'t>> = None;
     let (mut places, mut blocks) = (Vec::with_capacity(tokens.len()), Vec::<Block>::new());
-    // For every block that is open, itself and the first block of the statement at hand.
+    // For every open block, its index and the first block of its current statement.
     let mut open: Vec<(usize, Option<usize>)> = vec![];
     let mut first = None;
-    // The names behind a `use` are no values, and its list is no list of arguments.
+    // The names after `use` are not values, and its list is not a list of arguments.
     let mut is_use = false;
     for token in tokens {
         let index = places.len();

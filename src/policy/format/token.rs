@@ -1,25 +1,25 @@
-//! The tokens of a policy's text. They are those of the grammar, and comments.
+//! The tokens of a policy: those of the grammar, and comments.
 
 use crate::policy::grammar::{is_keyword, is_word};
 
-/// Marks of more than one character.
+/// Marks with more than one character.
 const LONG_MARKS: [&str; 6] = ["->", "<=", ">=", "==", "!=", ".."];
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::policy) enum Kind {
     /// A name.
     Name,
-    /// A word of the language.
+    /// A keyword.
     Keyword,
     Number,
-    /// The unit behind a number, with all its factors.
+    /// The unit after a number, with all its factors.
     Unit,
-    /// A text with its quotation marks.
+    /// A string with its quotation marks.
     Text,
-    /// A comment without the blanks at its end.
+    /// A comment without trailing blanks.
     Comment,
-    /// A bracket, an operator, a sign that separates.
+    /// A bracket, an operator or a separator.
     Mark,
 }
 
@@ -30,9 +30,9 @@ pub(in crate::policy) struct Token<'t> {
     pub(in crate::policy) text: &'t str,
     /// Its first byte in the text.
     pub(in crate::policy) start: usize,
-    /// Whether something blank stands between it and the token before.
+    /// True if blanks or line ends precede the token.
     pub(in crate::policy) apart: bool,
-    /// How many lines end between it and the token before.
+    /// Number of line ends between the token and the previous one.
     pub(in crate::policy) line_ends: usize,
 }
 
@@ -42,7 +42,7 @@ impl Token<'_> {
     }
 }
 
-/// The tokens of any text, whether it is a policy or not.
+/// The tokens of any text, valid or not.
 pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token<'_>> = Vec::new();
     let mut at = 0;
@@ -78,7 +78,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
     }
 }
 
-/// Length of the number that `text` begins with: digits, perhaps a fraction, perhaps an exponent.
+/// Length of the number at the beginning of `text`: digits, with an optional fraction and exponent.
 fn number(text: &str) -> usize {
     let digits = |at: usize| text[at..].bytes().take_while(u8::is_ascii_digit).count();
     let mut length = digits(0);
@@ -95,7 +95,7 @@ fn number(text: &str) -> usize {
     length
 }
 
-/// Length of the unit that `text` begins with; 0 if it begins with none.
+/// Length of the unit at the beginning of `text`. 0 if there is none.
 fn unit(text: &str) -> usize {
     let mut length = unit_name(text);
     while length > 0 && text[length..].starts_with(['/', '*']) {
@@ -107,7 +107,7 @@ fn unit(text: &str) -> usize {
     length
 }
 
-/// Length of the one factor of a unit, with its exponent, that `text` begins with; 0 if it begins with none.
+/// Length of the unit factor with its exponent at the beginning of `text`. 0 if there is none.
 fn unit_name(text: &str) -> usize {
     let mut length = text.bytes().take_while(u8::is_ascii_alphabetic).count();
     if is_keyword(&text[..length]) {

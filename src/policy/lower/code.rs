@@ -1,22 +1,22 @@
-//! The code and the registers of a program in the making.
+//! Generated code and its registers.
 
 use std::collections::BTreeMap;
 
 use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
 
-/// The code and the registers of a program in the making.
+/// The code and registers of a program that is being generated.
 #[derive(Debug)]
 pub(super) struct Code {
     pub(super) ops: Vec<Op>,
-    /// What registers hold at the start of a run.
+    /// Initial values of the registers.
     pub(super) image: Vec<f64>,
     /// Registers of constants, by their bits.
     constants: BTreeMap<u64, Register>,
-    /// Whether the program outgrew its limits, from when on nothing more is written.
+    /// True if the program exceeded its limits. No more code is emitted then.
     pub(super) full: bool,
 }
 
-/// An amount of code.
+/// A position in the code.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mark {
     ops: usize,
@@ -28,19 +28,19 @@ impl Code {
         Self { ops: Vec::new(), image: Vec::new(), constants: BTreeMap::new(), full: false }
     }
 
-    /// How much there is, to [`rewind`](Self::rewind) to.
+    /// The current position, for [`rewind`](Self::rewind).
     pub(super) fn mark(&self) -> Mark {
         Mark { ops: self.ops.len(), registers: self.image.len() }
     }
 
-    /// Throws away what was written since `mark`.
+    /// Discards the code after `mark`.
     pub(super) fn rewind(&mut self, mark: Mark) {
         self.ops.truncate(mark.ops);
         self.image.truncate(mark.registers);
         self.constants.retain(|_, register| usize::from(*register) < mark.registers);
     }
 
-    /// A fresh place for `width` numbers.
+    /// The first of `width` new registers.
     pub(super) fn place(&mut self, width: u16) -> Register {
         if self.image.len() + usize::from(width) > REGISTER_LIMIT {
             self.full = true;
@@ -51,7 +51,7 @@ impl Code {
         register
     }
 
-    /// A place that holds `value` from the start.
+    /// A register with the constant `value`.
     pub(super) fn constant(&mut self, value: f64) -> Register {
         if let Some(&register) = self.constants.get(&value.to_bits()) {
             return register;
@@ -66,7 +66,7 @@ impl Code {
         register
     }
 
-    /// Writes one operation.
+    /// Emits an operation.
     pub(super) fn push(&mut self, op: Op) {
         if self.ops.len() >= CODE_LIMIT {
             self.full = true;
@@ -75,21 +75,21 @@ impl Code {
         }
     }
 
-    /// Writes an operation whose result is one number, and says where that will be.
+    /// Emits an operation whose result is a number. Returns its register.
     pub(super) fn scalar(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
         let to = self.place(1);
         self.push(op(to));
         to
     }
 
-    /// Writes an operation whose result is a vector, and says where that will be.
+    /// Emits an operation whose result is a vector. Returns its first register.
     pub(super) fn vector(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
         let to = self.place(2);
         self.push(op(to));
         to
     }
 
-    /// Takes back the last operation if it is a difference of vectors; gives the places of the two.
+    /// Removes the last operation if it is a difference of vectors. Returns its operands.
     pub(super) fn take_difference(&mut self) -> Option<(Register, Register)> {
         let Some(&Op::SubtractVectors { a, b, .. }) = self.ops.last() else { return None };
         if self.full {
@@ -99,24 +99,24 @@ impl Code {
         Some((a, b))
     }
 
-    /// Copies `width` numbers.
+    /// Copies `width` registers.
     pub(super) fn copy(&mut self, to: Register, from: Register, width: u16) {
         for offset in 0..width {
             self.push(Op::Copy { to: to + offset, a: from + offset });
         }
     }
 
-    /// Where the next operation will be.
+    /// Index of the next operation.
     pub(super) fn here(&self) -> u32 {
         u32::try_from(self.ops.len()).unwrap_or(u32::MAX)
     }
 
-    /// What was written since `start`.
+    /// The block of code since `start`.
     pub(super) fn since(&self, start: u32) -> Block {
         start..self.here()
     }
 
-    /// Lets the jump at `jump` lead to the next operation.
+    /// Sets the target of the jump at `jump` to the next operation.
     pub(super) fn land(&mut self, jump: u32) {
         let here = self.here();
         if let Some(Op::Jump { target } | Op::JumpUnless { target, .. }) = self.ops.get_mut(jump as usize) {

@@ -14,7 +14,7 @@ use super::Compiler;
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
-    /// Writes the code of an expression. `None` when the expression is at fault, which has been reported then.
+    /// Lowers an expression. `None` if it has an error, which has been reported.
     pub(super) fn expression(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
         self.descend(expression.span, |compiler| compiler.kind(scope, expression))
     }
@@ -53,7 +53,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Writes the code of an expression that must have a type.
+    /// Lowers an expression that must have a type.
     pub(super) fn expect(&mut self, scope: &Scope<'f>, expression: &'f Expression, wanted: Type) -> Option<Value> {
         let value = self.expression(scope, expression)?;
         if value.r#type == wanted {
@@ -84,9 +84,9 @@ impl<'f> Compiler<'f> {
         None
     }
 
-    /// The SI value and the dimension of a number with a unit.
+    /// The SI value and dimension of a number with a unit.
     pub(super) fn quantity(&mut self, quantity: &Quantity) -> Option<(f64, Dimension)> {
-        // The grammar lets nothing through that is not a number.
+        // The grammar accepts only valid numbers.
         let number: f64 = quantity.number.parse().unwrap_or(f64::NAN);
         let (value, dimension) = match &quantity.unit {
             None => (number, Dimension::NUMBER),
@@ -98,7 +98,7 @@ impl<'f> Compiler<'f> {
                     let place = Span::new(unit.span.start + range.start, unit.span.start + range.end);
                     let diagnostic =
                         Diagnostic::error("P0302", message, place, error.to_string()).hint(unit_hint(&error));
-                    // The grammar takes `50 mm/t` for a number with a unit.
+                    // The grammar accepts `50 mm/t` as a number with a unit.
                     self.report(match unit.text.find(['/', '*']) {
                         Some(at) if at < range.start => {
                             let sign = &unit.text[at..=at];
@@ -157,7 +157,7 @@ impl<'f> Compiler<'f> {
         Some(value)
     }
 
-    /// Reports parentheses behind what takes no values.
+    /// Reports parentheses after a name that takes no values.
     fn not_called(&mut self, message: String, place: Span) {
         let diagnostic = Diagnostic::error("P0304", message, place, "called like a function");
         self.report(diagnostic.hint("leave out the parentheses"));
@@ -232,7 +232,7 @@ impl<'f> Compiler<'f> {
         let Value { r#type, register: a } = self.expression(scope, inner)?;
         match r#type {
             Type::Vector(dimension) => {
-                // A difference that nothing else can name is not needed by itself.
+                // An unnamed difference is not used elsewhere, so its operation can be removed.
                 let difference = if let Kind::Binary { .. } = inner.kind { self.code.take_difference() } else { None };
                 let register = match difference {
                     Some((a, b)) => self.code.scalar(|to| Op::Distance { to, a, b }),
@@ -315,7 +315,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The dimension of a product, unless its exponents went out of range.
+    /// The dimension of a product, unless its exponents exceed their range.
     pub(super) fn dimension(&mut self, dimension: Option<Dimension>, span: Span) -> Option<Dimension> {
         if dimension.is_none() {
             let diagnostic = Diagnostic::error("P0305", "the dimension has too large an exponent", span, "of this");
@@ -324,14 +324,14 @@ impl<'f> Compiler<'f> {
         dimension
     }
 
-    /// Reports a value of a type that does not belong.
+    /// Reports a value of the wrong type.
     pub(super) fn mismatch<T>(&mut self, span: Span, found: Type, rule: &str) -> Option<T> {
         self.report(Diagnostic::error("P0301", rule, span, format!("is {found}")));
         None
     }
 }
 
-/// What to do about operands that do not go together.
+/// Advice for operands of types that do not fit.
 fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
     match (operator, left, right) {
         (Binary::Or | Binary::And, ..) => Some("both sides must be truths".to_owned()),

@@ -1,4 +1,4 @@
-//! Calls: of the language's functions, and of derived values.
+//! Calls of built-in functions and of derived values.
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Argument, Derived, Expression, Name};
@@ -11,7 +11,7 @@ use super::Compiler;
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
-    /// Writes a call of one of the language's functions.
+    /// Lowers a call of a built-in function.
     pub(super) fn function(
         &mut self,
         scope: &Scope<'f>,
@@ -119,14 +119,14 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Fresh registers for the memory of a stateful function, which the state being written resets when it is entered.
+    /// New registers for the memory of a stateful function. The entry of the current state resets them.
     fn memory(&mut self, count: u16) -> u16 {
         let memory = self.code.place(count);
         self.memories.push((memory, count));
         memory
     }
 
-    /// The unit vector in the direction of an angle.
+    /// The unit vector with the direction of an angle.
     fn direction(&mut self, angle: u16) -> u16 {
         let to = self.code.place(2);
         self.code.push(Op::Cosine { to, a: angle });
@@ -134,7 +134,7 @@ impl<'f> Compiler<'f> {
         to
     }
 
-    /// The number that is a share of the way from one to another.
+    /// Linear interpolation between two numbers.
     fn blend(&mut self, [from, into]: [u16; 2], share: u16) -> u16 {
         let one = self.code.constant(1.0);
         let rest = self.code.scalar(|to| Op::Subtract { to, a: one, b: share });
@@ -143,7 +143,7 @@ impl<'f> Compiler<'f> {
         self.code.scalar(|to| Op::Add { to, a: first, b: second })
     }
 
-    /// A function of one number.
+    /// An elementary function of one number.
     fn elementary(&mut self, function: Function, a: u16) -> u16 {
         match function {
             Function::Cos => self.code.scalar(|to| Op::Cosine { to, a }),
@@ -157,10 +157,10 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The angle with the sine or the cosine `x`: that of a vector of length 1. Not a number unless there is one.
+    /// The angle whose sine or cosine is `x`, computed as the angle of a unit vector. NaN outside of -1 to 1.
     fn arc(&mut self, function: Function, x: u16) -> u16 {
         let one = self.code.constant(1.0);
-        // 1 - x² without the loss of digits near 1.
+        // 1 - x² as a product, because a difference would lose digits near 1.
         let below = self.code.scalar(|to| Op::Subtract { to, a: one, b: x });
         let above = self.code.scalar(|to| Op::Add { to, a: one, b: x });
         let rest = self.code.scalar(|to| Op::Multiply { to, a: below, b: above });
@@ -172,7 +172,7 @@ impl<'f> Compiler<'f> {
         self.code.scalar(|to| Op::Angle { to, a: vector })
     }
 
-    /// The dot or the cross product of two vectors.
+    /// The dot or cross product of two vectors.
     fn product(&mut self, function: Function, a: u16, b: u16) -> u16 {
         let crossed = u16::from(function == Function::Cross);
         let first = self.code.scalar(|to| Op::Multiply { to, a, b: b + crossed });
@@ -186,7 +186,7 @@ impl<'f> Compiler<'f> {
         })
     }
 
-    /// Writes a derived value into the place of its use.
+    /// Inlines a derived value.
     pub(super) fn derived_value(
         &mut self,
         scope: &Scope<'f>,
@@ -201,8 +201,8 @@ impl<'f> Compiler<'f> {
         value
     }
 
-    /// The scope of a law or derived value that is used with `values`. `None` if these do not fit, or if it is broken or uses
-    /// itself; all of that has been reported then.
+    /// The scope of a law or derived value with `values` for its arguments. `None` if they do not fit, or if it has an
+    /// error or is recursive. All of these have been reported.
     pub(super) fn arguments(
         &mut self,
         scope: &Scope<'f>,
@@ -231,7 +231,7 @@ impl<'f> Compiler<'f> {
         let mut inner = Scope::default();
         let mut complete = true;
         for (argument, value) in arguments.iter().zip(values) {
-            // An unknown type is reported where the law itself is checked.
+            // An unknown type is reported where the law is declared.
             let value = match Type::named(&argument.type_name) {
                 Some(r#type) => self.expect(scope, value, r#type),
                 None => self.expression(scope, value).and(None),
@@ -255,7 +255,7 @@ pub(super) fn count(values: usize) -> String {
     }
 }
 
-/// Whether the gains of a PID controller make of the error what the limit is.
+/// True if the gains of a PID controller convert the error to the dimension of the limit.
 fn is_pid(error: Dimension, p: Dimension, i: Dimension, d: Dimension, limit: Dimension) -> bool {
     let integrated = error.checked_mul(Dimension::TIME);
     let changing = error.checked_div(Dimension::TIME);

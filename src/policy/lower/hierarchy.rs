@@ -1,13 +1,13 @@
-//! Which states lie in which.
+//! The state hierarchy.
 
 use crate::policy::ast::State;
 
-/// Which states lie in which.
+/// The state hierarchy of a machine.
 #[derive(Debug, Default)]
 pub(super) struct Hierarchy<'f> {
-    /// In the order of the text: an outer state comes before the states in it.
+    /// In the order of the text, so an outer state precedes its inner states.
     pub(super) states: &'f [State],
-    /// For every state, those that lie directly in it.
+    /// For every state, its direct inner states.
     inner: Vec<Vec<usize>>,
 }
 
@@ -22,24 +22,24 @@ impl<'f> Hierarchy<'f> {
         Self { states, inner }
     }
 
-    /// The states that lie directly in a state.
+    /// The direct inner states of a state.
     pub(super) fn inner(&self, state: usize) -> &[usize] {
         &self.inner[state]
     }
 
-    /// A state and those that it lies in, the innermost first.
+    /// A state and its ancestors, the innermost first.
     pub(super) fn outward(&self, state: usize) -> impl Iterator<Item = usize> + use<'f> {
         let states = self.states;
         std::iter::successors(Some(state), move |&state| states[state].parent)
     }
 
-    /// Whether a state is `outer` or lies in it.
+    /// True if a state is `outer` or inside it.
     pub(super) fn contains(&self, outer: usize, state: usize) -> bool {
         self.outward(state).any(|state| state == outer)
     }
 
-    /// The states that a transition of the state `from`, or of any state, enters on the way to `target`: from the outermost
-    /// that does not stay active to the target itself.
+    /// The states that a transition of the state `from`, or a global one, enters: from the outermost state that does
+    /// not stay active to `target`.
     pub(super) fn entered(&self, from: Option<usize>, target: usize) -> Vec<usize> {
         let stays = |outer: usize| outer != target && from.is_some_and(|from| self.contains(outer, from));
         let mut way: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();

@@ -1,4 +1,4 @@
-//! What is kept from tick to tick: by the machine itself, and by states.
+//! Memory of states and of the machine, kept from tick to tick.
 
 use crate::policy::ast::{Expression, File, Name};
 use crate::policy::types::Value;
@@ -8,7 +8,7 @@ use super::Compiler;
 use super::scope::{Meaning, Scope};
 
 impl<'f> Compiler<'f> {
-    /// Writes what sets the machine's own memory. The names that all states know, and the code.
+    /// Lowers the initialisation of the machine's memory. Returns the names that all states know, and the code.
     pub(super) fn own_memory(&mut self, file: &'f File) -> (Scope<'f>, Block) {
         let mut scope = Scope::default();
         let start = self.code.here();
@@ -16,14 +16,14 @@ impl<'f> Compiler<'f> {
             let memory = self.expression(&scope, value).map(|value| self.copied(value));
             self.note_type(name, memory);
             self.watch_growth(name.span);
-            // That the name is not taken was seen to with those of the other items.
+            // The check of item names has already refused duplicates.
             scope.insert(name, memory);
         }
         (scope, self.code.since(start))
     }
 
-    /// A place for a state's memory that is set to a value. That is written into the entry, which comes last, when it is known
-    /// what else there is to reset.
+    /// A register for a state's memory with an initial value. The entry code sets it, and is generated last, when all
+    /// memory is known.
     pub(super) fn remember(&mut self, scope: &Scope<'f>, value: &'f Expression) -> Meaning {
         let mark = self.code.mark();
         let value = self.expression(scope, value);
@@ -31,10 +31,10 @@ impl<'f> Compiler<'f> {
         value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) })
     }
 
-    /// Writes what sets a state's memory to what it begins with.
+    /// Lowers the initialisation of a state's memory.
     pub(super) fn set_memory(&mut self, scope: &Scope<'f>, memory: &'f [(Name, Expression)]) {
         for (name, value) in memory {
-            // A fault of the value has been reported when its place was made.
+            // An error of the value was reported when the register was created.
             if let Some(memory) = scope.get(&name.text).flatten()
                 && let Some(value) = self.expression(scope, value)
             {

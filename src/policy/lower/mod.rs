@@ -1,7 +1,7 @@
-//! From the syntax tree to a program: names, types, units, code.
+//! Lowering: from the syntax tree to a program. It checks names, types and units, and generates code.
 //!
-//! Laws and derived values are written into the place where they are used, so that a program has no calls. Each is checked by
-//! itself first, with arguments of unknown value; one that is at fault is reported there and not again where it is used.
+//! Laws and derived values are inlined, so a program has no calls. Each is first checked separately, with unknown
+//! arguments. Its errors are reported there, and not again where it is used.
 
 mod code;
 mod expression;
@@ -33,18 +33,18 @@ use scope::{Meaning, Scope};
 
 pub(super) use scope::is_reserved;
 
-/// A program, and what else is known of it once it is written.
+/// A program, and the further results of lowering.
 pub(super) struct Lowered {
     pub(super) program: Program,
     pub(super) tests: Vec<PolicyTest>,
-    /// What each state is entered with: names, types and places.
+    /// The arguments of each state: names, types and registers.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
 }
 
-/// The types of what names stand for, by the place at which each is given its meaning.
+/// The types of names, by the span of their declaration.
 pub(super) type Types = HashMap<Span, Type>;
 
-/// Checks laws and derived values, those of a library by itself.
+/// Checks laws and derived values, those of a library separately.
 pub(super) fn check(files: &Files) -> Result<(), Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     structure::items(&mut compiler, files);
@@ -59,7 +59,7 @@ fn in_order(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Checks a policy and writes its program.
+/// Checks a policy and generates its program.
 pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     let program = structure::machine(&mut compiler, files);
@@ -77,7 +77,7 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     }
 }
 
-/// The types of the names in all files, as far as their faults let them be known.
+/// The types of the names in all files, as far as errors permit.
 pub(super) fn types(files: &Files) -> Types {
     let mut compiler = Compiler::new();
     compiler.types = Some(Types::new());
@@ -89,63 +89,62 @@ pub(super) fn types(files: &Files) -> Types {
     compiler.types.unwrap_or_default()
 }
 
-/// How deep expressions, laws and derived values may nest when all of them are written out, so that walking them cannot
-/// exhaust the stack.
+/// The maximum nesting depth of expressions after inlining, so that recursion cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 250;
-/// The most nodes of the syntax tree that are visited, counting those of laws and derived values once for every use, so
-/// that compiling takes bounded time.
+/// The maximum number of visited nodes of the syntax tree, with inlined ones counted for every use. It bounds the time
+/// of compilation.
 const WORK_LIMIT: usize = 500_000;
 
-/// A state that transitions can lead to.
+/// A state as the target of transitions.
 #[derive(Clone)]
 struct StateEntry {
     index: usize,
-    /// Its arguments and where they live.
+    /// Its arguments and their registers.
     arguments: Vec<(String, Meaning)>,
 }
 
-/// What gives no command, and where to put one instead.
+/// A construct that gives no command, with advice where to put the command.
 #[derive(Clone, Copy)]
 struct Commandless {
     place: &'static str,
     hint: &'static str,
 }
 
-/// Everything that is known while code is written.
+/// The state of the compiler during lowering.
 struct Compiler<'f> {
     code: Code,
     diagnostics: Vec<Diagnostic>,
-    /// What names stand for in each file, the policy first.
+    /// The names of each file, the policy first.
     files: Vec<Names<'f>>,
-    /// The number of the file that is being written.
+    /// The number of the current file.
     here: usize,
-    /// What is known of the types of names, if that is asked for.
+    /// The types of names, if they are requested.
     types: Option<Types>,
     states: HashMap<&'f str, StateEntry>,
     hierarchy: Hierarchy<'f>,
-    /// Where laws and derived values are named whose own check failed.
+    /// Declarations of laws and derived values with errors.
     broken: HashSet<Span>,
-    /// Laws and derived values that are being written into their place of use.
+    /// Laws and derived values that are being inlined.
     writing: Vec<&'f Name>,
-    /// What the state does whose transitions are being written.
+    /// The statements of the state whose transitions are being lowered.
     doing: &'f [Statement],
     /// The memory of the state whose memory is being declared.
     begun: &'f [(Name, Expression)],
-    /// The memory that the machine, the state being written and its outer states have declared.
+    /// The memory of the machine, of the current state and of its outer states.
     variables: Vec<&'f Name>,
-    /// Registers in which stateful functions of the state being written keep their memory: the first, and how many.
+    /// Memory of stateful functions in the current state: the first register, and the number of registers.
     memories: Vec<(Register, u16)>,
-    /// The figures of the run that the expectation being written reads; `None` outside of tests.
+    /// The figures that the current expectation reads. `None` outside of tests.
     figures: Option<Vec<FigurePlace>>,
     tests: Vec<PolicyTest>,
-    /// Why commands are not allowed in what is being written, if they are not.
+    /// The construct that does not allow commands here, if there is one.
     commandless: Option<Commandless>,
-    /// Where the outermost of the laws is used that are being written.
+    /// Span of the use of the outermost law that is being inlined.
     used: Option<Span>,
-    /// How deep the walk through the syntax tree is, and how many nodes it has visited.
+    /// Current depth in the syntax tree, and number of visited nodes.
     depth: usize,
     work: usize,
-    /// The item that was being written when the program outgrew its limits.
+    /// The item that was being lowered when the program exceeded its limits.
     outgrown: Option<Span>,
 }
 
@@ -181,12 +180,12 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Whether there is no point in going on: the program is too large, or there are faults enough.
+    /// True if lowering should stop: the program is too large, or there are enough errors.
     fn is_exhausted(&self) -> bool {
         self.code.full || self.work > WORK_LIMIT || self.diagnostics.len() >= FAULT_LIMIT
     }
 
-    /// Goes one level deeper into the syntax tree, at `span`, unless that is too deep or the compiler is exhausted.
+    /// Enters one level of the syntax tree at `span`, unless that is too deep or the compiler is exhausted.
     fn descend<T>(&mut self, span: Span, walk: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         self.work += 1;
         if self.is_exhausted() {
@@ -207,21 +206,21 @@ impl<'f> Compiler<'f> {
         result
     }
 
-    /// Takes note of the type of what `name` stands for, if it is known.
+    /// Records the type of `name`, if it is known.
     fn note_type(&mut self, name: &Name, value: Option<Value>) {
         if let Some(types) = &mut self.types {
             types.extend(value.map(|value| (name.span, value.r#type)));
         }
     }
 
-    /// A scope in which `arguments` stand for values that are not known yet.
+    /// A scope in which `arguments` have unknown values.
     fn scope_of_arguments(&mut self, arguments: &'f [Argument]) -> Scope<'f> {
         let mut scope = Scope::default();
         self.bind_arguments(&mut scope, 0, arguments);
         scope
     }
 
-    /// Adds `arguments`, whose values are not known yet, to a scope whose first `hidable` names they may hide.
+    /// Adds `arguments` with unknown values to a scope. They may hide its first `hidable` names.
     fn bind_arguments(&mut self, scope: &mut Scope<'f>, hidable: usize, arguments: &'f [Argument]) {
         for argument in arguments {
             let meaning = self.type_of(&argument.type_name).map(|r#type| {
@@ -232,7 +231,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The type that a name names, if it names one.
+    /// The type with a name, if there is one.
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
         let found = Type::named(name);
         if found.is_none() {
@@ -242,7 +241,7 @@ impl<'f> Compiler<'f> {
     }
 }
 
-/// The report of a type that does not exist.
+/// The diagnostic for an unknown type.
 fn unknown_type(name: &TypeName) -> Diagnostic {
     let dimensions = DIMENSIONS.iter().map(|&(known, _)| known);
     let list = dimensions.clone().collect::<Vec<_>>().join(", ");

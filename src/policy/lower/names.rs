@@ -1,4 +1,4 @@
-//! What names stand for in each file: its own items, and those that it uses.
+//! The names of each file: its own items, and imported ones.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,29 +10,29 @@ use crate::policy::load::Files;
 use super::Compiler;
 use super::scope::{Meaning, is_reserved, reserved, taken};
 
-/// What names stand for in one file.
+/// The names of one file.
 #[derive(Debug, Default)]
 pub(super) struct Names<'f> {
-    /// Where each item, and each memory of the machine, is named.
+    /// Spans of the declarations of items and of the machine's memory.
     pub(super) items: HashMap<&'f str, Span>,
-    /// The names of the machine's memory, which not all of the file knows.
+    /// Names of the machine's memory, which laws and derived values do not know.
     pub(super) memory: HashSet<&'f str>,
     /// Parameters and whiskers.
     pub(super) globals: HashMap<&'f str, Meaning>,
-    /// Derived values and laws, each with the number of the file that it stands in.
+    /// Derived values and laws, each with the number of its file.
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
 }
 
 impl Names<'_> {
-    /// Where an item is named that the whole file knows.
+    /// Span of the declaration of an item that the whole file knows.
     pub(super) fn item(&self, name: &str) -> Option<Span> {
         self.items.get(name).copied().filter(|_| !self.memory.contains(name))
     }
 }
 
 impl<'f> Compiler<'f> {
-    /// What names stand for in the file that is being written.
+    /// The names of the current file.
     pub(super) fn names(&self) -> &Names<'f> {
         &self.files[self.here]
     }
@@ -41,7 +41,7 @@ impl<'f> Compiler<'f> {
         &mut self.files[self.here]
     }
 
-    /// Writes something of another file.
+    /// Lowers a part of another file.
     pub(super) fn within<T>(&mut self, file: usize, write: impl FnOnce(&mut Self) -> T) -> T {
         let before = std::mem::replace(&mut self.here, file);
         let written = write(self);
@@ -49,7 +49,7 @@ impl<'f> Compiler<'f> {
         written
     }
 
-    /// Gathers what names stand for in all files; the policy's comes first.
+    /// Collects the names of all files. The policy comes first.
     pub(super) fn gather_names(&mut self, files: &'f Files) {
         let all: Vec<&'f File> = std::iter::once(&files.main).chain(&files.libraries).collect();
         self.files.resize_with(all.len(), Names::default);
@@ -65,7 +65,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// One name means one thing in a file.
+    /// Collects the file's own items. Each name may be declared once per file.
     fn own_names(&mut self, number: usize, file: &'f File) {
         let parameters = file.parameters.iter().map(|parameter| &parameter.name);
         let derived = file.derived.iter().map(|derived| &derived.name);
@@ -87,7 +87,7 @@ impl<'f> Compiler<'f> {
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
     }
 
-    /// Makes the items of the library `other`, which is file `number`, known where it is used.
+    /// Imports the items of the library `other`, file `number`, for the `use` `used`.
     fn import(&mut self, used: &'f Use, number: usize, other: &'f File) {
         let own = || other.derived.iter().map(|item| &item.name).chain(other.laws.iter().map(|item| &item.name));
         let chosen: Vec<(&'f Name, Span)> = match &used.names {
@@ -122,7 +122,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// What a name in the list of a `use` means.
+    /// The meaning of a name in the list of a `use`.
     fn choose(
         &mut self,
         name: &'f Name,

@@ -9,14 +9,14 @@ use vibrissa_runtime::units::{Dimension, parse_unit};
 use super::Compiler;
 
 impl<'f> Compiler<'f> {
-    /// Checks a parameter. The one with index `i` must come as the `i`th.
+    /// Checks a parameter. Parameters must be passed in the order of their indices.
     pub(super) fn parameter(&mut self, parameter: &'f Parameter) -> Option<machine::Parameter> {
         let (default, dimension) = self.bound(&parameter.value, None)?;
         let range = match &parameter.range {
             None => None,
             Some((low, high)) => {
                 let (high_value, high_dimension) = self.bound(high, None)?;
-                // `in 1 .. 200 mm/s`: the unit behind the range is that of both ends.
+                // `in 1 .. 200 mm/s`: the unit at the end applies to both bounds.
                 let (low_value, low_dimension) = self.bound(low, Some(high))?;
                 for (bound, found) in [(high, high_dimension), (low, low_dimension)] {
                     if found != dimension {
@@ -62,7 +62,7 @@ impl<'f> Compiler<'f> {
         })
     }
 
-    /// A bound's SI value and dimension; without a unit of its own it takes that of `other`.
+    /// The SI value and dimension of a bound. Without a unit of its own, the bound takes that of `other`.
     pub(super) fn bound(&mut self, bound: &'f Bound, other: Option<&'f Bound>) -> Option<(f64, Dimension)> {
         let (mut value, mut dimension) = self.quantity(&bound.quantity)?;
         if let (None, Some(unit)) = (&bound.quantity.unit, other.and_then(|other| other.quantity.unit.as_ref()))
@@ -74,7 +74,7 @@ impl<'f> Compiler<'f> {
     }
 }
 
-/// What to do about a value and a range in two dimensions.
+/// Advice for a value and a range with different dimensions.
 fn units_hint(value: Dimension, range: Dimension) -> String {
     let units = |dimension| units_of(dimension).join(", ");
     match (value, range) {

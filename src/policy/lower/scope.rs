@@ -1,4 +1,4 @@
-//! Names and what they stand for.
+//! Scopes.
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, Name, Statement};
@@ -12,10 +12,10 @@ use vibrissa_runtime::units::suggest;
 
 use super::Compiler;
 
-/// What a name stands for: a value, or nothing when the value is at fault, which has been reported then.
+/// The meaning of a name: a value, or `None` if the value has an error that has been reported.
 pub(super) type Meaning = Option<Value>;
 
-/// The names that one law, derived value or state gives to values; later ones in front.
+/// The names that a law, derived value or state declares. Later ones take precedence.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scope<'f> {
     names: Vec<(&'f Name, Meaning)>,
@@ -26,7 +26,7 @@ impl<'f> Scope<'f> {
         self.find(name).map(|&(_, meaning)| meaning)
     }
 
-    /// Where the name was given that is known by this text.
+    /// Span of the declaration of a name.
     pub(super) fn given(&self, name: &str) -> Option<Span> {
         self.find(name).map(|(known, _)| known.span)
     }
@@ -35,22 +35,22 @@ impl<'f> Scope<'f> {
         self.names.push((name, meaning));
     }
 
-    /// How many names there are, to [`truncate`](Self::truncate) to.
+    /// Number of names, for [`truncate`](Self::truncate).
     pub(super) fn len(&self) -> usize {
         self.names.len()
     }
 
-    /// The names that came after the first `len`.
+    /// The names after the first `len`.
     pub(super) fn since(&self, len: usize) -> Vec<(&'f Name, Meaning)> {
         self.names[len..].to_vec()
     }
 
-    /// Forgets the names that came after the first `len`.
+    /// Removes the names after the first `len`.
     pub(super) fn truncate(&mut self, len: usize) {
         self.names.truncate(len);
     }
 
-    /// The names without those of `hidden`.
+    /// The scope without the names of `hidden`.
     pub(super) fn without(&self, hidden: &'f [(Name, Expression)]) -> Self {
         let is_hidden = |name: &Name| hidden.iter().any(|(hidden, _)| hidden.text == name.text);
         Self { names: self.names.iter().filter(|(name, _)| !is_hidden(name)).copied().collect() }
@@ -62,8 +62,10 @@ impl<'f> Scope<'f> {
 }
 
 impl<'f> Compiler<'f> {
-    /// Gives a name to a value in a scope, unless the name is taken: by an item of the file, or by a name of the scope. Those before the first
-    /// `hidable` names may be given again, and are hidden then: they are of states around, and of the machine.
+    /// Binds a name to a value, unless an item of the file or a name of the scope has the same name.
+    ///
+    /// The first `hidable` names, those of outer states and of the machine, may be declared again. They are hidden
+    /// then.
     pub(super) fn bind(&mut self, scope: &mut Scope<'f>, hidable: usize, name: &'f Name, meaning: Meaning) {
         let own = scope.names[hidable..].iter().rev().find(|(known, _)| known.text == name.text);
         let before = own.map(|(known, _)| known.span);
@@ -76,7 +78,7 @@ impl<'f> Compiler<'f> {
         scope.insert(name, meaning);
     }
 
-    /// Reports a name that stands for nothing.
+    /// Reports an unknown name.
     pub(super) fn unknown_name(&mut self, scope: &Scope<'f>, name: &Name) {
         let message = format!("nothing is called `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
@@ -94,7 +96,8 @@ impl<'f> Compiler<'f> {
                 "a `var` of a state knows only those above it; a name that the state gives hides that of a state around it in the whole state",
             )
         } else if self.variables.iter().any(|known| known.text == *text) {
-            // Whoever knows memory at all knows a state's where that is written; so it is the machine's.
+            // Code that may access memory at all knows the state's memory where it is declared, and that of the
+            // machine.
             diagnostic.hint(if self.writing.is_empty() && self.figures.is_none() {
                 format!("`{text}` is memory of the machine: a `var` of the machine knows only those above it")
             } else {
@@ -104,7 +107,7 @@ impl<'f> Compiler<'f> {
                 )
             })
         } else if self.names().items.contains_key(text.as_str()) {
-            // Everything else that has a name is a value.
+            // Every other named thing is a value.
             diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
         } else if self.doing.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text)) {
             diagnostic.hint(format!(
@@ -134,7 +137,7 @@ impl<'f> Compiler<'f> {
     }
 }
 
-/// Adds the module of the standard library that has `name` to a diagnostic, if there is one.
+/// Adds advice to a diagnostic if the standard library contains `name`.
 pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Diagnostic {
     match standard::module_with(name) {
         Some(module) => {
@@ -144,18 +147,18 @@ pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Dia
     }
 }
 
-/// Whether a name has a meaning of its own in the language.
+/// True if the language reserves a name.
 pub(in crate::policy) fn is_reserved(name: &str) -> bool {
     builtins::function(name).is_some() || ["time", "run", super::structure::FAILURE].contains(&name)
 }
 
-/// The report of a name that has a meaning of its own.
+/// The diagnostic for a reserved name.
 pub(super) fn reserved(name: &Name) -> Diagnostic {
     let message = format!("the name `{}` belongs to the language", name.text);
     Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name")
 }
 
-/// The report of a name that was given before.
+/// The diagnostic for a name that is already declared.
 pub(super) fn taken(name: &Name, before: Span) -> Diagnostic {
     let message = format!("the name `{}` is given twice", name.text);
     Diagnostic::error("P0202", message, name.span, "given again here")

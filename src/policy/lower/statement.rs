@@ -10,7 +10,7 @@ use super::scope::{Scope, in_the_standard_library};
 use super::{Commandless, Compiler};
 
 impl<'f> Compiler<'f> {
-    /// Writes the code of statements; names given in them end with them.
+    /// Lowers statements. Names that they declare end with them.
     pub(super) fn statements(&mut self, scope: &mut Scope<'f>, statements: &'f [Statement]) {
         let names = scope.len();
         for statement in statements {
@@ -18,7 +18,7 @@ impl<'f> Compiler<'f> {
             if self.is_exhausted() {
                 break;
             }
-            // Whatever is at fault has been reported; the next statement may have faults of its own.
+            // An error in one statement has been reported. The next statement is checked, too.
             let _ = self.statement(scope, statement);
         }
         scope.truncate(names);
@@ -58,7 +58,7 @@ impl<'f> Compiler<'f> {
         Some(())
     }
 
-    /// A value that stays what it is: a copy, if it is that of memory, which `set` can change.
+    /// A value that later assignments cannot change: a copy if it is memory, otherwise the value itself.
     fn kept(&mut self, scope: &Scope<'f>, value: Value) -> Value {
         let memory =
             |name: &&Name| scope.get(&name.text).flatten().is_some_and(|memory| memory.register == value.register);
@@ -68,7 +68,7 @@ impl<'f> Compiler<'f> {
         self.copied(value)
     }
 
-    /// A value of its own that begins as another.
+    /// A copy of a value in its own registers.
     pub(super) fn copied(&mut self, value: Value) -> Value {
         let width = value.r#type.width();
         let register = self.code.place(width);
@@ -76,12 +76,12 @@ impl<'f> Compiler<'f> {
         Value { register, ..value }
     }
 
-    /// Writes a command, unless there can be none here.
+    /// Emits a command, unless commands are not allowed here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
         if let Some(Commandless { place, hint }) = self.commandless {
             let message = format!("{place} gives no command");
             let diagnostic = match (self.used, self.writing.first()) {
-                // Others may use the law: its commands are at fault only here.
+                // Other uses of the law may be valid, so the error is reported at this use.
                 (Some(used), Some(law)) => {
                     Diagnostic::error("P0407", message, used, format!("`{}` gives one", law.text))
                 }
@@ -103,7 +103,7 @@ impl<'f> Compiler<'f> {
             let message = format!("`{}` cannot be set", name.text);
             self.report(if self.writing.is_empty() {
                 let diagnostic = Diagnostic::error("P0406", message, name.span, "no memory that is known here");
-                // What is hidden has the very name.
+                // A hidden name has the same spelling, so it must not be suggested.
                 let others = self.variables.iter().map(|known| known.text.as_str()).filter(|known| *known != name.text);
                 did_you_mean(diagnostic, &name.text, others).hint(format!(
                     "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or by the machine and all states if \

@@ -1,4 +1,4 @@
-//! The machine as a whole: names of items, states, transitions.
+//! The whole machine: items, states, transitions.
 
 use std::sync::Arc;
 
@@ -14,20 +14,21 @@ use super::hierarchy::Hierarchy;
 use super::scope::{Meaning, Scope};
 use super::{Commandless, Compiler, StateEntry};
 
-/// The target that ends a run in failure; no state may have its name.
+/// The target that ends a run in failure. No state may have this name.
 pub(super) const FAILURE: &str = "Failure";
-/// Where a command belongs that an entry or an exit cannot give.
+/// Advice for a command in `entry` or `exit`, which cannot give commands.
 const ENTERED: &str = "put it among what a state does every tick; the tick that enters a state runs that too";
 
-/// Checks what a policy and its libraries name, and all laws and derived values by themselves. The parameters of the policy.
+/// Checks the items of a policy and its libraries, and all laws and derived values separately. Returns the parameters
+/// of the policy.
 pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<machine::Parameter> {
     compiler.gather_names(files);
     let parameters = compiler.parameters(&files.main);
     compiler.whiskers(&files.main);
     for (number, file) in files.libraries.iter().chain([&files.main]).enumerate() {
-        // The policy has the number 0.
+        // The policy has the number 0 and is checked last.
         compiler.here = (number + 1) % (files.libraries.len() + 1);
-        // The standard library has no fault; its tests see to that.
+        // Tests ensure that the standard library has no errors.
         if compiler.here > 0 && file.is_standard && compiler.types.is_none() {
             continue;
         }
@@ -37,7 +38,8 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
     parameters
 }
 
-/// Reports if the program has outgrown its limits, at the item where it did, which may be what stands at `last`.
+/// Reports a program that exceeds its limits, at the item where this happened. `last` is used if the last item exceeded
+/// them.
 pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
     compiler.watch_growth(last);
     if let Some(item) = compiler.outgrown {
@@ -48,15 +50,15 @@ pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
     }
 }
 
-/// Checks a policy and writes its program. `None` when it has no state to start in.
+/// Checks a policy and generates its program. `None` if there is no initial state.
 pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Option<Program> {
     let file = &files.main;
-    // Laws and derived values, which come first, are told that they do not know it.
+    // Laws and derived values come first and cannot access this memory. Their error messages mention it.
     compiler.variables.extend(file.memory.iter().map(|(name, _)| name));
     let parameters = items(compiler, files);
     let (scope, entry) = compiler.own_memory(file);
     let body = compiler.own_body(&scope, file);
-    // Every state's arguments need their places before any transition can lead there.
+    // The registers of all arguments must exist before any transition is lowered.
     compiler.hierarchy = Hierarchy::new(&file.states);
     let declared = compiler.declare(file, &scope);
     let mut timers = 0;
@@ -77,7 +79,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         parameters,
         states,
         initial: initial?,
-        // The optimiser finds out what need not be done in every tick.
+        // The optimiser adds code that is executed once per run.
         start: 0..0,
         entry,
         body,
@@ -90,7 +92,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
 }
 
 impl<'f> Compiler<'f> {
-    /// A state can be entered with a whisker only if there is one.
+    /// Reports states with a whisker as argument if the machine has no whisker.
     fn check_whisker_arguments(&mut self, file: &'f File) {
         if !file.whiskers.is_empty() {
             return;
@@ -131,7 +133,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The tip model of every whisker.
+    /// The contact estimator of every whisker.
     fn tip_models(&mut self, file: &'f File) -> Vec<machine::TipModelKind> {
         let mut kinds = Vec::with_capacity(file.whiskers.len());
         let mut faulty = None;
@@ -154,7 +156,7 @@ impl<'f> Compiler<'f> {
         kinds
     }
 
-    /// Checks derived values by themselves.
+    /// Checks derived values separately.
     fn check_derived(&mut self, file: &'f File) {
         for derived in &file.derived {
             self.check(&derived.name, &derived.arguments, |compiler, scope| {
@@ -164,15 +166,14 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Checks laws by themselves.
+    /// Checks laws separately.
     fn check_laws(&mut self, file: &'f File) {
         for law in &file.laws {
             self.check(&law.name, &law.arguments, |compiler, scope| compiler.statements(scope, &law.body));
         }
     }
 
-    /// Writes a law or derived value with arguments of unknown value, throws the code away, and remembers whether there
-    /// was a fault.
+    /// Lowers a law or derived value with unknown arguments, discards the code, and records an error.
     fn check(&mut self, name: &'f Name, arguments: &'f [Argument], write: impl FnOnce(&mut Self, &mut Scope<'f>)) {
         let (mark, faults) = (self.code.mark(), self.diagnostics.len());
         let mut scope = self.scope_of_arguments(arguments);
@@ -188,14 +189,14 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Remembers the item at `span` if the program has just outgrown its limits.
+    /// Records the item at `span` if the program has just exceeded its limits.
     pub(super) fn watch_growth(&mut self, span: Span) {
         if self.code.full || self.work > super::WORK_LIMIT {
             self.outgrown.get_or_insert(span);
         }
     }
 
-    /// Writes what the machine does every tick.
+    /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
         self.commandless =
             Some(Commandless { place: "the machine itself", hint: "put it among what a state does every tick" });
@@ -207,10 +208,11 @@ impl<'f> Compiler<'f> {
         body
     }
 
-    /// Makes all states known, with places for their arguments and memory. Gives the names that each state adds to those of
-    /// its outer states and `own`, which the machine gives.
+    /// Declares all states, with registers for their arguments and memory.
+    ///
+    /// Returns the names that each state adds to those of its outer states and of `own`, the machine's names.
     fn declare(&mut self, file: &'f File, own: &Scope<'f>) -> Vec<Vec<(&'f Name, Meaning)>> {
-        // How many names there are when a state has given its own.
+        // Number of names in scope after each state's own names.
         let mut ends: Vec<usize> = Vec::with_capacity(file.states.len());
         let mut scope = own.clone();
         let mut declared = Vec::with_capacity(file.states.len());
@@ -226,7 +228,7 @@ impl<'f> Compiler<'f> {
             let names = state.arguments.iter().map(|argument| &argument.name.text);
             let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
             self.states.insert(&state.name.text, StateEntry { index, arguments });
-            // In all of the state its own memory hides that of states around it, also above where it is declared.
+            // A state's own memory hides that of outer states in the whole state, also before its declaration.
             self.begun = &state.memory;
             let mut known = scope.without(&state.memory);
             for (name, value) in &state.memory {
@@ -241,7 +243,7 @@ impl<'f> Compiler<'f> {
         declared
     }
 
-    /// Writes all states; `declared` are the names that each adds to those of its outer states and `own`, which the machine gives.
+    /// Lowers all states. `declared` has the names that each state adds to those of its outer states and of `own`.
     fn states(
         &mut self,
         file: &'f File,
@@ -290,7 +292,7 @@ impl<'f> Compiler<'f> {
         machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, failsafe }
     }
 
-    /// Writes what a state does when it is entered.
+    /// Lowers the entry of a state.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
         self.commandless = Some(Commandless { place: "entering a state", hint: ENTERED });
         let start = self.code.here();
@@ -299,14 +301,14 @@ impl<'f> Compiler<'f> {
             self.code.push(Op::Clear { memory, count });
         }
         self.statements(scope, &state.entry);
-        // What these remember is for nothing else: the next entry begins anew.
+        // Reset at every entry, because this memory belongs to one activation of the state.
         for (memory, count) in std::mem::take(&mut self.memories) {
             self.code.push(Op::Clear { memory, count });
         }
         self.code.since(start)
     }
 
-    /// Writes the transitions of the state `from`, or of any state: first all guards, then where they lead.
+    /// Lowers the transitions of the state `from`, or the global ones: first all guards, then the targets.
     fn transitions(
         &mut self,
         scope: &Scope<'f>,
@@ -346,7 +348,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Where to go when the machine cannot go on. There is one at most.
+    /// Lowers the fallback transition of the state `from` or of the machine. There is at most one.
     fn failsafe(&mut self, scope: &Scope<'f>, from: Option<usize>, failsafes: &'f [Target]) -> Option<machine::Target> {
         let mut written = failsafes.iter().map(|target| (target.span, self.target(scope, from, target)));
         let (first, failsafe) = written.next()?;

@@ -1,4 +1,4 @@
-//! Where a machine goes: the targets of transitions, and the states in which it and its outer states begin.
+//! Targets of transitions, and initial states.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ use super::scope::{Meaning, Scope};
 use super::structure::FAILURE;
 use super::{Compiler, StateEntry};
 
-/// The values that a state is given, and the arguments that they are for.
+/// The values for a state, and its arguments.
 type Given<'f> = (&'f [Expression], Vec<(String, Meaning)>);
 
 impl<'f> Compiler<'f> {
-    /// Writes the target of a transition of the state `from`, or of any state.
+    /// Lowers the target of a transition of the state `from`, or of a global one.
     pub(super) fn target(
         &mut self,
         scope: &Scope<'f>,
@@ -81,7 +81,7 @@ impl<'f> Compiler<'f> {
         Some(machine::Target::State { state, arguments, resume: target.resume.is_some() })
     }
 
-    /// The values of the outer states on the `way` to a state, which are entered with it.
+    /// The values of the outer states that the transition enters. `way` lists the entered states.
     fn outer_values(&mut self, target: &'f Target, state: usize, way: &[usize]) -> Option<Vec<Given<'f>>> {
         let path = self.path(way);
         let mut steps: Vec<(usize, &Step)> = Vec::with_capacity(target.outer.len());
@@ -135,7 +135,7 @@ impl<'f> Compiler<'f> {
         Some(given)
     }
 
-    /// How the last of the states on a way is written, with those outer ones that take values.
+    /// The notation of the last state of `way`, with the outer states that take values.
     fn path(&self, way: &[usize]) -> String {
         let usages = way.iter().enumerate().filter_map(|(level, &index)| {
             let name = &self.hierarchy.states[index].name.text;
@@ -155,7 +155,7 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Whether a state on a way is given as many values as it takes.
+    /// Checks the number of values for a state of `way`.
     fn check_count(
         &mut self,
         name: &Name,
@@ -177,8 +177,8 @@ impl<'f> Compiler<'f> {
         None
     }
 
-    /// Writes the values that states are entered with. All are computed before the first is put into its place: a state may
-    /// hand its own arguments on to itself in another order.
+    /// Emits the values of the entered states' arguments. All are computed before the first is stored, because a state
+    /// may pass its own arguments to itself in another order.
     fn pass(&mut self, scope: &Scope<'f>, given: &[Given<'f>]) -> Option<Block> {
         let start = self.code.here();
         let pairs = given.iter().flat_map(|(values, arguments)| values.iter().zip(arguments));
@@ -203,7 +203,7 @@ impl<'f> Compiler<'f> {
         Some(self.code.since(start))
     }
 
-    /// The state in which the machine begins.
+    /// The initial state of the machine.
     pub(super) fn initial(&mut self, file: &'f File) -> Option<usize> {
         let [name] = file.initial.as_slice() else {
             let diagnostic = match file.initial.as_slice() {
@@ -241,7 +241,7 @@ impl<'f> Compiler<'f> {
         None
     }
 
-    /// The inner state in which a state begins, and the values that it begins with; `None` if there are no states in it.
+    /// The initial inner state of a state, and its values. `None` if there are no inner states.
     pub(super) fn inner_initial(
         &mut self,
         scope: &Scope<'f>,
@@ -297,7 +297,7 @@ fn second_initial(message: &str, first: Span, second: Span) -> Diagnostic {
         .hint("keep one of them")
 }
 
-/// How a state is written with its values.
+/// The notation of a state with its arguments.
 fn usage(name: &str, arguments: &[(String, Meaning)]) -> String {
     let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
     if names.is_empty() { name.to_owned() } else { format!("{name}({})", names.join(", ")) }

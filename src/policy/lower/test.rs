@@ -1,4 +1,4 @@
-//! The tests that a policy carries. None of their code is left in the program.
+//! Lowering of tests. Their code is not part of the program.
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test};
@@ -11,7 +11,7 @@ use super::Compiler;
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
-    /// Checks the tests of a file whose parameters are these.
+    /// Lowers the tests of a file with these parameters.
     pub(super) fn tests(&mut self, file: &'f File, parameters: &[Parameter]) {
         for (index, test) in file.tests.iter().enumerate() {
             if let Some(first) = file.tests[..index].iter().find(|first| first.title.text == test.title.text) {
@@ -49,7 +49,7 @@ impl<'f> Compiler<'f> {
     fn setting(&mut self, (name, value): &'f (Name, Bound), parameters: &[Parameter]) -> Option<(usize, f64)> {
         let (value_si, dimension) = self.bound(value, None)?;
         if let Some(None) = self.names().globals.get(name.text.as_str()) {
-            // The parameter is at fault, which has been reported.
+            // The error in the parameter has been reported.
             return None;
         }
         let Some(index) = parameters.iter().position(|parameter| parameter.name == name.text) else {
@@ -95,7 +95,7 @@ impl<'f> Compiler<'f> {
         Some(Expectation { span: truth.span, code, image, truth: value.register, figures })
     }
 
-    /// A place for a figure of the run.
+    /// A register for a figure of the run.
     pub(super) fn figure(&mut self, figure: RunFigure, span: Span) -> Register {
         let register = self.code.place(1);
         if let Some(figures) = &mut self.figures {
@@ -104,7 +104,7 @@ impl<'f> Compiler<'f> {
         register
     }
 
-    /// A place for a figure of the run and the state that `values` name.
+    /// A register for a figure of the run and of the state that `values` names.
     pub(super) fn run_of_state(
         &mut self,
         figure: fn(usize) -> RunFigure,
@@ -128,7 +128,7 @@ impl<'f> Compiler<'f> {
     }
 }
 
-/// Whether an operation of an expression reads what is felt, or remembers from tick to tick.
+/// True if an operation reads senses or has memory. Expectations allow neither.
 fn reads_a_tick(op: &Op) -> bool {
     matches!(
         op,

@@ -7,13 +7,13 @@ use crate::policy::pair::Pair;
 
 use super::{Parsed, Reader, internal, named, quantity, values};
 
-/// Expressions may nest this deep, so that walking the tree cannot exhaust the stack.
+/// The maximum nesting depth, so that recursion cannot exhaust the stack.
 const DEPTH_LIMIT: usize = 200;
 
-/// Binds tighter than every operator.
+/// Precedence of prefix operators, above that of every binary operator.
 const PREFIX_POWER: u8 = 6;
 
-/// The operator that is written so, and how tight it binds.
+/// The operator with this text, and its precedence.
 pub(super) fn binary(sign: &str) -> Option<(Binary, u8)> {
     Some(match sign {
         "or" => (Binary::Or, 1),
@@ -32,7 +32,7 @@ pub(super) fn binary(sign: &str) -> Option<(Binary, u8)> {
     })
 }
 
-/// Precedence climbing over the flat list of operands and operators that the grammar gives.
+/// Precedence climbing over the flat list of operands and operators.
 pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
     let mut left = operand(reader)?;
     while let Some((operator, power)) = reader.peek().map(Pair::as_str).and_then(binary) {
@@ -58,7 +58,7 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
             node(Kind::Negate(Box::new(inner)), span, depth)
         }
         Rule::kw_not => {
-            // `not` takes a whole comparison: `not a < b` is `not (a < b)`.
+            // `not` applies to a whole comparison: `not a < b` is `not (a < b)`.
             let inner = climb(reader, 3)?;
             let (span, depth) = (span.to(inner.span), inner.depth);
             node(Kind::Not(Box::new(inner)), span, depth)
@@ -104,7 +104,7 @@ fn deepest(values: Option<&[Expression]>) -> usize {
     values.into_iter().flatten().map(|value| value.depth).max().unwrap_or(0)
 }
 
-/// A node above others of which the deepest has `depth` levels.
+/// A node whose deepest child has `depth` levels.
 fn node(kind: Kind, span: Span, depth: usize) -> Parsed<Expression> {
     if depth >= DEPTH_LIMIT {
         let message = format!("the expression nests more than {DEPTH_LIMIT} deep");

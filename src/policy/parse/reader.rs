@@ -1,4 +1,4 @@
-//! The inner pairs of a pair, taken in order.
+//! A reader of the inner pairs of a pair.
 
 use crate::diagnostic::Span;
 use crate::policy::ast::{Expression, Name};
@@ -7,11 +7,11 @@ use crate::policy::pair::{Pair, Pairs};
 
 use super::{Parsed, climb, internal, named};
 
-/// The inner pairs of a pair, taken in order.
+/// The inner pairs of a pair, read in order.
 pub(super) struct Reader<'i> {
     /// The pair itself.
     whole: Pair<'i>,
-    /// The rest of those in it.
+    /// The remaining inner pairs.
     rest: Pairs<'i>,
 }
 
@@ -20,7 +20,7 @@ impl<'i> Reader<'i> {
         Self { whole: pair, rest: pair.into_inner() }
     }
 
-    /// Where the pair stands.
+    /// Span of the pair.
     pub(super) fn span(&self) -> Span {
         self.whole.place()
     }
@@ -37,7 +37,7 @@ impl<'i> Reader<'i> {
         self.rest().ok_or_else(|| internal(self.span()))
     }
 
-    /// The next pair, until there is none.
+    /// The next pair. `None` at the end.
     pub(super) fn rest(&mut self) -> Option<Pair<'i>> {
         self.rest.next()
     }
@@ -51,7 +51,7 @@ impl<'i> Reader<'i> {
         Ok(named(self.take(Rule::name)?))
     }
 
-    /// All names that come next.
+    /// All names at the current position.
     pub(super) fn names(&mut self) -> Parsed<Vec<Name>> {
         let mut names = Vec::new();
         while self.has(Rule::name) {

@@ -1,4 +1,4 @@
-//! States, the states in them, and what leads to them.
+//! States, inner states, and targets.
 
 use crate::diagnostic::Span;
 use crate::policy::ast::{Expression, Name, State, Step, Target};
@@ -7,7 +7,7 @@ use crate::policy::pair::Pair;
 
 use super::{Parsed, Reader, arguments, block, statement, text, transition, values};
 
-/// Adds a state and those in it to `states`.
+/// Adds a state and its inner states to `states`.
 pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, arguments) = (reader.name()?, arguments(reader)?);
     let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! The tests that a policy carries.
+//! Tests of a policy.
 
 use crate::policy::ast::Test;
 use crate::policy::grammar::Rule;
