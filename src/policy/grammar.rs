@@ -1,4 +1,4 @@
-//! The grammar at work: from text to pest's pairs, and from its errors to diagnostics.
+//! The use of the grammar: from text to pairs, and from pest's errors to diagnostics.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -13,12 +13,12 @@ use super::pair::{self, Found};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
 
-/// Brackets may nest this deep; a parser that recurses must stop somewhere, and no policy comes near.
+/// The maximum nesting depth of brackets. It bounds the recursion of the parser, and no realistic policy reaches it.
 const NESTING_LIMIT: usize = 64;
-/// Greatest length of a policy's text (bytes), a hundred times that of a long policy.
+/// The maximum length of a policy's text (bytes), a hundred times that of a long policy.
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
 
-/// Words behind which an expression begins.
+/// Keywords that are followed by an expression.
 const WORDS_BEFORE_OPERANDS: [&str; 15] = [
     "and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning",
     "expect",
@@ -35,20 +35,20 @@ mod derived {
 
 pub(super) use derived::Rule;
 
-/// What is found in the standard library's modules. It is the same in every compilation, and a third of all that is parsed.
+/// The matches in the modules of the standard library. They never change, and are a third of all parsed text.
 static STANDARD: [OnceLock<Vec<Found>>; MODULES.len()] = [const { OnceLock::new() }; MODULES.len()];
 
-/// What is found in a module of the standard library, if this is the text of one.
+/// The matches in a module of the standard library, if the text is one.
 fn standard(source: &Source) -> Option<&'static [Found]> {
     let (_, found) = MODULES.iter().zip(&STANDARD).find(|((_, text), _)| *text == source.text)?;
     if found.get().is_none() {
-        // Another thread may have been faster, with the same result.
+        // Another thread may have stored the same result first.
         let _ = found.set(pair::all(parse(source).ok()?));
     }
     found.get().map(Vec::as_slice)
 }
 
-/// All that is found in a whole file; borrowed if it is one of the standard library.
+/// The matches in a whole file. They are borrowed for a module of the standard library.
 pub(super) fn found(source: &Source) -> Result<Cow<'static, [Found]>, Box<Diagnostic>> {
     match standard(source) {
         Some(found) => Ok(Cow::Borrowed(found)),
@@ -75,29 +75,32 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))
 }
 
-/// The words that have a meaning of their own: each is a rule of the grammar that is called `kw_` and the word.
+/// The keywords. Each is a rule of the grammar with the name `kw_` and the word.
 static KEYWORDS: LazyLock<HashSet<String>> = LazyLock::new(|| {
     let rules = Rule::all_rules().iter().map(|rule| format!("{rule:?}"));
     rules.filter_map(|rule| rule.strip_prefix("kw_").map(str::to_owned)).collect()
 });
 
-/// Whether a text is a word that has a meaning of its own and so cannot be a name.
+/// True if a text is a keyword, so that it cannot be a name.
 pub(super) fn is_keyword(text: &str) -> bool {
     KEYWORDS.contains(text)
 }
 
-/// The first bracket or bar that nests too deep.
+/// The first bracket or bar that exceeds the nesting limit.
 fn too_deep(text: &str) -> Option<Span> {
     brackets(text).err()
 }
 
-/// The places of the brackets and bars that `text` opens and does not close, the innermost last; those in comments and
-/// texts do not count. The place of the first that nests too deep, if one does.
+/// Positions of the brackets and bars that `text` opens and does not close, the innermost last. Those in comments and
+/// strings do not count.
 ///
-/// A bar closes where an operand stands before it and opens where none does, just as the grammar takes it.
+/// A bar closes if an operand precedes it, and otherwise opens, as in the grammar.
+///
+/// # Errors
+/// Span of the first bracket that exceeds the nesting limit.
 pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
     let mut opened = Vec::new();
-    // The last word or sign, but for bars.
+    // The last token, except bars.
     let mut before = "";
     let mut at = 0;
     while let Some(&byte) = text.as_bytes().get(at) {
@@ -135,12 +138,12 @@ pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
     Ok(opened)
 }
 
-/// Whether an operand can end with a word or sign, so that a bar behind it closes.
+/// True if an operand can end with a token, so that a following bar closes.
 fn ends_operand(before: &str) -> bool {
     [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !WORDS_BEFORE_OPERANDS.contains(&before)
 }
 
-/// The length of the word that a text begins with (bytes).
+/// Length of the word at the beginning of a text (bytes).
 fn word_length(text: &str) -> usize {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
     match text.bytes().enumerate().find(|&(_, byte)| !is_plain(byte)) {

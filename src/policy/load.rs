@@ -6,36 +6,36 @@ use super::ast::{File, Use};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
-/// The most files that a policy may consist of.
+/// The maximum number of files of a policy.
 pub(super) const FILE_LIMIT: usize = 64;
-/// The most bytes that all of them may have.
+/// The maximum size of all files together (bytes).
 const TEXT_LIMIT: usize = 1 << 20;
 
-/// Gives the text of a file by its path, or says why it cannot.
+/// Returns the text of a file by its path, or the reason for which it cannot be read.
 pub type Library<'l> = dyn FnMut(&str) -> Result<String, String> + 'l;
 
-/// The files of a policy, read.
+/// The parsed files of a policy.
 pub(super) struct Loaded {
     /// All texts.
     pub(super) source: Source,
-    /// The syntax trees, the policy's first; `None` for what cannot be read.
+    /// The syntax trees, that of the policy first. `None` for a file that cannot be parsed.
     files: Vec<Option<File>>,
-    /// For every `use` of every file, the index of the file that it means.
+    /// For every `use` of every file, the index of the used file.
     links: Vec<Vec<Option<usize>>>,
     recovery: Recovery,
 }
 
-/// Files that fit together: what they use is there and is a library, and none uses itself.
+/// Consistent files: all used files exist and are libraries, and none uses itself.
 pub(super) struct Files {
-    /// The policy, or the library, that was asked for.
+    /// The requested policy or library.
     pub(super) main: File,
-    /// What it uses, and what that uses.
+    /// The files that it uses directly or indirectly.
     pub(super) libraries: Vec<File>,
-    /// For every `use` of every file, the index of the library that it means.
+    /// For every `use` of every file, the index of the used library.
     pub(super) links: Vec<Vec<usize>>,
 }
 
-/// Reads a policy's text and, in `library`, those of the files that it uses and that are no parts of the source yet.
+/// Parses a policy and the files that it uses. Files that are not parts of the source come from `library`.
 pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
     let mut loaded =
         Loaded { source: source.clone(), files: Vec::new(), links: Vec::new(), recovery: Recovery::default() };
@@ -55,7 +55,7 @@ pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
     loaded
 }
 
-/// The text of the file called `name`, if a policy with these texts can have it too.
+/// The text of the file `name`, if the policy does not exceed its limits with it.
 pub(super) fn text_of(source: &Source, name: &str, library: &mut Library<'_>) -> Result<String, String> {
     let text = standard(name).map_or_else(|| library(name), |text| Ok(text.to_owned()))?;
     let fits = source.text.len() + text.len() < TEXT_LIMIT;
@@ -67,7 +67,7 @@ impl Loaded {
         self.recovery.report(fault);
     }
 
-    /// The index of the file that `used` means in the file called `using`.
+    /// The index of the file that `used` means in the file `using`.
     fn link(&mut self, using: &str, used: &Use, library: &mut Library<'_>) -> Option<usize> {
         let name = resolve(using, used).map_err(|fault| self.report(*fault)).ok()?;
         let known = (0..self.source.count()).find(|&index| match index {
@@ -93,22 +93,22 @@ impl Loaded {
         Some(index)
     }
 
-    /// Whether the first file is a library, as far as it can be read.
+    /// True if the first file is a library, as far as it can be parsed.
     pub(super) fn is_library(&self) -> bool {
         self.files.first().into_iter().flatten().any(|file| file.is_library)
     }
 
-    /// Whether the syntax of the first file has no fault.
+    /// True if the first file has no syntax errors.
     pub(super) fn is_read(&self) -> bool {
         !self.recovery.has_syntax_fault(self.source.part_span(0))
     }
 
-    /// For every file, the `use` in the first file that leads to it, be it through others; none for the first.
+    /// For every file, the `use` in the first file that leads to it, directly or indirectly. `None` for the first file.
     pub(super) fn ways(&self) -> Vec<Option<Span>> {
         let mut ways = vec![None; self.files.len()];
         let uses = self.files.first().into_iter().flatten().flat_map(|file| &file.uses);
         let links = self.links.first().into_iter().flatten().copied().zip(uses.map(|used| used.span));
-        // In the order of their distance: what the first file uses itself comes first.
+        // A breadth-first search, so that direct uses precede indirect ones.
         let mut found: Vec<(usize, Span)> = links.filter_map(|(link, way)| Some((link?, way))).collect();
         let mut next = 0;
         while let Some(&(file, way)) = found.get(next) {
@@ -121,7 +121,7 @@ impl Loaded {
         ways
     }
 
-    /// All texts; and the files if they fit together, or else the first alone.
+    /// All texts, and the files. The first file alone if they are inconsistent.
     pub(super) fn known(self) -> (Source, Option<Files>) {
         let first = self.files.first().cloned().flatten();
         let (source, files, _) = self.files();
@@ -129,7 +129,7 @@ impl Loaded {
         (source, files.or_else(alone))
     }
 
-    /// All texts; the files, if they fit together; and what was left out of them.
+    /// All texts, the files if they are consistent, and the omitted parts.
     pub(super) fn files(mut self) -> (Source, Option<Files>, Recovery) {
         let mut misfits = Vec::new();
         let uses: Vec<Vec<Use>> =
@@ -167,10 +167,10 @@ impl Loaded {
         (self.source, files, self.recovery)
     }
 
-    /// The first way from a file through others back to itself.
+    /// The first path from a file through others back to itself.
     fn cycle(&self, uses: &[Vec<Use>]) -> Option<Diagnostic> {
         let mut is_done = vec![false; self.files.len()];
-        // The way from the first file to the one at hand: files, and how many of their uses have been followed.
+        // The path from the first file to the current one: files, each with the number of its uses that were followed.
         let mut way = vec![(0, 0)];
         while let Some((file, followed)) = way.last_mut() {
             let (file, next) = (*file, *followed);
@@ -199,7 +199,7 @@ impl Loaded {
     }
 }
 
-/// What stands in a library and can only stand in a machine.
+/// The diagnostic for an item in a library that is allowed only in a machine.
 fn misplaced(file: &File) -> Option<Diagnostic> {
     let parameters = file.parameters.iter().map(|parameter| parameter.name.span);
     let states = file.states.iter().map(|state| state.name.span);

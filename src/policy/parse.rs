@@ -1,7 +1,7 @@
-//! From pest's pairs to the syntax tree.
+//! From pairs of the grammar to the syntax tree.
 //!
-//! The grammar fixes which pairs follow which, so that this file only takes them in order. Where the grammar promises a pair
-//! and none comes, [`Reader`] gives an internal error instead of a panic.
+//! The grammar determines the order of the pairs, so this module only reads them in order. If a promised pair is
+//! missing, [`Reader`] returns an internal error instead of a panic.
 
 mod expression;
 mod reader;
@@ -25,7 +25,7 @@ use test::test;
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
 
-/// Parses the text of one file. Its places count from `start`.
+/// Parses the text of one file. Its spans count from `start`.
 pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
     let found = grammar::found(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
     let mut file = File {
@@ -107,14 +107,14 @@ fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
     Ok(Use { from, span, names })
 }
 
-/// Refuses any other word behind the `if` of whiskers.
+/// Refuses any word other than `fitted` after the `if` of whiskers.
 fn fitted(optional: Pair<'_>) -> Parsed<()> {
     let word = Reader::new(optional).next()?;
     if word.as_rule() == Rule::fitted {
         return Ok(());
     }
     let message = format!("`{}` is unexpected here", word.as_str());
-    // The `if` may be that of a statement.
+    // The `if` may be the beginning of a statement.
     Err(Box::new(Diagnostic::error("P0101", message, word.place(), "expected `fitted`, or `{` behind this")))
 }
 
@@ -169,7 +169,7 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     Ok(arguments)
 }
 
-/// What stands between two quotes.
+/// The content of a string.
 fn text(reader: &mut Reader<'_>) -> Parsed<Name> {
     let mut text = Reader::new(reader.take(Rule::text)?);
     Ok(named(text.take(Rule::text_inner)?))

@@ -1,7 +1,8 @@
-//! Going on behind a fault of syntax, so that one does not hide the others.
+//! Recovery from syntax errors, so that one does not hide the others.
 //!
-//! What is at fault is overwritten with blanks, so that every place stays what it was, and the rest is parsed again: first the
-//! statement, and if the fault is still there, the item. That is done a bounded number of times, each in time linear in the text.
+//! The erroneous part is overwritten with blanks, so all positions stay valid. Then the rest is parsed again. First the
+//! statement is overwritten, and if the error remains, the whole item. The number of attempts is bounded, and each
+//! takes time linear in the text.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -12,43 +13,42 @@ use super::ast::File;
 use super::grammar::{brackets, is_word};
 use super::parse::parse;
 
-/// How often a text is parsed at most.
+/// The maximum number of parses of a text.
 const ATTEMPTS: usize = 20;
 
-/// Words that begin an item.
+/// Keywords that begin an item.
 const ITEM_WORDS: [&str; 12] =
     ["whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library"];
-/// Those among them that stand within braces, too.
+/// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
-/// Words that begin a statement or memory, in a state or outside of all.
+/// Keywords that begin a statement or a memory declaration, in a state or outside.
 const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
-/// Words with which an item can go on in another line.
+/// Keywords that can begin a continuation line of an item.
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
-/// Words that begin what else stands in a state.
+/// Keywords that begin other parts of a state.
 const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
 
-/// What was left out of the texts of a policy, and why.
+/// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
 pub(super) struct Recovery {
-    /// The faults; none if nothing was left out.
+    /// The errors. Empty if nothing was omitted.
     pub(super) faults: Vec<Diagnostic>,
-    /// Words that may be names given in the parts that were left out.
+    /// Words in the omitted parts that may be declared names.
     lost: HashSet<String>,
-    /// Whether these parts may have brought the names of other files.
+    /// True if the omitted parts may have imported names.
     lost_use: bool,
-    /// Whether what is left says where to start.
+    /// True if the remaining text has an initial state.
     has_initial: bool,
 }
 
-/// The faults of syntax of a text, in the order of their places.
+/// The syntax errors of a text, in the order of their positions.
 pub(super) fn faults(source: &Source) -> Vec<Diagnostic> {
     let mut recovery = Recovery::default();
     parse_all(source, 0, &mut recovery);
     recovery.join(source, Vec::new())
 }
 
-/// Reads all of a text that can be read; its first byte has the place `start`. The file lacks what is at fault; `None` if nothing
-/// can be made of it.
+/// Parses the valid parts of a text whose first byte has the position `start`. `None` if nothing can be parsed.
 pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) -> Option<File> {
     let mut rest = Cow::Borrowed(source);
     let mut ways = Vec::new();
@@ -61,13 +61,13 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
             }
             Err(fault) => {
                 let at = fault.primary.span.start.saturating_sub(start);
-                // The same place again: too little was left out.
+                // The same position again: the omitted part was too small.
                 if last != Some(at) {
                     ways = if is_local(&fault) { regions(&rest.text, at) } else { Vec::new() };
                     recovery.report(*fault);
                     last = Some(at);
                 }
-                // What has been left out already helps no more.
+                // Omitting the same part again does not help.
                 let is_new = |region: &Span| !rest.slice(*region).trim().is_empty();
                 let index = ways.iter().position(is_new)?;
                 let region = ways.remove(index);
@@ -80,32 +80,33 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
     None
 }
 
-/// Whether a fault is one of the place that it names, and not of the text as a whole.
+/// True if an error concerns its position, and not the text as a whole.
 fn is_local(fault: &Diagnostic) -> bool {
     ["P0101", "P0104"].contains(&fault.code)
 }
 
 impl Recovery {
-    /// Adds a fault.
+    /// Adds an error.
     pub(super) fn report(&mut self, fault: Diagnostic) {
         if self.faults.len() < FAULT_LIMIT {
             self.faults.push(fault);
         }
     }
 
-    /// Whether nothing was left out.
+    /// True if nothing was omitted.
     pub(super) fn is_whole(&self) -> bool {
         self.faults.is_empty()
     }
 
-    /// Whether something in a part of the texts was left out.
+    /// True if something within a part of the texts was omitted.
     pub(super) fn has_syntax_fault(&self, within: Span) -> bool {
         let is_syntax = |code: &str| code.starts_with("P01");
         let is_within = |fault: &Diagnostic| (within.start..=within.end).contains(&fault.primary.span.start);
         self.faults.iter().any(|fault| is_syntax(fault.code) && is_within(fault))
     }
 
-    /// All faults in the order of their places: these, and those of meaning that are not but their consequences.
+    /// All errors in the order of their positions: the syntax errors, and the other errors that are not their
+    /// consequences.
     pub(super) fn join(mut self, source: &Source, mut faults: Vec<Diagnostic>) -> Vec<Diagnostic> {
         faults.retain(|fault| !self.explains(source, fault));
         faults.append(&mut self.faults);
@@ -114,22 +115,22 @@ impl Recovery {
         faults
     }
 
-    /// Whether a fault of meaning is but a consequence of what was left out.
+    /// True if an error is a consequence of the omitted parts.
     fn explains(&self, source: &Source, fault: &Diagnostic) -> bool {
         match fault.code {
-            // A name that means nothing, or memory that is none.
+            // An unknown name, or unknown memory.
             "P0201" | "P0406" => self.lost_use || self.lost.contains(source.slice(fault.primary.span)),
-            // Whiskers may have been bound.
+            // The omitted parts may declare whiskers.
             "P0412" => !self.faults.is_empty(),
-            // The initial state.
+            // The omitted parts may declare the initial state.
             "P0404" => !self.faults.is_empty() && !self.has_initial,
             _ => false,
         }
     }
 }
 
-/// The words of a text that may be names given in it: all behind another word, such as `state` or what stands for it by mistake,
-/// and all behind a comma.
+/// Words of a text that may be declared names: all words after another word, such as `state` or a misspelling of it,
+/// and all words after a comma.
 fn names(text: &str) -> impl Iterator<Item = String> {
     let mut may_be_name = false;
     Tokens::new(text).filter_map(move |token| {
@@ -141,17 +142,17 @@ fn names(text: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// The text with blanks instead of a region, in as many bytes.
+/// The text with blanks in place of a span, with the same number of bytes.
 fn blanked(text: &str, region: Span) -> String {
     let blanks = text[region.start..region.end].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' });
     text[..region.start].chars().chain(blanks).chain(text[region.end..].chars()).collect()
 }
 
-/// What may be left out because of a fault at `at`, the least first.
+/// The spans that may be omitted because of an error at `at`, the smallest first.
 fn regions(text: &str, at: usize) -> Vec<Span> {
     let Ok(opened) = brackets(text) else { return Vec::new() };
     let (balanced, starts) = items(text);
-    // A text that ends too early goes wrong where it opens what it never closes.
+    // The cause of a premature end is the bracket that is never closed.
     let at = if text[at.min(text.len())..].trim().is_empty() { opened.first().copied().unwrap_or(at) } else { at };
     let mut regions = Vec::new();
     if balanced
@@ -162,7 +163,7 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
         let is_whole = |region: &Span| braces_close(&text[region.start..region.end]);
         regions.extend(around(text, at, (&starts, &PART_WORDS), (brace + 1, end)).into_iter().filter(is_whole));
     }
-    // Without the machine's name there is no file.
+    // A file cannot be parsed without the machine's name.
     let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2);
     if let Some(first) = tokens.next() {
         regions.extend(around(text, at, (&starts, &ITEM_WORDS), (first.start, text.len())));
@@ -170,7 +171,8 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
     regions
 }
 
-/// What may be at fault at `at` among parts that begin at `starts`, with one of the `words` or that of a statement, within bounds.
+/// The spans around `at` that may contain the error, among parts that begin at `starts`. Each part begins with one of
+/// `words` or with a statement keyword.
 fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, high): (usize, usize)) -> Vec<Span> {
     if at < low || at > high {
         return Vec::new();
@@ -180,7 +182,7 @@ fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, hig
     let word: &str = text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default();
     let is_start = starts.contains(&at);
     if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word)) {
-        // The part before lacks its end, or this one should not be here.
+        // Either the previous part lacks its end, or this part is misplaced.
         vec![Span::new(before, at), Span::new(at, behind)]
     } else if is_start || indent(text, at).is_some_and(|own| Some(own) <= indent(text, before)) {
         vec![Span::new(at, behind), Span::new(before, behind)]
@@ -189,18 +191,18 @@ fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, hig
     }
 }
 
-/// How far in the line something stands that is the first of its line.
+/// The indentation of the token at `at`, if it is the first of its line.
 fn indent(text: &str, at: usize) -> Option<usize> {
     let line = text[..at].rsplit('\n').next()?;
     line.trim().is_empty().then_some(line.len())
 }
 
-/// Where the items behind the machine's name begin, and whether all braces are closed.
+/// Starts of the items after the machine's name, and true if all braces are closed.
 ///
-/// Items begin outside of braces with their words, or with what stands for one by mistake: a word at the beginning of a line with
-/// another behind it; statements among them begin a line, too, no farther in than the item before. Where braces are not closed, a
-/// word that begins an item counts at the beginning of any line: if it can only be an item, or if it stands no farther in than the
-/// item before.
+/// Items begin outside of braces with their keywords. A misspelled keyword counts, too: a word at the beginning of a
+/// line that is followed by another word. Statements between items also begin a line, with at most the indentation of
+/// the previous item. In a text with unclosed braces, an item keyword counts at the beginning of a line. It must occur
+/// only in items, or have at most the indentation of the previous item.
 fn items(text: &str) -> (bool, Vec<usize>) {
     let is_balanced = braces_close(text);
     let (mut braces, mut parentheses, mut indent) = (0_usize, 0_usize, 0);
@@ -218,7 +220,8 @@ fn items(text: &str) -> (bool, Vec<usize>) {
                 let is_item = ITEM_WORDS.contains(&word);
                 let is_first = token.indent.is_some();
                 let is_outermost = token.indent.is_some_and(|own| own <= indent);
-                // Farther in, or behind another word, it belongs to a state, or to a `whisker` or an `else` before its `if`.
+                // With more indentation, or after another word, it belongs to a state, or to a `whisker` or an `else`
+                // before its `if`.
                 let begins = if STATEMENT_WORDS.contains(&word) {
                     is_outermost && (braces == 0 || !is_balanced)
                 } else if braces > 0 {
@@ -239,7 +242,7 @@ fn items(text: &str) -> (bool, Vec<usize>) {
     (is_balanced, starts)
 }
 
-/// Where the statements begin in the braces that open before `start`, and where those close.
+/// Starts of the statements in the braces that open before `start`, and the position of the closing brace.
 fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     let (mut braces, mut parentheses) = (0_usize, 0_usize);
     let mut starts = Vec::new();
@@ -264,7 +267,7 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     (starts, text.len())
 }
 
-/// Whether every brace in a text has its other.
+/// True if the braces of a text are balanced.
 fn braces_close(text: &str) -> bool {
     let mut depth = 0_usize;
     for token in Tokens::new(text) {
@@ -278,11 +281,11 @@ fn braces_close(text: &str) -> bool {
     depth == 0
 }
 
-/// A word, a text in quotes, or a sign.
+/// A word, a string, or a mark.
 struct Token {
     start: usize,
     end: usize,
-    /// If it is the first of its line, how far in it stands.
+    /// Indentation, if the token is the first of its line.
     indent: Option<usize>,
 }
 
@@ -291,7 +294,7 @@ impl Token {
         &text[self.start..self.end]
     }
 
-    /// Whether it is the word with which a file begins.
+    /// True if it is the keyword at the beginning of a file.
     fn is_heading(&self, text: &str) -> bool {
         ["machine", "library"].contains(&self.of(text))
     }
@@ -301,7 +304,7 @@ impl Token {
 struct Tokens<'t> {
     text: &'t str,
     at: usize,
-    /// Where the line began, as long as nothing but blanks has been in it.
+    /// Start of the line, while only blanks have occurred in it.
     line: Option<usize>,
 }
 

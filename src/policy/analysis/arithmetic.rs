@@ -1,10 +1,10 @@
-//! Arithmetic of intervals.
+//! Interval arithmetic.
 
 use super::interval::{Interval, SLACK};
 
 impl Interval {
-    /// What an operation came from whose result lies in it, given its other operand and the inverse operation. There is
-    /// room for the rounding of both.
+    /// The possible operands of an operation with a result in this interval, given the other operand and the inverse
+    /// operation. It has a margin for the rounding of both operations.
     pub(super) fn undo(self, other: Self, inverse: fn(Self, Self) -> Self) -> Self {
         let origin = inverse(self, other.number());
         let room = (self.size() + other.size() + origin.size()) * SLACK + 1e-200;
@@ -14,9 +14,9 @@ impl Interval {
         Self::new(origin.low - room, origin.high + room)
     }
 
-    /// What a product came from that lies in it, given the other factor.
+    /// The possible factors of a product in this interval, given the other factor.
     pub(super) fn undo_product(self, other: Self) -> Self {
-        // Next to a factor of nothing, anything goes.
+        // With a factor of almost zero, the other factor is arbitrary.
         let is_plain = !other.is_empty() && other.absolute().low > 1e-100;
         if is_plain { self.undo(other, Self::divide) } else { Self::new(f64::NEG_INFINITY, f64::INFINITY) }
     }
@@ -39,7 +39,7 @@ impl Interval {
         }
     }
 
-    /// Whether the difference of the two can be that of two equal infinities.
+    /// True if the difference of the two intervals can be that of two equal infinities.
     fn opposes(self, other: Self) -> bool {
         [f64::INFINITY, f64::NEG_INFINITY].iter().any(|&end| self.has(end) && other.has(end))
     }
@@ -67,7 +67,8 @@ impl Interval {
         self.ends(other, |a, b| a / b).or_nan(nan)
     }
 
-    /// The hull of an operation's values at the ends. Where that is no number, values near it come down to zero.
+    /// The hull of an operation's values at the ends of the intervals. If a value there is NaN, nearby values approach
+    /// zero.
     fn ends(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
         let corners = [(self.low, other.low), (self.low, other.high), (self.high, other.low), (self.high, other.high)];
         corners.iter().fold(Self::new(f64::INFINITY, f64::NEG_INFINITY), |hull, &(a, b)| {
@@ -123,7 +124,7 @@ impl Interval {
         self.rising(f64::floor)
     }
 
-    /// What a function gives that never falls.
+    /// The image under a monotonically increasing function.
     fn rising(self, function: fn(f64) -> f64) -> Self {
         if self.is_empty() { self } else { Self { low: function(self.low), high: function(self.high), nan: self.nan } }
     }

@@ -1,4 +1,4 @@
-//! Abstract interpretation: what a condition can be in a region.
+//! Interval analysis: the possible results of a condition in a region.
 
 use vibrissa_runtime::machine::{Block, Op, Register};
 
@@ -7,13 +7,13 @@ use super::model::Model;
 use super::region::Region;
 use super::unknown::{Source, Unknown, scalar, vector};
 
-/// Evaluates code over intervals.
+/// An evaluator over intervals.
 pub(super) struct Bounds<'m> {
     pub(super) model: &'m Model<'m>,
-    /// What the code at hand has written, each with the number of the evaluation that wrote it.
+    /// The registers that the current code has written, each with the number of that evaluation.
     cells: Vec<(u32, Interval)>,
     evaluation: u32,
-    /// Operations evaluated so far.
+    /// Number of operations so far.
     pub(super) work: usize,
 }
 
@@ -22,7 +22,7 @@ impl<'m> Bounds<'m> {
         Self { model, cells: vec![(0, Interval::ANYTHING); model.program.image.len()], evaluation: 0, work: 0 }
     }
 
-    /// What `register` can hold after `code` in a region; `None` if the code does more than to compute.
+    /// The interval of `register` after `code` in a region. `None` if the code has side effects.
     pub(super) fn value(&mut self, code: &Block, register: Register, region: &mut Region<'_>) -> Option<Interval> {
         self.evaluation += 1;
         self.work += code.len() + 1;
@@ -36,23 +36,23 @@ impl<'m> Bounds<'m> {
         Some(self.at(register, region))
     }
 
-    /// Whether the code at hand has written a register.
+    /// True if the current code has written a register.
     pub(super) fn is_written(&self, register: Register) -> bool {
         self.cells.get(usize::from(register)).is_some_and(|&(evaluation, _)| evaluation == self.evaluation)
     }
 
-    /// What a register may hold that the code at hand has written.
+    /// The interval of a register that the current code has written.
     pub(super) fn cell(&self, register: Register) -> Interval {
         self.cells.get(usize::from(register)).map_or(Interval::ANYTHING, |&(_, value)| value)
     }
 
-    /// The one whisker that a register means, if it means but one.
+    /// The whisker to which a register refers, if it is only one.
     pub(super) fn whisker(&self, register: Register, region: &mut Region<'_>) -> Option<usize> {
         let mut whiskers = self.whiskers(register, region);
         whiskers.next().filter(|_| whiskers.next().is_none())
     }
 
-    /// What a register may hold.
+    /// The interval of a register.
     pub(super) fn at(&self, register: Register, region: &mut Region<'_>) -> Interval {
         match self.cells.get(usize::from(register)) {
             Some(&(evaluation, value)) if evaluation == self.evaluation => value,
@@ -75,7 +75,7 @@ impl<'m> Bounds<'m> {
         self.put(register + 1, y);
     }
 
-    /// One operation; `None` if it does more than to compute.
+    /// Evaluates an operation. `None` if it has side effects.
     #[expect(clippy::too_many_lines, reason = "one arm an operation")]
     fn step(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let mut one = |bounds: &mut Self, to, a, operation: fn(Interval) -> Interval| {
@@ -177,12 +177,12 @@ impl<'m> Bounds<'m> {
                 self.put_vector(to, value);
             }
             Op::TipAt { to, .. } | Op::ContourAt { to, .. } => {
-                // Where tips would be is up to the rig's whiskers, and a contour's course to the object.
+                // The positions of tips depend on the rig's whiskers, and the course of a contour on the object.
                 region.is_partial = true;
                 self.put_vector(to, [Interval::ANYTHING; 2]);
             }
             Op::LowPass { to, .. } | Op::Pid { to, .. } => {
-                // What they give is up to what went before.
+                // The results depend on previous ticks.
                 region.is_partial = true;
                 self.put(to, Interval::ANYTHING);
             }
@@ -203,7 +203,7 @@ impl<'m> Bounds<'m> {
         Some(())
     }
 
-    /// An operation on two vectors, part by part.
+    /// Evaluates an operation on two vectors, component by component.
     fn parts(
         &mut self,
         to: Register,
@@ -215,7 +215,7 @@ impl<'m> Bounds<'m> {
         self.put_vector(to, [operation(x, u), operation(y, v)]);
     }
 
-    /// An operation that stands for several; `None` for any other.
+    /// Evaluates a fused operation. `None` for any other.
     fn several(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         match op {
             Op::Clamp { to, a, low, high } => {
@@ -251,7 +251,7 @@ impl<'m> Bounds<'m> {
         Some(())
     }
 
-    /// An operation on two numbers or truths; `None` for any other.
+    /// Evaluates an operation on two numbers or bools. `None` for any other.
     fn two(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let (to, a, b, operation): (_, _, _, fn(Interval, Interval) -> Interval) = match op {
             Op::Add { to, a, b } => (to, a, b, Interval::add),
@@ -272,7 +272,7 @@ impl<'m> Bounds<'m> {
         Some(())
     }
 
-    /// The whiskers that a register can mean.
+    /// The whiskers to which a register can refer.
     fn whiskers(&self, register: Register, region: &mut Region<'_>) -> impl Iterator<Item = usize> + use<> {
         let range = self.at(register, region);
         (0..self.model.program.whiskers.len()).filter(move |&index| (range.low..=range.high).contains(&(index as f64)))

@@ -11,7 +11,7 @@ use super::search::{Goal, Search};
 use super::unknown::{Domain, Unknown};
 use super::walk::{Step, goals, walk};
 
-/// Reports cycles of transitions that a tick cannot end, each with values at which a machine indeed fails in one.
+/// Reports cycles of transitions that exceed the microstep limit, each with a witness confirmed by the machine.
 pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
     let mut faults = Vec::new();
     let found = walk(model);
@@ -22,7 +22,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
     let mut search = Search::new(model);
     let mut told = vec![false; model.states.len()];
     for path in &found {
-        // A cycle of states that were told would say little more.
+        // A cycle of states that were already reported adds little.
         if path.iter().all(|&(state, _)| told[state]) {
             continue;
         }
@@ -31,7 +31,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
             is_felt_freely(model, point) && {
                 let mut machine = Machine::entering(Arc::clone(&program), start, registers);
                 let left = machine.tick(&mut point.clone()).failsafe;
-                // A failsafe is for what nobody foresaw, and so excuses no cycle.
+                // A fallback transition is for unexpected failures, so it does not excuse a cycle.
                 matches!(machine.failure(), Some(Failure::Chain { .. }))
                     || left.is_some_and(|failsafe| failsafe.cause == Cause::Chain)
             }
@@ -61,8 +61,8 @@ fn fault(model: &Model<'_>, path: &[Step<'_>], witness: &str) -> Diagnostic {
         .hint("let the guards exclude each other, or give one a duration: `when \u{2026} for 100 ms`")
 }
 
-/// Whether a point is one that can be felt for sure: its values do not depend on one another in ways that only the rig
-/// knows, such as where tips are.
+/// True if the inputs of a point can be chosen independently. Other inputs, such as positions of tips, depend on each
+/// other through the rig.
 fn is_felt_freely(model: &Model<'_>, point: &Point) -> bool {
     point.values().into_iter().all(|(unknown, _)| match unknown {
         Unknown::Register(register) => {

@@ -1,4 +1,4 @@
-//! Angles and vectors of intervals.
+//! Interval arithmetic of angles and vectors.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -6,9 +6,9 @@ use crate::geometry::wrap;
 
 use super::interval::{Interval, SLACK};
 
-/// Beyond this magnitude (rad) an angle's rounding shows when it is wrapped.
+/// Above this magnitude (rad), rounding affects the wrapping of an angle.
 const GREATEST_ANGLE: f64 = 1e6;
-/// How far a wrapped angle of at most that magnitude can lie from where it belongs (rad).
+/// The maximum error of a wrapped angle up to that magnitude (rad).
 const WRAP_SLACK: f64 = 1e-8;
 
 impl Interval {
@@ -20,7 +20,7 @@ impl Interval {
         self.wave(f64::cos, 0.0)
     }
 
-    /// A wave of period 2π that is 1 at `crest`.
+    /// The image under a wave of period 2π with its maximum 1 at `crest`.
     fn wave(self, wave: fn(f64) -> f64, crest: f64) -> Self {
         if self.is_empty() {
             return Self::NO_NUMBER;
@@ -62,7 +62,7 @@ impl Interval {
         if norm.is_empty() { Self::NO_NUMBER } else { Self { low: norm.low.max(0.0), high: norm.high, nan } }
     }
 
-    /// The vector `[x, y]` at unit length; zero for zero.
+    /// The unit vector of `[x, y]`. Zero for zero.
     pub(super) fn unit([x, y]: [Self; 2]) -> [Self; 2] {
         let nan = x.nan || y.nan || x.has_infinity() || y.has_infinity();
         [x, y].map(|part| {
@@ -81,16 +81,16 @@ impl Interval {
             return Self::NO_NUMBER;
         }
         match (x.single(), y.single()) {
-            // Backwards, a zero's sign, which an interval does not know, decides between −π and π.
+            // In the negative direction, the sign of zero decides between −π and π, and an interval does not know it.
             (Some(x), Some(y)) if y != 0.0 || x > 0.0 => Self::point(y.atan2(x)),
             _ => Self { low: -PI, high: PI, nan: x.nan || y.nan },
         }
     }
 
-    /// The vector `[x, y]` turned by `angle`.
+    /// The vector `[x, y]`, rotated by `angle`.
     pub(super) fn rotate([x, y]: [Self; 2], angle: Self) -> [Self; 2] {
         let (sine, cosine) = (angle.sine(), angle.cosine());
-        // An infinite part is as good as any after turning.
+        // After a rotation, an infinite component makes both components arbitrary.
         if x.has_infinity() || y.has_infinity() {
             return [Self::ANYTHING; 2];
         }

@@ -1,26 +1,26 @@
-//! Which values reach which registers.
+//! Data flow: the values that can reach a register.
 
 use std::collections::BTreeSet;
 
 use vibrissa_runtime::machine::{Op, Place, Program, Register};
 
-/// More values than these are as good as any.
+/// The maximum number of values per register. More are treated as unknown.
 const VALUE_LIMIT: usize = 16;
-/// More registers than these are not followed.
+/// The maximum number of registers that are followed.
 const REACH_LIMIT: usize = 256;
 
-/// How a register comes by its value while a policy runs.
+/// The origin of a register's value while a policy runs.
 #[derive(Debug, Clone, PartialEq)]
 enum Origin {
-    /// It holds what it held at the start.
+    /// The initial value.
     Start,
-    /// It is copied from one of these.
+    /// A copy of one of these registers.
     Copies(Vec<Register>),
-    /// It is computed.
+    /// A computed value.
     Computed,
 }
 
-/// Which values reach which registers, whatever the order in which code runs. A register that code writes is taken to be
+/// The origins of all registers, independent of the order of execution. A register that code writes is assumed to be
 /// written before it is read.
 #[derive(Debug)]
 pub(super) struct Flow(Vec<Origin>);
@@ -51,12 +51,12 @@ impl Flow {
         Self(origins)
     }
 
-    /// Whether code writes a register.
+    /// True if code writes a register.
     pub(super) fn is_written(&self, register: Register) -> bool {
         self.0.get(usize::from(register)).is_none_or(|origin| *origin != Origin::Start)
     }
 
-    /// The values that a register can have, if they are few and known.
+    /// The possible values of a register, if they are few and known.
     pub(super) fn values(&self, program: &Program, register: Register) -> Option<Vec<f64>> {
         let (mut seen, mut open, mut values) = (BTreeSet::from([register]), vec![register], Vec::new());
         while let Some(register) = open.pop() {

@@ -1,4 +1,4 @@
-//! Guards that never or always hold, and times that do nothing.
+//! Guards that never or always hold, and durations without effect.
 
 use crate::diagnostic::Diagnostic;
 use crate::policy::ast;
@@ -9,8 +9,8 @@ use super::model::Edge;
 use super::region::Region;
 use super::search::{Goal, Search};
 
-/// Warns of guards whose condition never or always holds, and of times that have passed when they begin. Tells of each
-/// transition whether it can ever be due.
+/// Warns about guards whose condition never or always holds, and about durations that are not positive. Returns for
+/// each transition whether it can be due.
 pub(super) fn guards(search: &mut Search<'_>, edges: &[Edge<'_>], warnings: &mut Vec<Diagnostic>) -> Vec<bool> {
     edges.iter().map(|edge| guard(search, edge, warnings)).collect()
 }
@@ -49,7 +49,7 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
     true
 }
 
-/// How long after its condition begins to hold, or its state is entered, a transition is due (s).
+/// The time between the beginning of a transition's condition, or the entry of its state, and the transition (s).
 pub(super) fn delay(search: &mut Search<'_>, edge: &Edge<'_>) -> Interval {
     let (code, register) = match edge.guard {
         machine::Guard::When { lasting: None, .. } => return Interval::point(0.0),
@@ -67,7 +67,7 @@ fn time_span(edge: &Edge<'_>) -> Option<crate::diagnostic::Span> {
     }
 }
 
-/// Whether the guard is written `true`.
+/// True if the guard is the literal `true`.
 fn is_true(edge: &Edge<'_>) -> bool {
     matches!(&edge.written.guard, ast::Guard::When { condition, .. } if condition.kind == ast::Kind::Truth(true))
 }

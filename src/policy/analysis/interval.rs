@@ -1,12 +1,12 @@
-//! Intervals: all values that a register may hold.
+//! Intervals: sets of values that a register may have.
 
-/// Room for the rounding of functions whose rounding is not monotone (relative, or absolute next to 1).
+/// A margin for functions that do not round monotonically (relative, or absolute near 1).
 pub(super) const SLACK: f64 = 1e-14;
 
-/// All values from `low` to `high`, and perhaps "not a number". No number at all if `low` is above `high`.
+/// All values from `low` to `high`, and NaN if `nan` is set. It contains no number if `low` exceeds `high`.
 ///
-/// Every operation gives an interval that holds each result that the machine's evaluator can give for values of its
-/// operands. Sums, products, quotients and roots round monotonically, so that their ends need no room.
+/// Every operation is sound: its interval contains each result of the machine's evaluator for operands in the given
+/// intervals. Sums, products, quotients and roots round monotonically, so their ends need no margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Interval {
     pub(super) low: f64,
@@ -51,43 +51,43 @@ impl Interval {
         self.has(f64::INFINITY) || self.has(f64::NEG_INFINITY)
     }
 
-    /// The one value that it holds, if it holds but one.
+    /// The only value of the interval, if there is only one.
     #[expect(clippy::float_cmp, reason = "the ends are the same number")]
     pub(super) fn single(self) -> Option<f64> {
         (self.low == self.high && !self.nan).then_some(self.low)
     }
 
-    /// Whether it holds a value that the evaluator takes for true.
+    /// True if the interval contains a value that the evaluator treats as true.
     pub(super) fn may_hold(self) -> bool {
         !self.is_empty() && self.high > 0.5
     }
 
-    /// Whether it holds a value that the evaluator takes for false.
+    /// True if the interval contains a value that the evaluator treats as false.
     pub(super) fn may_fail(self) -> bool {
         self.nan || self.is_empty() || self.low <= 0.5
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub(super) fn join(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high), nan: self.nan || other.nan }
     }
 
-    /// What lies in both.
+    /// The intersection.
     pub(super) fn meet(self, other: Self) -> Self {
         Self { low: self.low.max(other.low), high: self.high.min(other.high), nan: self.nan && other.nan }
     }
 
-    /// Whether it holds anything at all.
+    /// True if the interval is not empty.
     pub(super) fn has_any(self) -> bool {
         self.nan || !self.is_empty()
     }
 
-    /// Whether it holds numbers only, and finite ones.
+    /// True if the interval contains only finite numbers.
     pub(super) fn is_finite(self) -> bool {
         !self.nan && !self.has_infinity()
     }
 
-    /// Its numbers.
+    /// The interval without NaN.
     pub(super) fn number(self) -> Self {
         Self { nan: false, ..self }
     }
@@ -121,7 +121,7 @@ impl Interval {
         Self::truth(self.may_fail(), self.may_hold())
     }
 
-    /// The same with room for rounding.
+    /// The interval with a margin for rounding.
     pub(super) fn widened(self) -> Self {
         if self.is_empty() {
             return self;
@@ -139,7 +139,7 @@ mod tests {
     use crate::geometry::{Vector2, rotate, wrap};
     use proptest::prelude::*;
 
-    /// A number that the evaluator may meet; the odd ones are as likely as the plain ones.
+    /// A number for tests. Special values are as likely as ordinary ones.
     fn number() -> impl Strategy<Value = f64> {
         prop_oneof![
             4 => -10.0..10.0,

@@ -1,9 +1,9 @@
-//! What a policy that compiles may still have wrong with it.
+//! Static analysis: warnings about policies that compile, and errors of the policy as a whole.
 //!
-//! The syntax tree says where things are written, the program what they mean. Conditions are evaluated over intervals
-//! (`bounds`) in regions of all that can be felt (`region`), which are narrowed to where it may be as wanted (`narrow`) and split
-//! until the question is settled or a witness is found (`search`). A witness is checked by the machine's own evaluator. Each of the
-//! other files is one kind of warning.
+//! The syntax tree provides spans, and the program provides semantics. Conditions are evaluated over intervals
+//! (`bounds`) in regions of all inputs (`region`). Regions are narrowed by backward analysis (`narrow`) and split until
+//! there is a proof or a witness (`search`). The machine's own evaluator confirms each witness. Each of the other
+//! modules implements one kind of warning.
 
 mod arithmetic;
 mod bounds;
@@ -34,15 +34,15 @@ use super::lower::Lowered;
 use model::{Edge, Model};
 use search::Search;
 
-/// Warnings that are told of one policy.
+/// The maximum number of warnings per policy.
 const WARNING_LIMIT: usize = 50;
 
-/// Errors that show only in the policy as a whole: cycles of transitions within one tick.
+/// Errors of the policy as a whole: cycles of transitions within one tick.
 pub(super) fn errors(file: &File, lowered: &Lowered) -> Vec<Diagnostic> {
     in_order(cycle::cycles(&Model::new(file, lowered)))
 }
 
-/// What is probably not meant, in the order of the text.
+/// Warnings, in the order of the text.
 pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     let model = Model::new(&files.main, lowered);
     let mut warnings = Vec::new();
@@ -63,15 +63,15 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     in_order(warnings)
 }
 
-/// What is probably not meant in a library, in the order of the text.
+/// Warnings about a library, in the order of the text.
 pub(super) fn library_warnings(files: &Files) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     unused::unused(files, &mut warnings);
     in_order(warnings)
 }
 
-/// Looks at the transitions of one source, and gives those that can be due; the rules that hold always and the transitions of
-/// outer states are tried before them.
+/// Analyses the transitions of one source. Returns those that can be due. Global transitions and those of outer states
+/// precede them.
 fn transitions<'a>(
     search: &mut Search<'_>,
     (always, outer): (&[Edge<'a>], &[Edge<'a>]),

@@ -1,4 +1,4 @@
-//! A policy as the analysis sees it: the syntax tree for places and names, the program for meaning.
+//! The model of a policy for analysis: names and spans from the syntax tree, semantics from the program.
 
 use crate::diagnostic::Span;
 use crate::policy::ast::{self, File};
@@ -10,12 +10,12 @@ use super::flow::Flow;
 use super::interval::Interval;
 use super::unknown::Domain;
 
-/// A policy as the analysis sees it.
+/// The model of a policy.
 pub(super) struct Model<'a> {
     pub(super) file: &'a File,
     pub(super) program: &'a Program,
     pub(super) always: Vec<Edge<'a>>,
-    /// Of every state, in the program's order.
+    /// All states, in the order of the program.
     pub(super) states: Vec<Node<'a>>,
     flow: Flow,
 }
@@ -24,32 +24,32 @@ pub(super) struct Model<'a> {
 pub(super) struct Node<'a> {
     pub(super) name: &'a ast::Name,
     pub(super) edges: Vec<Edge<'a>>,
-    /// Where it is left to when the machine cannot go on in it.
+    /// Target of the fallback transition.
     pub(super) failsafe: Option<&'a machine::Target>,
-    /// What it is entered with.
+    /// The arguments of the state.
     pub(super) arguments: &'a [(String, Value)],
 }
 
-/// A transition: what it does and where it is written.
+/// A transition with its semantics and its syntax.
 #[derive(Clone, Copy)]
 pub(super) struct Edge<'a> {
-    /// The state that it belongs to; `None` if it is a rule that holds always.
+    /// The source state. `None` for a global transition.
     pub(super) from: Option<usize>,
     pub(super) guard: &'a machine::Guard,
     pub(super) target: &'a machine::Target,
     pub(super) written: &'a ast::Transition,
 }
 
-/// What a register is called, and its type.
+/// The name and type of a register.
 pub(super) struct Named<'a> {
     pub(super) name: &'a str,
     pub(super) r#type: Type,
-    /// Where the value begins: a vector has two registers.
+    /// The first register of the value. A vector has two registers.
     pub(super) first: Register,
 }
 
 impl<'a> Edge<'a> {
-    /// Where the guard's condition or time stands.
+    /// Span of the guard's condition or duration.
     pub(super) fn guard_span(&self) -> Span {
         match &self.written.guard {
             ast::Guard::When { condition, .. } => condition.span,
@@ -57,23 +57,23 @@ impl<'a> Edge<'a> {
         }
     }
 
-    /// What the state that it leads to and the outer states on the way are entered with.
+    /// The values for the arguments of the entered states.
     pub(super) fn values(&self) -> impl Iterator<Item = &'a ast::Expression> {
         let target = &self.written.target;
         target.outer.iter().flat_map(|step| &step.values).chain(&target.values)
     }
 
-    /// Where the transition stands, from its guard on.
+    /// Span of the transition, from its guard on.
     pub(super) fn span(&self) -> Span {
         self.guard_span().to(self.written.target.span)
     }
 
-    /// The state that it leads to; `None` for a failure.
+    /// The target state. `None` for a failure.
     pub(super) fn leads_to(&self) -> Option<usize> {
         leads_to(self.target)
     }
 
-    /// The condition, unless the guard is a time alone.
+    /// The condition of the guard. `None` if the guard is only a duration.
     pub(super) fn condition(&self) -> Option<Condition<'a>> {
         match self.guard {
             machine::Guard::When { code, truth, .. } => Some(Condition { code, truth: *truth }),
@@ -81,20 +81,20 @@ impl<'a> Edge<'a> {
         }
     }
 
-    /// Whether it is due as soon as its condition holds.
+    /// True if the transition is due as soon as its condition holds.
     pub(super) fn is_immediate(&self) -> bool {
         matches!(self.guard, machine::Guard::When { lasting: None, .. })
     }
 }
 
 impl Node<'_> {
-    /// Where its own transitions and its failsafe lead: states, and `None` for a failure.
+    /// The targets of the state's own transitions and of its fallback transition. `None` is a failure.
     pub(super) fn ways_out(&self) -> impl Iterator<Item = Option<usize>> {
         self.edges.iter().map(Edge::leads_to).chain(self.failsafe.map(leads_to))
     }
 }
 
-/// The state that a target is; `None` for a failure.
+/// The state of a target. `None` for a failure.
 fn leads_to(target: &machine::Target) -> Option<usize> {
     match target {
         machine::Target::State { state, .. } => Some(*state),
@@ -102,7 +102,7 @@ fn leads_to(target: &machine::Target) -> Option<usize> {
     }
 }
 
-/// Code that computes a truth.
+/// Code that computes a bool.
 #[derive(Clone, Copy)]
 pub(super) struct Condition<'a> {
     pub(super) code: &'a machine::Block,
@@ -128,7 +128,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Whether no state lies in a state, so that it can be the innermost active one.
+    /// True if a state has no inner states, so that it can be the innermost active state.
     pub(super) fn is_innermost(&self, state: usize) -> bool {
         self.program.states[state].initial.is_none()
     }
@@ -138,27 +138,27 @@ impl<'a> Model<'a> {
         self.states.iter().enumerate().filter(|&(index, _)| self.is_innermost(index))
     }
 
-    /// The transitions that can be taken while `innermost` is the innermost active state, but for those of `always`: those of
-    /// its outer states come first.
+    /// The transitions that can be taken while `innermost` is the innermost active state, except the global ones. Those
+    /// of outer states come first.
     pub(super) fn active_edges(&self, innermost: usize) -> Vec<&Edge<'a>> {
         self.inward(innermost).into_iter().flat_map(|state| &self.states[state].edges).collect()
     }
 
-    /// The transitions that are tried before another one while `innermost` is the innermost active state.
+    /// The transitions that precede another one while `innermost` is the innermost active state.
     pub(super) fn tried_before(&self, edge: &Edge<'_>, innermost: usize) -> Vec<&Edge<'a>> {
         let before = self.active_edges(innermost).into_iter();
         before.take_while(|before| !std::ptr::eq(before.guard, edge.guard)).collect()
     }
 
-    /// A state and those that it lies in, the outermost first.
+    /// A state and its ancestors, the outermost first.
     pub(super) fn inward(&self, state: usize) -> Vec<usize> {
         let mut way: Vec<usize> = self.program.outward(state).collect();
         way.reverse();
         way
     }
 
-    /// The innermost state that a transition leads to while `innermost` is the innermost active state, or the state that it
-    /// resumes; `None` for a failure, and where it has led already.
+    /// The innermost state that a transition enters while `innermost` is the innermost active state, or the state that
+    /// it resumes. `None` for a failure, and if the target is already active.
     pub(super) fn leads_to_one(&self, edge: &Edge<'_>, innermost: usize) -> Option<usize> {
         if edge.leads_to().is_some_and(|state| self.program.is_settled(edge.from, state, innermost)) {
             return None;
@@ -166,22 +166,22 @@ impl<'a> Model<'a> {
         self.begins_in(edge.target)
     }
 
-    /// The innermost state that a target begins in, or the state that it resumes; `None` for a failure.
+    /// The innermost state that a target enters, or the state that it resumes. `None` for a failure.
     pub(super) fn begins_in(&self, target: &machine::Target) -> Option<usize> {
         let machine::Target::State { state, resume, .. } = *target else { return None };
         let inner = |&state: &usize| self.program.states[state].initial.as_ref().map(|&(inner, _)| inner);
         if resume { Some(state) } else { std::iter::successors(Some(state), inner).last() }
     }
 
-    /// The innermost states that a transition can lead to while `innermost` is the innermost active state.
+    /// The innermost states that a transition can enter while `innermost` is the innermost active state.
     pub(super) fn leads_on(&self, edge: &Edge<'_>, innermost: usize) -> Vec<usize> {
         let Some(target) = self.leads_to_one(edge, innermost) else { return Vec::new() };
-        // The states in a state follow it.
+        // The descendants of a state follow it directly.
         let inside = (target..self.states.len()).take_while(|&state| self.program.contains(target, state));
         inside.filter(|&state| self.is_innermost(state)).collect()
     }
 
-    /// What a register is called.
+    /// The name of a register.
     pub(super) fn named(&self, register: Register) -> Option<Named<'_>> {
         if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
             let r#type = Type::Scalar(parameter.dimension);
@@ -194,12 +194,12 @@ impl<'a> Model<'a> {
             .map(|(name, value, first)| Named { name, r#type: value.r#type, first })
     }
 
-    /// Whether a register holds the same while a state lasts: a constant, or a parameter.
+    /// True if a register does not change while a state is active: a constant or a parameter.
     pub(super) fn is_steady(&self, register: Register) -> bool {
         !self.flow.is_written(register)
     }
 
-    /// What a register holds when nothing in the code at hand has written it; `None` if that is always the same.
+    /// The domain of a register that the current code has not written. `None` if its value never changes.
     pub(super) fn domain(&self, register: Register) -> Option<Domain> {
         if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
             return parameter.range.map(|(low, high)| Domain::Range(Interval::new(low, high)));

@@ -1,14 +1,14 @@
-//! The names that parts of a policy use.
+//! Names that parts of a policy use.
 
 use std::collections::HashSet;
 
 use crate::policy::ast::{Expression, Guard, Kind, Name, Statement, Target, Transition, Turn};
 
-/// Names that are used.
+/// A set of used names.
 #[derive(Debug, Default)]
 pub(super) struct Names<'a> {
     used: HashSet<&'a str>,
-    /// Those that the part itself gives: beyond it they mean nothing, or something else.
+    /// Names that the part itself declares. Outside of it they have no meaning, or another one.
     given: HashSet<&'a str>,
 }
 
@@ -17,19 +17,19 @@ impl<'a> Names<'a> {
         self.used.contains(name)
     }
 
-    /// The names that `add` adds to none.
+    /// The set that `add` builds.
     pub(super) fn of(add: impl FnOnce(&mut Self)) -> Self {
         let mut names = Self::default();
         add(&mut names);
         names
     }
 
-    /// Notes that the part gives these names.
+    /// Records declared names.
     pub(super) fn give(&mut self, names: impl IntoIterator<Item = &'a Name>) {
         self.given.extend(names.into_iter().map(|name| name.text.as_str()));
     }
 
-    /// Adds all names of a part within, but those that it gives itself.
+    /// Adds the used names of an inner part, except those that it declares.
     pub(super) fn extend(&mut self, within: &Self) {
         self.used.extend(within.used.difference(&within.given));
     }

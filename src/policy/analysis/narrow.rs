@@ -1,6 +1,6 @@
-//! Narrowing: backwards through a condition, from what is wanted of it to what the unknowns may then be.
+//! Backward interval analysis: from the wanted value of a condition to the domains of the unknowns.
 //!
-//! It only ever leaves out values at which the condition is not as wanted.
+//! It removes only values for which the condition cannot have the wanted value.
 
 use vibrissa_runtime::machine::{Op, Register};
 
@@ -10,12 +10,12 @@ use super::region::Region;
 use super::search::{Goal, Wanted};
 
 impl Bounds<'_> {
-    /// Narrows a region to where a goal may be met; false if it is met nowhere in it.
+    /// Narrows a region to the points at which a goal may be met. False if there are none.
     pub(super) fn narrow(&mut self, goal: &Goal<'_>, region: &mut Region<'_>) -> bool {
         if let [only] = goal.any.as_slice() {
             return self.narrow_to(*only, region);
         }
-        // As long as two of them may be as wanted, neither needs to.
+        // If two alternatives are possible, neither is necessary.
         let mut possible = goal.any.iter().filter(|wanted| self.is_possible(**wanted, region).unwrap_or(true));
         match (possible.next().copied(), possible.next()) {
             (None, _) => false,
@@ -24,13 +24,13 @@ impl Bounds<'_> {
         }
     }
 
-    /// Whether a condition may be as wanted in a region; `None` if its code does more than to compute.
+    /// True if a condition may be as wanted in a region. `None` if its code has side effects.
     fn is_possible(&mut self, wanted: Wanted<'_>, region: &mut Region<'_>) -> Option<bool> {
         let truth = self.value(wanted.condition.code, wanted.condition.truth, region)?;
         Some(if wanted.truth { truth.may_hold() } else { truth.may_fail() })
     }
 
-    /// Narrows a region to where a condition may be as wanted; false if it is so nowhere in it.
+    /// Narrows a region to the points at which a condition may be as wanted. False if there are none.
     fn narrow_to(&mut self, wanted: Wanted<'_>, region: &mut Region<'_>) -> bool {
         match self.is_possible(wanted, region) {
             None => return true,
@@ -44,7 +44,7 @@ impl Bounds<'_> {
         self.want(wanted.condition.truth, truth, region) && ops.iter().rev().all(|op| self.back(*op, region).is_some())
     }
 
-    /// Keeps of what a register may be only what lies in an interval; false if nothing does.
+    /// Restricts a register to an interval. False if nothing remains.
     fn want(&mut self, register: Register, wanted: Interval, region: &mut Region<'_>) -> bool {
         if !self.is_written(register) {
             return region.narrow_register(register, wanted);
@@ -54,7 +54,7 @@ impl Bounds<'_> {
         met.has_any()
     }
 
-    /// Goes back through one operation, from its result to its operands; `None` if no operands can give the result.
+    /// Propagates a result to the operands of an operation. `None` if no operands can give the result.
     fn back(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let mut want = |bounds: &mut Self, register, wanted| bounds.want(register, wanted, region).then_some(());
         match op {
@@ -138,7 +138,7 @@ impl Bounds<'_> {
         }
     }
 
-    /// Goes back through arithmetic. A result that may be no number says nothing of what it came from.
+    /// Propagates a result through arithmetic. A result that may be NaN gives no information.
     fn back_number(&mut self, op: Op, region: &mut Region<'_>) -> Option<()> {
         let mut wants: [Option<(Register, Interval)>; 2] = [None, None];
         match op {
@@ -184,7 +184,7 @@ impl Bounds<'_> {
             }
             Op::Clamp { to, a, low, high } if !self.cell(to).nan => {
                 let (clamped, low, high) = (self.cell(to), self.at(low, region), self.at(high, region));
-                // A value is seen through the clamp where it is not at an end of it.
+                // The clamp is the identity except at its ends.
                 let least = if clamped.low > low.high { clamped.low } else { f64::NEG_INFINITY };
                 let most = if clamped.high < high.low { clamped.high } else { f64::INFINITY };
                 wants = [Some((a, Interval::new(least, most))), None];

@@ -1,4 +1,4 @@
-//! Guards that can hold at once and lead elsewhere, with a witness.
+//! Guards that can hold at the same time and have different targets.
 
 use crate::diagnostic::Diagnostic;
 use crate::policy::ast::{Expression, Kind};
@@ -8,13 +8,14 @@ use super::model::Edge;
 use super::search::{Goal, Search};
 use super::shadow::comes_first;
 
-/// Warns if a transition's guard can hold together with that of one that is tried before it, so that the order alone
-/// decides where to go. The rules that hold always and the transitions of outer states are tried before all of `edges`; those of
-/// outer states watch over it on purpose.
+/// Warns if a transition's guard can hold together with that of a preceding one, so that only their order decides.
 ///
-/// There is nothing to warn of where the first leads to a failure (a watch over limits goes first on purpose), where both
-/// lead to the same, or where the second is the rest: it holds wherever the first does. Points at which another one
-/// comes before both do not count.
+/// Global transitions and those of outer states precede all of `edges`. Those of outer states monitor their inner
+/// states on purpose.
+///
+/// There is no warning if the first transition leads to a failure, because limits are deliberately checked first. There
+/// is none if both have the same target, or if the second guard holds wherever the first does. Points at which a third
+/// transition precedes both do not count.
 pub(super) fn overlap(
     search: &mut Search<'_>,
     (always, outer): (&[Edge<'_>], &[Edge<'_>]),
@@ -47,18 +48,18 @@ pub(super) fn overlap(
                 .hint(format!("both hold at {witness}"))
                 .hint("if that is what you want, say so: `when \u{2026} and not \u{2026}`; if not, change their order"),
         );
-        // One witness a transition is enough to think again.
+        // One witness per transition suffices.
         return;
     }
 }
 
-/// Whether the first of two transitions belongs to an outer state of the second's, or does not always come before it: it may
-/// have led where it leads.
+/// True if the first of two transitions belongs to an outer state of the second's, or does not always precede it
+/// because its target may already be active.
 fn is_watch(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     before.from != edge.from && (before.from.is_some() || !comes_first(program, before, edge))
 }
 
-/// Whether two transitions lead to the same state with the same values, as far as names tell, or both to a failure.
+/// True if two transitions have the same target with the same values, as far as names show, or both are failures.
 fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
     let same_value = |(a, b): (&Expression, &Expression)| match (&a.kind, &b.kind) {
         (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,

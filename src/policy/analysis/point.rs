@@ -1,4 +1,4 @@
-//! A point: one value for every unknown, to be felt by the real evaluator.
+//! Points: one value for every unknown, as input of the real evaluator.
 
 use std::cell::RefCell;
 
@@ -10,15 +10,15 @@ use super::model::Model;
 use super::region::Region;
 use super::unknown::{Domain, Source, Unknown, middle, scalar, vector};
 
-/// One value for every unknown that guards ask for.
+/// One value for every unknown of the guards.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Point {
     values: RefCell<Values>,
-    /// What was read, in the order of the first reading.
+    /// The readings, in the order of the first access.
     readings: RefCell<Vec<Reading>>,
 }
 
-/// Something that a policy can read.
+/// An input that a policy can read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Reading {
     Time,
@@ -28,7 +28,7 @@ pub(super) enum Reading {
     WhiskerVector(usize, WhiskerVector),
 }
 
-/// Unknowns, each with the one value that it has.
+/// The unknowns, each with a domain of one value.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Values(Vec<(Unknown, Domain)>);
 
@@ -48,18 +48,18 @@ fn single(value: f64) -> Domain {
     Domain::Values(vec![value])
 }
 
-/// Which point of a region to take.
+/// The rule by which a point of a region is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Choice {
-    /// The plainest: parameters as they are, everything else as near to nothing as can be.
+    /// The simplest point: default parameters, and all other values as near to zero as possible.
     Plain,
-    /// The same, a little away from the ends of ranges.
+    /// The simplest point, but away from the ends of ranges.
     Inside,
-    /// In the middle of every range.
+    /// The middle of every range.
     Middle,
-    /// At the low end of every range.
+    /// The low end of every range.
     Low,
-    /// At the high end of every range.
+    /// The high end of every range.
     High,
 }
 
@@ -77,7 +77,7 @@ impl Point {
         Self { values: RefCell::new(Values(values.collect())), readings: RefCell::default() }
     }
 
-    /// The unknowns, and the value that each has.
+    /// The unknowns with their values.
     pub(super) fn values(&self) -> Vec<(Unknown, f64)> {
         self.values.borrow().0.iter().map(|(unknown, domain)| (*unknown, domain.hull().low)).collect()
     }
@@ -95,7 +95,7 @@ impl Point {
         values.push((unknown, single(value)));
     }
 
-    /// What has been read of it.
+    /// The readings so far.
     pub(super) fn readings(&self) -> Vec<Reading> {
         self.readings.borrow().clone()
     }
@@ -109,14 +109,14 @@ impl Point {
     }
 }
 
-/// A number near `value`, but not at an end of the range: what is wanted is often not to be had there.
+/// A number near `value`, but away from the ends of the range, where conditions often fail.
 fn inside(range: Interval, value: f64) -> f64 {
     let Interval { low, high, .. } = range;
     let step = (value.abs() / 16.0).max(f64::MIN_POSITIVE).min((high - low) / 4.0);
     value.max(low + step).min(high - step)
 }
 
-/// The plainest value that an unknown can have.
+/// The simplest value of an unknown.
 pub(super) fn plainest(model: &Model<'_>, unknown: Unknown, domain: &Domain) -> f64 {
     match (unknown, domain) {
         (Unknown::Register(register), Domain::Range(range)) => {
@@ -133,14 +133,14 @@ fn plain(unknown: Unknown, domain: &Domain) -> f64 {
     match domain {
         Domain::Values(values) => values.first().copied().unwrap_or(0.0),
         Domain::Range(range) => {
-            // A decimetre is a usual whisker.
+            // A typical whisker is a decimetre long.
             let usual: f64 = if matches!(unknown, Unknown::Whisker(_, WhiskerScalar::Length)) { 0.1 } else { 0.0 };
             usual.clamp(range.low.min(range.high), range.high)
         }
     }
 }
 
-/// The number that a reading gives at a point.
+/// The number of a reading at a point.
 fn number(range: Interval) -> f64 {
     if range.low > range.high { f64::NAN } else { range.low }
 }
@@ -169,7 +169,7 @@ impl Senses for Point {
     }
 
     fn tip_at(&self, _: usize, _: f64) -> Vector2 {
-        // Regions in which this is asked for have no points.
+        // Regions that read this are partial, so no point of them is used.
         Vector2::new(f64::NAN, f64::NAN)
     }
 

@@ -1,16 +1,16 @@
-//! Where a policy can go: states that cannot be reached, that cannot be left, that have no way to a failure.
+//! Reachability: states that cannot be reached or left, and states that cannot lead to a failure.
 
 use crate::diagnostic::Diagnostic;
 
 use super::model::{Edge, Model};
 
-/// States times the transitions that each has: more of them are not looked at, so that no policy takes long.
+/// The maximum of the number of states times transitions. Larger policies are not analysed, which bounds the time.
 const PAIR_LIMIT: usize = 1_000_000;
 
-/// Which states a run can come to, by transitions as they are written, whenever they are due.
+/// For each state, true if it is reachable by transitions, whatever their guards.
 pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
     let program = model.program;
-    // Of a state that is reached only as the outer state of another one, it is not said that it begins where it would.
+    // A state may be reached only as the outer state of an explicit target. Then its initial state is not reached.
     let mut reached = vec![false; model.states.len()];
     let mut entered = reached.clone();
     let always = model.always.iter().filter_map(Edge::leads_to);
@@ -29,7 +29,7 @@ pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
     reached
 }
 
-/// Warns of states that no run comes to. Of one that lies in another of them, that one says it all.
+/// Warns about unreachable states. Inner states of an unreachable state are not reported.
 pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     let program = model.program;
     let reached = reachable(model);
@@ -49,7 +49,7 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Warns of states that a run cannot leave, and of those from which it cannot fail.
+/// Warns about states that a run cannot leave, and about those from which it cannot fail.
 pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     let fails = |edge: &&Edge<'_>| edge.leads_to().is_none();
     if model.always.iter().any(|edge| fails(&edge)) {
@@ -62,7 +62,7 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     if pairs.sum::<usize>() > PAIR_LIMIT {
         return;
     }
-    // From the failures backwards: who leads there, who leads to those. Who resumes a state may come to any in it.
+    // A backward search from the failures. A state that is resumed may continue in any of its inner states.
     let mut sources: Vec<Vec<usize>> = vec![Vec::new(); model.states.len()];
     let (mut is_left, mut open) = (vec![false; model.states.len()], Vec::new());
     for (index, node) in model.innermost() {
@@ -74,7 +74,7 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
         let led = edges.into_iter().chain(&model.always).filter_map(|edge| model.leads_to_one(edge, index));
         for target in led.chain(failsafe) {
             sources[target].push(index);
-            // From within, a state is resumed where it is.
+            // From within a state, `resume` keeps the inner state.
             let leads_out = |state| !program.contains(state, target) && !program.contains(target, state);
             program.outward(index).for_each(|state| is_left[state] |= leads_out(state));
         }
@@ -82,14 +82,14 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     let has_failure = !open.is_empty();
     let mut fallible = vec![false; model.states.len()];
     while let Some(innermost) = open.pop() {
-        // An outer state has a way if one of the states in it has.
+        // An outer state can be left if one of its inner states can.
         for state in program.outward(innermost) {
             if !std::mem::replace(&mut fallible[state], true) {
                 open.extend(&sources[state]);
             }
         }
     }
-    // What is said of a state goes for those in it.
+    // A warning about a state also covers its inner states.
     let mut told = vec![false; model.states.len()];
     for (index, state) in model.states.iter().enumerate() {
         let name = &state.name.text;

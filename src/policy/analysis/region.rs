@@ -1,4 +1,4 @@
-//! A region: what every unknown may be.
+//! Regions: a domain for every unknown.
 
 use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVector};
 
@@ -6,53 +6,54 @@ use super::interval::Interval;
 use super::model::Model;
 use super::unknown::{Domain, Source, TOUCH, Unknown};
 
-/// What every unknown may be that has been asked for so far.
+/// The domains of all unknowns that have been read so far.
 #[derive(Clone)]
 pub(super) struct Region<'m> {
     model: &'m Model<'m>,
     pub(super) parts: Vec<Part>,
-    /// Whether something was asked for that no unknown stands for, so that no point of the region is the whole story.
+    /// True if an input was read that no unknown represents. A point of the region then does not determine the result.
     pub(super) is_partial: bool,
-    /// The goals, by their index, that have nothing more to narrow, until a part changes that they read.
+    /// For each goal, its state if it cannot narrow the region further until a part that it reads changes.
     settled: Vec<Option<Settled>>,
-    /// The parts that were read since a goal began, and those of them that were changed.
+    /// The parts that were read since the current goal began, and those that were changed.
     read: Parts,
     changed: Parts,
 }
 
-/// Some of the parts of a region, one bit each; those from the 128th on share the last.
+/// A set of parts of a region, one bit each. Parts from the 128th on share the last bit.
 type Parts = u128;
 
-/// A goal that narrowed nothing: as long as nothing changes of what it read, it will not the next time either.
+/// A goal that narrowed nothing. While its inputs do not change, it will not narrow anything again.
 #[derive(Clone, Copy)]
 struct Settled {
     read: Parts,
-    /// Operations that it took to find out.
+    /// Number of operations of the evaluation.
     work: usize,
 }
 
-/// One unknown in a region.
+/// One unknown of a region with its domain.
 #[derive(Clone)]
 pub(super) struct Part {
     pub(super) unknown: Unknown,
     pub(super) domain: Domain,
-    /// How often it was split.
+    /// Number of splits.
     splits: usize,
 }
 
 impl<'m> Region<'m> {
-    /// All there can be.
+    /// The region of all possible values.
     pub(super) fn whole(model: &'m Model<'m>) -> Self {
         Self { model, parts: Vec::new(), is_partial: false, settled: Vec::new(), read: 0, changed: 0 }
     }
 
-    /// A goal begins to narrow, unless it is settled: then how many operations that would take.
+    /// Begins the narrowing by a goal. If the goal is settled, returns the number of operations that the narrowing
+    /// would take.
     pub(super) fn begin(&mut self, goal: usize) -> Option<usize> {
         (self.read, self.changed) = (0, 0);
         self.settled.get(goal).copied().flatten().map(|settled| settled.work)
     }
 
-    /// The goal that was begun has narrowed what it could, by so many operations.
+    /// Ends the narrowing by the current goal, which took so many operations.
     pub(super) fn end(&mut self, goal: usize, work: usize) {
         if self.changed != 0 {
             self.unsettle(self.changed);
@@ -64,14 +65,14 @@ impl<'m> Region<'m> {
         self.settled[goal] = Some(Settled { read: self.read, work });
     }
 
-    /// Some parts are no longer what they were.
+    /// Marks goals as unsettled that read changed parts.
     fn unsettle(&mut self, changed: Parts) {
         for settled in &mut self.settled {
             settled.take_if(|settled| settled.read & changed != 0);
         }
     }
 
-    /// What a register holds that the code at hand has not written.
+    /// The interval of a register that the current code has not written.
     pub(super) fn register(&mut self, register: Register) -> Interval {
         let unknown = Unknown::Register(register);
         if let Some(index) = self.parts.iter().position(|part| part.unknown == unknown) {
@@ -82,7 +83,7 @@ impl<'m> Region<'m> {
             let image = &self.model.program.image;
             return image.get(usize::from(register)).map_or(Interval::ANYTHING, |&value| Interval::point(value));
         };
-        // What has no name could not be shown.
+        // An unnamed value could not be shown in a message.
         self.is_partial |= self.model.named(register).is_none();
         let range = domain.hull();
         self.read |= bit(self.parts.len());
@@ -90,7 +91,7 @@ impl<'m> Region<'m> {
         range
     }
 
-    /// Keeps of what an unknown may be only what `keep` keeps; false if that is nothing.
+    /// Restricts the domain of an unknown by `keep`. False if it becomes empty.
     fn keep(&mut self, unknown: Unknown, keep: impl FnOnce(&mut Domain) -> bool) -> bool {
         let Some(index) = self.parts.iter().position(|part| part.unknown == unknown) else { return true };
         let domain = &mut self.parts[index].domain;
@@ -107,35 +108,35 @@ impl<'m> Region<'m> {
         self.keep(unknown, |domain| domain.narrow(to))
     }
 
-    /// Keeps of a register only what lies in an interval; false if nothing does.
+    /// Restricts a register to an interval. False if nothing remains.
     pub(super) fn narrow_register(&mut self, register: Register, to: Interval) -> bool {
         let is_possible = self.register(register).meet(to).has_any();
         is_possible && self.narrow(Unknown::Register(register), to)
     }
 
-    /// Keeps of the time only what lies in an interval; false if nothing does.
+    /// Restricts the time to an interval. False if nothing remains.
     pub(super) fn narrow_time(&mut self, to: Interval) -> bool {
         self.narrow(Unknown::Time, to)
     }
 
-    /// Keeps of a number of the body only what lies in an interval; false if nothing does.
+    /// Restricts a scalar of the body to an interval. False if nothing remains.
     pub(super) fn narrow_body(&mut self, quantity: BodyScalar, to: Interval) -> bool {
         self.narrow(Unknown::Body(quantity), to)
     }
 
-    /// Keeps of the body's place only what lies in an interval; false if nothing does.
+    /// Restricts the body's position to intervals. False if nothing remains.
     pub(super) fn narrow_position(&mut self, to: [Interval; 2]) -> bool {
         (0..2).all(|axis| self.narrow(Unknown::BodyPosition(axis), to[axis]))
     }
 
-    /// Keeps of a whisker only what makes a number of it lie in an interval; false if nothing does.
+    /// Restricts the unknowns of a whisker so that its scalar lies in an interval. False if nothing remains.
     pub(super) fn narrow_scalar(&mut self, whisker: usize, quantity: WhiskerScalar, to: Interval) -> bool {
         match quantity {
             WhiskerScalar::Touching | WhiskerScalar::Side | WhiskerScalar::Sense => {
                 self.keep(Unknown::Contact(whisker), |domain| domain.keep_contacts(quantity, to))
             }
             WhiskerScalar::Deflection => {
-                // Of a whisker that touches only the magnitude counts here, and is at least that of a touch.
+                // For a whisker in contact only the magnitude matters, and it is at least the contact threshold.
                 let free = self.range(Unknown::Deflection(whisker));
                 let size = to.absolute();
                 let size = Interval {
@@ -157,7 +158,7 @@ impl<'m> Region<'m> {
                 self.narrow(Unknown::Whisker(whisker, quantity), to)
             }
             WhiskerScalar::ContourCurvature => {
-                // A number can only come of a contour.
+                // Only a contour can give a number.
                 to.nan
                     || (self.keep(Unknown::Contour(whisker), Domain::keep_readable)
                         && self.narrow(Unknown::Whisker(whisker, quantity), to))
@@ -165,7 +166,7 @@ impl<'m> Region<'m> {
         }
     }
 
-    /// Keeps of a whisker only what makes a vector of it lie in intervals; false if nothing does.
+    /// Restricts the unknowns of a whisker so that its vector lies in intervals. False if nothing remains.
     pub(super) fn narrow_vector(&mut self, whisker: usize, quantity: WhiskerVector, to: [Interval; 2]) -> bool {
         match quantity {
             WhiskerVector::ContourTangent | WhiskerVector::ContourNormal => {
@@ -178,8 +179,8 @@ impl<'m> Region<'m> {
         }
     }
 
-    /// The region in two, along the unknown that has been split least; choices come before ranges. `None` if nothing
-    /// can be split.
+    /// Splits the region in two, along the unknown with the fewest splits. Discrete domains come before ranges. `None`
+    /// if nothing can be split.
     pub(super) fn split(&self) -> Option<[Self; 2]> {
         let rank = |part: &Part| (matches!(part.domain, Domain::Range(_)), part.splits);
         let mut order: Vec<usize> = (0..self.parts.len()).collect();

@@ -1,5 +1,5 @@
-//! The search for values at which conditions hold: regions are split until the abstract interpreter settles them or a
-//! point of one does what is wanted under the real evaluator.
+//! The search for witnesses and proofs. It splits regions until interval analysis decides a region, or the real
+//! evaluator confirms a point.
 
 use std::collections::VecDeque;
 
@@ -11,20 +11,20 @@ use super::point::{Choice, Point};
 use super::region::Region;
 use super::unknown::Unknown;
 
-/// Regions that one search looks at.
+/// The maximum number of regions per search.
 const REGION_LIMIT: usize = 400;
-/// What looking at a region costs besides its operations, in operations.
+/// The cost of a region in addition to its operations, in operations.
 const REGION_WORK: usize = 50;
-/// Operations that all searches of a policy may evaluate together, so that no policy takes long.
+/// The maximum number of operations of all searches of a policy together, which bounds the time of analysis.
 const WORK_LIMIT: usize = 1_000_000;
 
-/// What is wanted of conditions: that one holds, that one fails, or that at least one of several does as it is to.
+/// A disjunction of wanted conditions. The goal is met if at least one of them is as wanted.
 #[derive(Clone)]
 pub(super) struct Goal<'a> {
     pub(super) any: Vec<Wanted<'a>>,
 }
 
-/// A condition, and whether it is to hold or to fail.
+/// A condition, with the wanted value: true or false.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
     pub(super) condition: Condition<'a>,
@@ -40,36 +40,36 @@ impl<'a> Goal<'a> {
         Self { any: vec![Wanted { condition, truth: false }] }
     }
 
-    /// That this is met, or one of some conditions holds.
+    /// Adds the alternative that one of some conditions holds.
     pub(super) fn or_any_holds(mut self, conditions: impl IntoIterator<Item = Condition<'a>>) -> Self {
         self.any.extend(conditions.into_iter().map(|condition| Wanted { condition, truth: true }));
         self
     }
 }
 
-/// Accepts a point, given the registers of a machine there; it may run the program once.
+/// Accepts a point, given the registers of a machine there. It may execute the program once.
 pub(super) type Accept<'a> = dyn Fn(&Point, Vec<f64>) -> bool + 'a;
 
-/// What a search found.
+/// The result of a search.
 enum Found {
     /// A point at which every goal is met.
     Witness(Point),
-    /// There is none.
+    /// A proof that there is no such point.
     Nothing,
-    /// There may be one.
+    /// No result within the limits.
     Unclear,
 }
 
-/// What a search is for.
+/// The purpose of a search.
 #[derive(Clone, Copy)]
 enum Purpose<'a> {
     /// A proof that no point meets the goals.
     Proof,
-    /// A point that meets them and is accepted, if that is asked for.
+    /// A point that meets the goals and is accepted.
     Witness(Option<&'a Accept<'a>>),
 }
 
-/// The search for values at which conditions hold.
+/// A search with its caches and its budget.
 pub(super) struct Search<'m> {
     pub(super) model: &'m Model<'m>,
     pub(super) bounds: Bounds<'m>,
@@ -81,17 +81,18 @@ impl<'m> Search<'m> {
         Self { model, bounds: Bounds::new(model), registers: model.program.image.clone() }
     }
 
-    /// Whether all the work that may be done is done.
+    /// True if the budget of operations is used up.
     pub(super) fn is_exhausted(&self) -> bool {
         self.bounds.work > WORK_LIMIT
     }
 
-    /// Whether it is proved that no point meets every goal.
+    /// True if it is proved that no point meets every goal.
     pub(super) fn excludes(&mut self, goals: &[Goal<'_>]) -> bool {
         matches!(self.find(goals, Purpose::Proof), Found::Nothing)
     }
 
-    /// A point at which every goal is met, and that is accepted, if that is asked for; `None` also where there may be one.
+    /// A point at which every goal is met and that `accept` accepts, if it is given. `None` also if the search is
+    /// inconclusive.
     pub(super) fn witness(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Option<Point> {
         match self.find(goals, Purpose::Witness(accept)) {
             Found::Witness(point) => Some(point),
@@ -111,7 +112,7 @@ impl<'m> Search<'m> {
                 continue;
             }
             let accept = match purpose {
-                // No point of it, nor of any part of it, is the whole story.
+                // No point of this region or of its parts determines the result.
                 Purpose::Witness(_) if region.is_partial => {
                     is_unclear = true;
                     continue;
@@ -135,16 +136,16 @@ impl<'m> Search<'m> {
         if is_unclear { Found::Unclear } else { Found::Nothing }
     }
 
-    /// Narrows a region to where all goals may be met; false if they are met nowhere in it. Goals that it was narrowed to before come
-    /// first, in the same order.
+    /// Narrows a region to the points at which all goals may be met. False if there are none. Goals of earlier calls
+    /// for the region must come first, in the same order.
     pub(super) fn may_meet(&mut self, goals: &[Goal<'_>], region: &mut Region<'_>) -> bool {
         self.bounds.work += REGION_WORK;
-        // Twice, since what one goal narrows can tell more of the others.
+        // Twice, because the narrowing by one goal can permit more narrowing by another.
         goals.iter().enumerate().chain(goals.iter().enumerate()).all(|goal| self.narrow(goal, region))
     }
 
-    /// Narrows a region to where a goal may be met; false if it is met nowhere in it. What would change nothing is counted as
-    /// work, so that limits mean the same, but not done.
+    /// Narrows a region by a goal. False if nothing remains. Omitted evaluations of settled goals count as work, so
+    /// that limits do not depend on the cache.
     fn narrow(&mut self, (index, goal): (usize, &Goal<'_>), region: &mut Region<'_>) -> bool {
         if let Some(work) = region.begin(index) {
             self.bounds.work += work;
@@ -156,7 +157,7 @@ impl<'m> Search<'m> {
         has_any
     }
 
-    /// Whether every goal is met at a point, by the real evaluator.
+    /// True if the real evaluator confirms every goal at a point.
     pub(super) fn meets(&mut self, goals: &[Goal<'_>], point: &Point) -> bool {
         let program = self.model.program;
         let mut senses = point.clone();
@@ -172,7 +173,7 @@ impl<'m> Search<'m> {
         met
     }
 
-    /// Whether a point is accepted, if that is asked for.
+    /// True if a point is accepted, or if there is no `accept`.
     pub(super) fn accepts(&mut self, point: &Point, accept: Option<&Accept<'_>>) -> bool {
         let Some(accept) = accept else { return true };
         self.bounds.work += self.model.program.code.len();

@@ -1,4 +1,4 @@
-//! Transitions that are never taken because another always comes before them.
+//! Transitions that are never taken, because others always precede them.
 
 use crate::diagnostic::Diagnostic;
 use vibrissa_runtime::machine::{Guard, Program, Register, TIME_SLACK};
@@ -8,8 +8,8 @@ use super::interval::Interval;
 use super::model::{Edge, Model};
 use super::search::{Goal, Search};
 
-/// Warns of a transition that is never taken because others of its state, or of the `outer` ones, always come before it, and
-/// tells whether it did. `outer` are the transitions of its outer states that can be due.
+/// Warns about a transition that is never taken because others of its state, or of the `outer` ones, always precede it.
+/// Returns true if it warned. `outer` are the transitions of outer states that can be due.
 pub(super) fn shadowed(
     search: &mut Search<'_>,
     outer: &[Edge<'_>],
@@ -22,13 +22,13 @@ pub(super) fn shadowed(
     let time = delay(search, edge);
     let mut immediate = Vec::new();
     search.bounds.work += outer.len();
-    // What has led where it leads keeps those written after it from being tried, and leaves the inner states their turn.
+    // A transition with an already active target pre-empts later ones of the same state, but not those of inner states.
     let of_sources = outer.chunk_by(|one, next| one.from == next.from);
     let outer = of_sources
         .flat_map(|edges| edges.iter().take_while(|before| comes_first(search.model.program, before, edge)))
         .map(|before| (0, before));
     let outer: Vec<(usize, &Edge<'_>)> = outer.collect();
-    // One written later may be due sooner; but not every one leaves its state, nor lets those behind it be tried.
+    // A later transition may be due sooner. But not every one leaves its state or permits the following ones.
     let program = search.model.program;
     let stays = edges.iter().enumerate().position(|(other, before)| other != index && !leaves(program, before));
     let counts = |other: usize| other < index || stays.is_none_or(|stays| other < stays);
@@ -44,7 +44,7 @@ pub(super) fn shadowed(
             return true;
         }
     }
-    // No single one; perhaps those that wait for nothing do together.
+    // No single transition precedes it. Several immediate ones may do so together.
     let goals = edge.condition().map(Goal::holds).into_iter();
     let goals: Vec<Goal<'_>> =
         goals.chain(immediate.iter().filter_map(|edge| edge.condition()).map(Goal::fails)).collect();
@@ -56,8 +56,10 @@ pub(super) fn shadowed(
     true
 }
 
-/// Whether a transition, of the same state or of one around it, is taken before another one whenever both are due. One of an
-/// outer state may have led where it leads, and leaves the other one its turn; so does one of the same state before a failure.
+/// True if a transition, of the same state or of an outer one, is taken before another whenever both are due.
+///
+/// A transition with an already active target is not taken again. One of an outer state then does not precede, and one
+/// of the same state does not precede a failure.
 pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     if edge.leads_to().is_none() && before.from == edge.from && !leaves(program, before) {
         return false;
@@ -67,12 +69,12 @@ pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>)
     before.from == edge.from || !is_related || leaves(program, before)
 }
 
-/// Whether a transition leaves its state, so that the times of the others begin anew.
+/// True if a transition leaves its state, so that the durations of the others begin again.
 fn leaves(program: &Program, edge: &Edge<'_>) -> bool {
     edge.leads_to().is_none_or(|target| !program.is_settled(edge.from, target, target))
 }
 
-/// Whether one transition is always due before, or when, another is, and then taken rather than that.
+/// True if one transition is always due no later than another, and is then taken instead of it.
 fn comes_before(
     search: &mut Search<'_>,
     (index, before): (usize, &Edge<'_>),
@@ -88,7 +90,8 @@ fn comes_before(
         return false;
     }
     if matches!(before.guard, Guard::After { .. }) {
-        // The times of both begin with their states, that of an outer one first; none of a condition begins before.
+        // Both durations begin with their states, and that of an outer state begins first. A condition cannot begin
+        // before its state.
         return !edge.is_immediate();
     }
     let goals: Vec<Goal<'_>> =
@@ -96,7 +99,7 @@ fn comes_before(
     search.excludes(&goals)
 }
 
-/// The register of a transition's time, if what it holds does not change while the state lasts.
+/// The register of a transition's duration, if its value does not change while the state is active.
 fn register_of_time(model: &Model<'_>, edge: &Edge<'_>) -> Option<Register> {
     let register = match edge.guard {
         Guard::When { lasting, .. } => lasting.as_ref()?.0,

@@ -1,4 +1,4 @@
-//! What is not known when a policy is compiled: parameters, what states are entered with, what is felt.
+//! Unknowns at compile time: parameters, arguments of states, sensor inputs.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,66 +6,66 @@ use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVect
 
 use super::interval::Interval;
 
-/// Farther than any whisker goes (m).
+/// A bound of all distances (m).
 const FAR: f64 = 1e6;
-/// More than any body turns (rad).
+/// A bound of the body's yaw (rad).
 const WHIRL: f64 = 1e5;
-/// The least deflection of a whisker that touches (rad).
+/// The minimum base angle of a whisker in contact (rad).
 pub(super) const TOUCH: f64 = 1e-9;
 
-/// One degree of freedom of all that guards may read.
+/// One degree of freedom of the inputs of guards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Unknown {
-    /// A parameter, or a value that a state was entered with.
+    /// A parameter, or an argument of a state.
     Register(Register),
     Time,
     Body(BodyScalar),
-    /// One coordinate.
+    /// A coordinate of the body's position.
     BodyPosition(usize),
-    /// The side of a whisker and how it is bent, which go together: one of [`CONTACTS`].
+    /// The side of a whisker and the sign of its base angle, which depend on each other. An index into [`CONTACTS`].
     Contact(usize),
-    /// The deflection of a whisker that does not touch; only its magnitude counts where it touches.
+    /// The base angle of a whisker without contact. With contact only its magnitude matters.
     Deflection(usize),
-    /// What there is of a whisker's contour: one of [`CONTOURS`].
+    /// The state of a whisker's contour: one of [`CONTOURS`].
     Contour(usize),
-    /// The direction of a whisker's contour (rad).
+    /// The tangent direction of a whisker's contour (rad).
     Travel(usize),
-    /// The direction away from a whisker's object (rad).
+    /// The direction of a whisker's contour normal, away from the object (rad).
     Away(usize),
-    /// Any other number of a whisker.
+    /// Any other scalar of a whisker.
     Whisker(usize, WhiskerScalar),
-    /// One coordinate of any other vector of a whisker.
+    /// A coordinate of any other vector of a whisker.
     WhiskerVector(usize, WhiskerVector, usize),
 }
 
-/// A whisker's side and its sense, numbered.
+/// The possible pairs of a whisker's side and sense.
 const CONTACTS: [(f64, f64); 6] = [(1.0, 0.0), (-1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
 
-/// A contour that is ready; none; one that was left off: it is not ready, and can be read.
+/// The states of a contour: ready, absent, or finished. A finished contour is not ready but can be read.
 const CONTOURS: [f64; 3] = [1.0, 0.0, -1.0];
 
-/// The values that an unknown may have.
+/// The possible values of an unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Domain {
-    /// Any of these.
+    /// Discrete values.
     Values(Vec<f64>),
-    /// Any within.
+    /// An interval.
     Range(Interval),
 }
 
 impl Domain {
-    /// All that can be felt. For registers, see the model.
+    /// All possible values of an input. For registers, see [`Model::domain`](super::model::Model::domain).
     pub(super) fn felt(unknown: Unknown) -> Self {
         let range = |low, high| Self::Range(Interval::new(low, high));
         match unknown {
             Unknown::Register(_) => Self::Range(Interval::ANYTHING),
             Unknown::Time => range(0.0, 1e9),
             Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-WHIRL, WHIRL),
-            // The plainest body follows its commands.
+            // The simplest body follows its commands, so that value comes first.
             Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
             Unknown::Body(BodyScalar::Shortfall) => range(0.0, FAR),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
-            // Half a turn, and what a filter adds.
+            // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
             Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
@@ -76,7 +76,7 @@ impl Domain {
         }
     }
 
-    /// The smallest interval around it.
+    /// The smallest interval that contains the domain.
     pub(super) fn hull(&self) -> Interval {
         match self {
             Self::Values(values) => {
@@ -86,7 +86,7 @@ impl Domain {
         }
     }
 
-    /// By what it differs from itself before it was narrowed: how many values there are, or the range.
+    /// A measure that changes whenever the domain is narrowed: the number of values, or the range.
     pub(super) fn extent(&self) -> (usize, Option<Interval>) {
         match self {
             Self::Values(values) => (values.len(), None),
@@ -94,7 +94,7 @@ impl Domain {
         }
     }
 
-    /// Keeps only what lies in an interval; false if nothing does.
+    /// Restricts the domain to an interval. False if nothing remains.
     pub(super) fn narrow(&mut self, to: Interval) -> bool {
         match self {
             Self::Values(values) => {
@@ -108,7 +108,7 @@ impl Domain {
         }
     }
 
-    /// Keeps only the contacts of which a number lies in an interval; false if none is left.
+    /// Restricts contacts to those with a scalar in an interval. False if none remains.
     pub(super) fn keep_contacts(&mut self, quantity: WhiskerScalar, to: Interval) -> bool {
         let Self::Values(numbers) = self else { return true };
         numbers.retain(|&number| {
@@ -117,12 +117,12 @@ impl Domain {
         !numbers.is_empty()
     }
 
-    /// Keeps only the contours of which [`WhiskerScalar::ContourReady`] lies in an interval; false if none is left.
+    /// Restricts contours to those with [`WhiskerScalar::ContourReady`] in an interval. False if none remains.
     pub(super) fn keep_ready(&mut self, to: Interval) -> bool {
         self.keep_contours(|contour| is_ready(contour).meet(to).has_any())
     }
 
-    /// Keeps only the contours that can be read; false if none is left.
+    /// Restricts contours to those that can be read. False if none remains.
     pub(super) fn keep_readable(&mut self) -> bool {
         self.keep_contours(is_readable)
     }
@@ -133,7 +133,7 @@ impl Domain {
         !contours.is_empty()
     }
 
-    /// Two parts of it; `None` if there is but one value.
+    /// Splits the domain in two. `None` if it has only one value.
     pub(super) fn split(&self) -> Option<[Self; 2]> {
         match self {
             Self::Values(values) if values.len() > 1 => {
@@ -151,7 +151,7 @@ impl Domain {
     }
 }
 
-/// A number well inside of an interval: it parts positive from negative, and halves large ranges by their magnitude.
+/// A number inside an interval. It separates positive from negative numbers, and halves large ranges by magnitude.
 pub(super) fn middle(range: Interval) -> f64 {
     let Interval { low, high, .. } = range;
     if low < 0.0 && high > 0.0 {
@@ -159,25 +159,25 @@ pub(super) fn middle(range: Interval) -> f64 {
     } else if low < 0.0 {
         -middle(range.negate())
     } else if high > 4.0 * low.max(1e-6) {
-        // From nothing to far away: the geometric mean, if both ends are of a size that anything has.
+        // The geometric mean, if both ends have a plausible magnitude.
         (low.max(1e-6) * high.min(FAR)).sqrt()
     } else {
         low + (high - low) / 2.0
     }
 }
 
-/// Where a reading finds the values of unknowns.
+/// Access to the domains of unknowns.
 pub(super) trait Source {
-    /// What an unknown may be.
+    /// The domain of an unknown.
     fn domain(&mut self, unknown: Unknown) -> &Domain;
 
-    /// The interval that holds what an unknown may be.
+    /// The smallest interval that contains the domain of an unknown.
     fn range(&mut self, unknown: Unknown) -> Interval {
         self.domain(unknown).hull()
     }
 }
 
-/// What a number of a whisker may be.
+/// The interval of a whisker's scalar.
 pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: WhiskerScalar) -> Interval {
     match quantity {
         WhiskerScalar::Touching | WhiskerScalar::Side | WhiskerScalar::Sense => {
@@ -206,7 +206,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
     }
 }
 
-/// What a vector of a whisker may be.
+/// The intervals of a whisker's vector.
 pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: WhiskerVector) -> [Interval; 2] {
     match quantity {
         WhiskerVector::ContourTangent => {
@@ -218,7 +218,7 @@ pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: Whisker
             [away.cosine(), away.sine()].map(|part| once_readable(source, whisker, part))
         }
         WhiskerVector::ContourEnd => {
-            // There is an end before there is a tangent, and before the first point there is none.
+            // An end exists before a tangent does, and before the first point there is no end.
             let may_be_none = !contours(source, whisker).all(is_readable);
             [0, 1].map(|axis| {
                 let end = source.range(Unknown::WhiskerVector(whisker, quantity, axis));
@@ -237,13 +237,13 @@ fn contacts(source: &mut impl Source, whisker: usize) -> impl Iterator<Item = (f
     numbers.iter().filter_map(|&number| numbered(number))
 }
 
-/// The contact with a number.
+/// The contact with an index.
 fn numbered(number: f64) -> Option<(f64, f64)> {
     let mut known = CONTACTS.iter().enumerate().filter(|&(index, _)| (index as f64 - number).abs() < 0.5);
     known.next().map(|(_, &contact)| contact)
 }
 
-/// What a contact is read as.
+/// The value of a scalar for a contact.
 fn reading(quantity: WhiskerScalar, (side, sense): (f64, f64)) -> f64 {
     match quantity {
         WhiskerScalar::Side => side,
@@ -252,7 +252,7 @@ fn reading(quantity: WhiskerScalar, (side, sense): (f64, f64)) -> f64 {
     }
 }
 
-/// What there may be of a whisker's contour.
+/// The possible states of a whisker's contour.
 fn contours(source: &mut impl Source, whisker: usize) -> impl Iterator<Item = f64> {
     let domain = source.domain(Unknown::Contour(whisker));
     let contours = if let Domain::Values(contours) = domain { contours.as_slice() } else { &[] };
@@ -267,7 +267,7 @@ fn is_readable(contour: f64) -> bool {
     contour.abs() > 0.5
 }
 
-/// What is no number before there is a contour.
+/// Adds NaN to a value if the contour may be absent.
 fn once_readable(source: &mut impl Source, whisker: usize, value: Interval) -> Interval {
     let readable = contours(source, whisker).filter(|&contour| is_readable(contour)).count();
     match contours(source, whisker).count() {

@@ -1,4 +1,4 @@
-//! Names that are given and never used.
+//! Unused names.
 
 use crate::diagnostic::Diagnostic;
 use crate::policy::ast::{Argument, Name};
@@ -6,8 +6,8 @@ use crate::policy::load::Files;
 
 use super::names::Names;
 
-/// Warns of parameters, whiskers, laws, derived values, arguments and uses that nothing needs. A library's laws and derived
-/// values are there for others.
+/// Warns about parameters, whiskers, laws, derived values, arguments and imports that nothing uses. Laws and derived
+/// values of a library are exports, so they are never unused.
 pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let file = &files.main;
     let (mut used, mut unread) = (Names::default(), Vec::new());
@@ -40,7 +40,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         })
     });
     let mut of_states: Vec<Names<'f>> = own.collect();
-    // What a state knows, those in it know; they follow it.
+    // Inner states know the names of a state. They follow it.
     while let (Some(mut names), Some(state)) = (of_states.pop(), file.states.get(of_states.len())) {
         part(&mut names, &state.arguments, &state.name.text);
         names.give(state.memory.iter().map(|(name, _)| name));

@@ -1,4 +1,4 @@
-//! Ways from state to state within one tick.
+//! Cycles in the graph of immediate transitions.
 
 use vibrissa_runtime::machine::CHAIN_LIMIT;
 
@@ -7,15 +7,15 @@ use super::reach::reachable;
 use super::region::Region;
 use super::search::{Goal, Search};
 
-/// Transitions, times where they lead, that are looked at.
+/// The maximum number of transitions, counted once per possible target.
 const STEP_LIMIT: usize = 1_000_000;
-/// Cycles that are looked for.
+/// The maximum number of cycles in the search.
 const CYCLE_LIMIT: usize = 100;
 
 /// A transition, and the innermost state in which it is taken.
 pub(super) type Step<'a> = (usize, &'a Edge<'a>);
 
-/// A way from state to state, and what is left of all that can be felt when it is gone.
+/// A path through states, and the region of inputs that permit it.
 #[derive(Clone)]
 struct Way<'a> {
     path: Vec<Step<'a>>,
@@ -23,26 +23,26 @@ struct Way<'a> {
     region: Region<'a>,
 }
 
-/// Transitions that wait for nothing, among innermost states that can be reached.
+/// The graph of immediate transitions between reachable innermost states.
 struct Graph<'a> {
-    /// Of every state, its transitions and where they can lead.
+    /// For every state, its transitions with their possible targets.
     steps: Vec<Vec<(&'a Edge<'a>, Vec<usize>)>>,
-    /// For every state, those from which a transition can lead there.
+    /// For every state, the states from which a transition leads to it.
     sources: Vec<Vec<usize>>,
-    /// Transitions, times where they lead, that were looked at.
+    /// Number of transitions so far, counted once per possible target.
     work: usize,
 }
 
-/// Cycles of transitions that wait for nothing, among innermost states that can be reached, the shortest first. A way that
-/// nothing that can be felt leads along is not gone on with: there are more ways among many states than can be looked at.
+/// The cycles of immediate transitions between reachable innermost states, the shortest first. A path is abandoned when
+/// no input permits it, because there are too many paths to enumerate all.
 pub(super) fn walk<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
     let mut graph = Graph::new(model);
     let mut search = Search::new(model);
     let mut found = Vec::new();
     'walk: for start in 0..model.states.len() {
-        // Each cycle begins at the first of its states, and passes none twice.
+        // Each cycle begins at the first of its states, and visits none twice.
         let leads_back = graph.leading_to(start);
-        // Ways that are yet to be gone on, and where they have come to.
+        // Paths that must still be extended, with their last states.
         let whole = Way { path: Vec::new(), goals: Vec::new(), region: Region::whole(model) };
         let mut open = vec![(start, whole)];
         while let Some((state, way)) = open.pop() {
@@ -81,9 +81,10 @@ pub(super) fn walk<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
     found
 }
 
-/// What it takes for a transition to be taken in a state: its guard holds, and none that is tried before it keeps it from being
-/// taken. In its own state all before it fail. In an outer one all do that would be taken, unless one comes before them that
-/// holds and has led where it leads: then those written after it wait, but for a failure.
+/// The goals for a transition to be taken in a state: its guard holds, and no preceding transition prevents it.
+///
+/// All preceding transitions of its own state must fail. Those of outer states must fail if they would be taken. A
+/// transition whose target is already active pre-empts the later ones of its state, except failures.
 pub(super) fn goals<'a>(model: &Model<'a>, (state, edge): Step<'a>) -> Vec<Goal<'a>> {
     let mut goals: Vec<Goal<'_>> = edge.condition().map(Goal::holds).into_iter().collect();
     let before = model.tried_before(edge, state);
@@ -125,7 +126,7 @@ impl<'a> Graph<'a> {
         graph
     }
 
-    /// From which of the states behind `goal` it can be reached by way of those.
+    /// For each state after `goal`, true if `goal` is reachable from it through such states.
     fn leading_to(&mut self, goal: usize) -> Vec<bool> {
         let (mut leads, mut open) = (vec![false; self.sources.len()], vec![goal]);
         while let Some(target) = open.pop() {

@@ -1,4 +1,4 @@
-//! Witnesses: points made plain, in words.
+//! Simplification of witnesses and their representation as text.
 
 use crate::policy::builtins::{Member, MemberSource, members};
 use crate::policy::types::Type;
@@ -10,21 +10,21 @@ use super::point::{Point, Reading, plainest};
 use super::search::{Accept, Goal, Search};
 use super::unknown::{Domain, Unknown};
 
-/// Halvings on the way to the plainest value that still does.
+/// The number of bisections in the search for the simplest valid value.
 const HALVINGS: usize = 60;
 
 impl Search<'_> {
-    /// A witness in words: `r0.touching = true, r0.deflection = 950 urad`. Its values are as plain as they can be for the
-    /// goals still to be met, and are exactly those shown.
+    /// A witness as text: `r0.touching = true, r0.deflection = 950 urad`. Its values are as simple as possible for the
+    /// goals, and exactly those shown.
     pub(super) fn describe(&mut self, goals: &[Goal<'_>], point: Point) -> String {
         self.describe_such(goals, point, None)
     }
 
-    /// The same for a witness that is also accepted, if that is asked for.
+    /// The same for a witness that `accept` must accept, if it is given.
     pub(super) fn describe_such(&mut self, goals: &[Goal<'_>], point: Point, accept: Option<&Accept<'_>>) -> String {
         let point = self.plainer(goals, point, accept);
         let (model, program) = (self.model, self.model.program);
-        // What the conditions that hold read is what counts, in the order in which they read it.
+        // Only the inputs of the conditions that hold matter, in the order in which they are read.
         let mut senses = point.clone();
         let mut registers = self.registers(&point);
         for wanted in goals.iter().flat_map(|goal| &goal.any).filter(|wanted| wanted.truth) {
@@ -38,9 +38,9 @@ impl Search<'_> {
         if words.is_empty() { "any time".to_owned() } else { words.join(", ") }
     }
 
-    /// The same point with every value as plain as it can be for the goals still to be met.
+    /// The point with simplified values that still meet the goals.
     fn plainer(&mut self, goals: &[Goal<'_>], mut point: Point, accept: Option<&Accept<'_>>) -> Point {
-        // Twice, since one value may have to wait for another to become plain first.
+        // Twice, because one value may become simplifiable only after another.
         for (unknown, _) in [point.values(), point.values()].concat() {
             let value = point.value(unknown);
             let domain = match unknown {
@@ -76,7 +76,7 @@ impl Search<'_> {
     }
 }
 
-/// The numbers of so many digits next to `value` in the unit that suits it, as they read in text, the nearest first.
+/// The numbers next to `value` with so many digits in a suitable unit, the nearest first.
 fn round(value: f64, dimension: Dimension, digits: i32) -> Vec<f64> {
     let Ok(quantity) = parse_quantity(&format_si(value, dimension)) else { return Vec::new() };
     let scale = |number: f64| quantity.unit.map_or(number, |unit| unit.to_si(number));
@@ -90,7 +90,7 @@ fn round(value: f64, dimension: Dimension, digits: i32) -> Vec<f64> {
     [steps, steps - 1.0, steps + 1.0]
         .into_iter()
         .filter_map(|steps| {
-            // Through the text, so that what is shown is what was tried.
+            // Through the text, so that the tested value is the displayed one.
             let text = format_si(scale(steps * step), dimension);
             parse_quantity(&text).ok().map(|shown| shown.value_si)
         })
@@ -116,14 +116,14 @@ fn dimension(model: &Model<'_>, unknown: Unknown) -> Dimension {
     }
 }
 
-/// The member that reads `source`, and what stands before its name.
+/// The member that reads `source`, and the text before its name.
 fn member(source: MemberSource) -> Option<(&'static str, Member)> {
     [(Type::Whisker, ""), (Type::Contour, "contour."), (Type::Body, "body.")].into_iter().find_map(|(owner, prefix)| {
         members(owner).iter().find(|member| member.source == source).map(|&member| (prefix, member))
     })
 }
 
-/// The values of arguments, and of parameters that are not as the policy gives them.
+/// The values of arguments, and of parameters that differ from the policy's.
 fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
     let mut words = Vec::new();
     for (unknown, value) in point.values() {
@@ -157,7 +157,7 @@ fn whisker_name(program: &Program, index: f64) -> &str {
     names.next().map_or("?", |(_, name)| name)
 }
 
-/// A number so that it can be read back exactly, in the unit that suits it if so few digits will do.
+/// A number as text that can be read back exactly. It has a suitable unit if the digits suffice.
 fn exact(value: f64, dimension: Dimension) -> String {
     let text = format_si(value, dimension);
     #[expect(clippy::float_cmp, reason = "it is to be the very same number")]
@@ -165,7 +165,7 @@ fn exact(value: f64, dimension: Dimension) -> String {
     if is_exact { text } else { format!("{value:?} {}", dimension.si_unit()).trim_end().to_owned() }
 }
 
-/// A value in words: a vector's x and y, of anything else the first of the two.
+/// A value as text: both components of a vector, and otherwise the first number.
 fn show(r#type: Type, [x, y]: [f64; 2]) -> String {
     match r#type {
         Type::Scalar(dimension) => exact(x, dimension),
@@ -174,7 +174,7 @@ fn show(r#type: Type, [x, y]: [f64; 2]) -> String {
     }
 }
 
-/// What a reading gives, in words; nothing of what is no number.
+/// A reading as text. `None` if it is NaN.
 fn felt(program: &Program, point: &Point, reading: Reading) -> Option<String> {
     let (whisker, source, value) = match reading {
         Reading::Time => return Some(format!("time = {}", show(Type::TIME, [point.time(), 0.0]))),

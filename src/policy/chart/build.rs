@@ -1,4 +1,4 @@
-//! From the syntax tree to the chart.
+//! Construction of charts from syntax trees.
 
 use std::collections::HashMap;
 
@@ -48,8 +48,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The transitions from one origin, and its failsafe. One that leads to a state that does not exist is left out; a file
-    /// that compiles has none.
+    /// The transitions from one origin, and its fallback transition. A transition to an unknown state is omitted. A
+    /// file that compiles has none.
     fn ways(&self, origin: Origin, transitions: &[ast::Transition], failsafes: &[ast::Target]) -> Vec<Transition> {
         let transitions = transitions.iter().map(|transition| (self.guard(&transition.guard), &transition.target));
         let ways = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
@@ -58,7 +58,7 @@ impl Builder<'_> {
                 Some(Transition { origin, number: None, guard, target: self.target(target)? })
             })
             .collect();
-        // A failsafe is not tried among the others.
+        // A fallback transition is not tried among the others.
         let tried = ways.iter_mut().filter(|way| way.guard != Guard::Failsafe);
         let mut tried: Vec<&mut Transition> = tried.collect();
         if tried.len() > 1 {
@@ -98,9 +98,9 @@ impl Builder<'_> {
         expressions.iter().map(|expression| self.text(expression.span)).collect()
     }
 
-    /// The text of an expression or a type, without comments, its parts one blank apart at most.
+    /// The text of an expression or a type, without comments, on one line with single blanks.
     fn text(&self, span: Span) -> String {
-        // An expression holds no texts in quotes, so that every `#` begins a comment.
+        // Expressions contain no strings, so every `#` begins a comment.
         let lines = self.source.slice(span).lines().map(|line| line.split('#').next().unwrap_or_default());
         lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
     }

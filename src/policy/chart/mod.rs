@@ -1,4 +1,4 @@
-//! The statechart of a policy: its states and transitions with their texts, for people to look at.
+//! The statechart of a policy: states and transitions with their texts, for drawing.
 
 mod build;
 mod view;
@@ -13,33 +13,34 @@ pub struct Chart {
     pub machine: String,
     /// The states.
     pub states: Vec<State>,
-    /// The transitions: those of any state first, then those of every state. Those of one origin are tried in this order.
+    /// The transitions: global ones first, then those of every state. Those of one origin are tried in this order.
     pub transitions: Vec<Transition>,
-    /// The state that each state of the machine lies in, by their indices there, also of those that a [`View`] leaves out.
+    /// For each state of the machine, the index of the state that contains it. It includes the states that a [`View`]
+    /// omits.
     pub parents: Vec<Option<usize>>,
-    /// Whether a [`View`] leaves out levels of it, so that a picture should tell little of each transition.
+    /// True if a [`View`] omits levels, so that drawings should shorten the labels.
     pub is_overview: bool,
 }
 
 impl Chart {
-    /// Whether the state `inner` is the state `outer` or lies in it.
+    /// True if the state `inner` is the state `outer` or inside it.
     #[must_use]
     pub fn contains(&self, outer: usize, inner: usize) -> bool {
         std::iter::successors(Some(inner), |&state| self.states[state].parent).any(|state| state == outer)
     }
 
-    /// The states that lie in `parent`, or in none, with their indices.
+    /// The direct inner states of `parent` with their indices, or the outermost states.
     pub fn inside(&self, parent: Option<usize>) -> impl Iterator<Item = (usize, &State)> {
         self.states.iter().enumerate().filter(move |(_, state)| state.parent == parent)
     }
 
-    /// Whether there are transitions of any state.
+    /// True if there are global transitions.
     #[must_use]
     pub fn has_any_state(&self) -> bool {
         self.transitions.iter().any(|transition| transition.origin == Origin::AnyState)
     }
 
-    /// Whether a transition leads to failure.
+    /// True if a transition leads to failure.
     #[must_use]
     pub fn has_failure(&self) -> bool {
         self.transitions.iter().any(|transition| matches!(transition.target, Target::Failure(_)))
@@ -53,15 +54,15 @@ pub struct State {
     pub index: usize,
     /// Its name.
     pub name: String,
-    /// What it is entered with.
+    /// The arguments.
     pub arguments: Vec<Argument>,
-    /// Index of the state that it lies in; `None` if it lies in none.
+    /// Index of the state that contains it. `None` for an outermost state.
     pub parent: Option<usize>,
-    /// Whether it is entered first: at the start, or when the state that it lies in is entered.
+    /// True if it is the initial state of the machine or of the state that contains it.
     pub initial: bool,
-    /// The values of its arguments when it is entered first.
+    /// The values of its arguments as an initial state.
     pub values: Vec<String>,
-    /// How many states lie in it that are not shown.
+    /// Number of inner states that are not shown.
     pub hidden: usize,
 }
 
@@ -70,62 +71,63 @@ pub struct State {
 pub struct Argument {
     /// Its name.
     pub name: String,
-    /// Its type, as written.
+    /// The type, as in the text.
     pub type_name: String,
 }
 
 /// A transition. Expressions are texts of the policy, on one line and without comments.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Transition {
-    /// Where it comes from.
+    /// The origin.
     pub origin: Origin,
-    /// As the how manyth of its origin it is tried, from 1; `None` if it is the only one, a failsafe, or shown for a state that is not.
+    /// The position in the order of the transitions of its origin, from 1. `None` if it is the only one, a fallback
+    /// transition, or drawn for a hidden state.
     pub number: Option<usize>,
-    /// When it is taken.
+    /// The guard.
     pub guard: Guard,
-    /// Where it leads.
+    /// The target.
     pub target: Target,
 }
 
-/// Where a transition comes from.
+/// The origin of a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Origin {
-    /// Every state: an `always` rule or the machine's failsafe.
+    /// Every state: a global transition, or the machine's fallback transition.
     AnyState,
     /// The state with this index.
     State(usize),
 }
 
-/// When a transition is taken.
+/// The guard of a transition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Guard {
-    /// When a condition holds.
+    /// The condition holds.
     When {
         /// The condition.
         condition: String,
-        /// For how long it must have held.
+        /// The time for which the condition must have held.
         lasting: Option<String>,
     },
-    /// When the state has been active for this time.
+    /// The state has been active for this time.
     After(String),
-    /// When the machine cannot go on in the state: the failsafe.
+    /// The machine cannot continue in the state (fallback transition).
     Failsafe,
 }
 
-/// Where a transition leads.
+/// The target of a transition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
-    /// Into a state.
+    /// A state.
     State {
         /// Its index.
         state: usize,
         /// Outer states that are entered with it, by their indices, with the values of their arguments.
         outer: Vec<(usize, Vec<String>)>,
-        /// The values of its arguments.
+        /// The values of the arguments.
         values: Vec<String>,
-        /// Whether it goes on in the inner state that was active last.
+        /// True if it enters the inner state that was active last (history).
         resume: bool,
     },
-    /// To the end of the run, in failure, for this reason.
+    /// The end of the run as a failure, with this reason.
     Failure(String),
 }

@@ -1,34 +1,34 @@
-//! A part of a chart, or a chart with fewer levels.
+//! Views: parts of a chart, or a chart with fewer levels.
 
 use vibrissa_runtime::units::suggest;
 
 use super::{Chart, Origin, State, Target, Transition};
 
-/// What of a chart to show.
+/// The visible part of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct View<'n> {
-    /// Only what lies in the state of this name, and where that leads.
+    /// The state whose inner states and targets are shown. All states if `None`.
     pub state: Option<&'n str>,
-    /// Only states of so many levels: with 1 those that lie in no other, or directly in the state that is named.
+    /// The number of visible levels. 1 shows only the outermost states, or the direct inner states of `state`.
     pub depth: Option<usize>,
 }
 
-/// A chart has no state of a name.
+/// The error for a chart without a state of this name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("there is no state `{name}`; {advice}")]
 pub struct UnknownState {
     /// The name.
     pub name: String,
-    /// Which name may be meant, or which there are.
+    /// A similar name, or the list of names.
     pub advice: String,
 }
 
 impl Chart {
     /// The part of the chart that `view` shows.
     ///
-    /// A transition of a state that is not shown comes from the state around it that is, and so for its target. Those within one
-    /// such state are left out, and of equal ones all but the first. Of the states outside of a named one, those are shown that
-    /// its transitions lead to, each by its outermost state that does not hold the named one as well.
+    /// A transition of a hidden state is shown at the nearest visible ancestor, and its target likewise. Transitions
+    /// within one such ancestor are omitted, and so are duplicates. With a named state, its targets outside are shown,
+    /// too. Each is represented by its outermost ancestor that does not contain the named state.
     ///
     /// # Errors
     /// [`UnknownState`] if the chart has no state of that name.
@@ -52,16 +52,16 @@ impl Chart {
 
 struct Selection<'c> {
     chart: &'c Chart,
-    /// The state that is shown with what lies in it; `None` for all.
+    /// The state whose content is shown. `None` for all states.
     root: Option<usize>,
-    /// How many levels below it are shown.
+    /// The number of visible levels below the root.
     depth: usize,
 }
 
-/// The place of a state of the whole chart among those that are shown.
+/// Maps a state of the whole chart to its index among the visible ones.
 type Index<'i> = &'i dyn Fn(usize) -> Option<usize>;
 
-/// Transitions with the states of the whole chart that they are shown between: from and to.
+/// Transitions with the visible states of the whole chart between which they are drawn: from and to.
 type Shown<'c> = Vec<(&'c Transition, Option<usize>, Option<usize>)>;
 
 impl Selection<'_> {
@@ -94,7 +94,7 @@ impl Selection<'_> {
         }
     }
 
-    /// A state as it is shown.
+    /// A visible state.
     fn state(&self, state: usize, index: Index<'_>) -> State {
         let whole = &self.chart.states[state];
         let is_whole = self.root.is_none_or(|root| root != state && self.is_inside(state));
@@ -108,7 +108,7 @@ impl Selection<'_> {
         }
     }
 
-    /// The ends between which a transition is shown, if it is: its states, or `None` for every state and for failure.
+    /// The visible ends of a transition, if it is visible. An end is a state, or `None` for every state or for failure.
     fn shown<'t>(&self, transition: &'t Transition) -> Option<(&'t Transition, Option<usize>, Option<usize>)> {
         let from = match transition.origin {
             Origin::AnyState if self.root.is_some() => return None,
@@ -122,13 +122,13 @@ impl Selection<'_> {
         (!is_within).then_some((transition, from, Some(to)))
     }
 
-    /// A transition between shown states, told by their indices among them.
+    /// A transition between visible states, given by their indices in the view.
     fn between(&self, transition: &Transition, from: Option<usize>, to: Option<usize>, index: Index<'_>) -> Transition {
         let (origin, number) = match (transition.origin, from) {
             (Origin::State(whole), Some(from)) if self.ancestor(whole) == whole => {
                 (Origin::State(from), transition.number)
             }
-            // Its place among the transitions of a state that is not shown says nothing.
+            // Its number among the transitions of a hidden state has no meaning in the view.
             (Origin::State(_), Some(from)) => (Origin::State(from), None),
             _ => (Origin::AnyState, transition.number),
         };
@@ -149,17 +149,17 @@ impl Selection<'_> {
         Transition { origin, number, guard: transition.guard.clone(), target }
     }
 
-    /// Whether a state is the root or lies in it.
+    /// True if a state is the root or inside it.
     fn is_inside(&self, state: usize) -> bool {
         self.root.is_none_or(|root| self.chart.contains(root, state))
     }
 
-    /// The state that stands for a state: itself or one around it.
+    /// The visible state that represents a state: itself or an ancestor.
     fn ancestor(&self, state: usize) -> usize {
         let around = |state: &usize| self.chart.states[*state].parent;
         let mut path: Vec<usize> = std::iter::successors(Some(state), around).collect();
         path.reverse();
-        // From the outermost state inwards: what does not hold the root, or what is as deep as is shown.
+        // From the outermost state inwards: the first that does not contain the root, or the deepest visible level.
         let root = self.root.and_then(|root| path.iter().position(|&outer| outer == root));
         let last = match (self.root, root) {
             (None, _) => self.depth.saturating_sub(1),

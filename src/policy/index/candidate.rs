@@ -1,4 +1,4 @@
-//! What can be written at a place.
+//! Completion.
 
 use std::collections::HashMap;
 
@@ -17,12 +17,12 @@ use super::symbol::{Symbol, SymbolKind};
 use super::words::{Place, Word, word, words_of};
 use super::{Index, text};
 
-/// What a candidate is.
+/// The kind of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CandidateKind {
-    /// A word of the language.
+    /// A keyword.
     Word,
-    /// A function of the language.
+    /// A built-in function.
     Function,
     /// A member of a whisker, a contour or the body.
     Member,
@@ -32,28 +32,28 @@ pub enum CandidateKind {
     Unit,
     /// A module of the standard library.
     Module,
-    /// A name that the policy gives.
+    /// A declared name.
     Symbol(SymbolKind),
 }
 
-/// Something that can be written at a place.
+/// A proposed completion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Candidate {
-    /// The word itself.
+    /// The proposed word.
     pub label: String,
-    /// What it is.
+    /// The kind.
     pub kind: CandidateKind,
-    /// Its type, or how it is used.
+    /// The type or the notation.
     pub detail: String,
-    /// What it means; may be empty.
+    /// The meaning. It may be empty.
     pub meaning: String,
-    /// What to write, with `${1:…}` for what is to be filled in; the word itself if there is nothing.
+    /// The text to insert, with placeholders `${1:…}`. The word itself if there are none.
     pub snippet: String,
 }
 
-/// Words that begin an item of a library.
+/// Keywords that begin an item of a library.
 const IN_LIBRARIES: [&str; 3] = ["use", "let", "law"];
-/// Dimensions of which a policy is likely to write numbers.
+/// Dimensions of numbers that occur in policies.
 const WRITTEN: [Dimension; 10] = [
     Dimension::LENGTH,
     Dimension::ANGLE,
@@ -68,7 +68,7 @@ const WRITTEN: [Dimension; 10] = [
 ];
 
 impl Index {
-    /// What can be written at a byte, and the part of a word that it takes the place of.
+    /// Candidates at a byte, and the span of the partial word that they replace.
     #[must_use]
     pub fn candidates(&self, at: usize) -> (Span, Vec<Candidate>) {
         let text = text(&self.source);
@@ -119,7 +119,7 @@ impl Index {
         }
     }
 
-    /// The symbols that are known at a place: of several with one name the innermost, which hides the others.
+    /// The symbols that are visible at a position. Inner ones hide outer ones with the same name.
     pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
         let at = context.typed.start;
         let known = self.symbols.iter().filter(move |symbol| {
@@ -136,8 +136,8 @@ impl Index {
         known.filter(move |symbol| innermost.get(symbol.name.as_str()) == Some(&symbol.visible.start))
     }
 
-    /// Whether a value that a statement names is known at a place behind it: transitions do not know what their state's statements
-    /// name, nor do the states in it.
+    /// True if a named value of a statement is visible at a later position. It is not visible in transitions of its
+    /// state, or in inner states.
     fn is_known_local(&self, local: &Symbol, context: &Context) -> bool {
         let owner = local.owner.and_then(|owner| self.symbols.get(owner));
         let is_beyond = owner.is_some_and(|owner| owner.kind == SymbolKind::State && Some(owner.span) != context.state);
@@ -149,14 +149,14 @@ impl Index {
         named.chain(words_of(Place::Value).map(of_word)).chain(functions()).collect()
     }
 
-    /// What an expectation of a test can read.
+    /// Values that expectations of tests can read.
     fn values_of_a_run(&self, context: &Context) -> Vec<Candidate> {
         let kinds = [SymbolKind::Parameter, SymbolKind::Derived];
         let named = self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol));
         words_of(Place::Run).map(of_word).chain(named).chain(functions()).collect()
     }
 
-    /// What the file of the `use` that is being written offers.
+    /// Names that the file of the current `use` provides.
     fn offered(&self, context: &Context) -> Vec<Candidate> {
         let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
         let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
@@ -164,7 +164,7 @@ impl Index {
         offered(&self.source, part).iter().map(candidate).collect()
     }
 
-    /// What begins a statement in such braces, or an item.
+    /// Keywords that begin a statement or an item at this level of braces.
     fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
         let place = match level {
             Level::Outside => Place::Item,
@@ -228,7 +228,7 @@ fn functions() -> impl Iterator<Item = Candidate> {
     })
 }
 
-/// The modules of the standard library, behind what is written of their names.
+/// The modules of the standard library, after the typed prefix.
 fn modules(prefix: &str) -> impl Iterator<Item = Candidate> {
     MODULES.iter().map(move |(module, text)| {
         let label = format!("{prefix}{module}");
@@ -270,7 +270,7 @@ fn units() -> impl Iterator<Item = Candidate> {
     })
 }
 
-/// A call with its values to be filled in: `turn(from, to)` as `turn(${1:from}, ${2:to})`.
+/// A call with placeholders for its values: `turn(from, to)` as `turn(${1:from}, ${2:to})`.
 fn call_snippet(usage: &str) -> String {
     let Some((name, values)) = usage.split_once('(') else { return usage.to_owned() };
     let values = values.trim_end_matches(')').split(", ").filter(|value| !value.is_empty()).enumerate();

@@ -1,86 +1,87 @@
-//! What may be written at a place, judged by the text before it.
+//! The context of completion, determined by the text before the position.
 
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind, tokens};
 
 use super::declare::{declare, is_balanced, place};
 
-/// What may be written.
+/// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Expected {
     Nothing,
-    /// A member of what stands before the `.` at this byte.
+    /// A member of the operand before the `.` at this byte.
     Member(usize),
-    /// A state to go to, or the end of the run.
+    /// A target: a state or the end of the run.
     Target,
-    /// A state to begin in.
+    /// An initial state.
     Initial,
-    /// A state that was left.
+    /// A state after `resume`.
     Resumed,
     Law,
-    /// The name of any state.
+    /// Any state.
     State,
-    /// The memory of a state, or of the machine.
+    /// Memory of a state or of the machine.
     Memory,
-    /// A parameter to set.
+    /// A parameter.
     Parameter,
-    /// What a whisker is marked as.
+    /// The kind of a mark.
     Mark,
     TipModel,
-    /// A file to use.
+    /// A file after `use`.
     File,
-    /// What stands behind `std.`.
+    /// A module after `std.`.
     Module,
-    /// A name that a `use` brings.
+    /// An imported name in the list of a `use`.
     Chosen,
     Type,
-    /// What `vector of` takes.
+    /// A dimension after `vector of`.
     Dimension,
     Unit,
     /// A value.
     Value,
-    /// The word that begins the file.
+    /// The keyword at the beginning of the file.
     Machine,
-    /// One word.
+    /// One keyword.
     Only(&'static str),
-    /// What begins a statement in such braces.
+    /// The beginning of a statement at this level of braces.
     Statement(Level),
-    /// What goes on with the statement, or begins another.
+    /// A continuation of the statement, or the beginning of another.
     More(Level, &'static [&'static str]),
 }
 
-/// Which braces a place is in.
+/// The kind of the innermost braces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Level {
-    /// None.
+    /// Outside of all braces.
     Outside,
-    /// Those of a state.
+    /// Braces of a state.
     State,
-    /// Those of a test.
+    /// Braces of a test.
     Test,
-    /// Any others.
+    /// Any other braces.
     Block,
 }
 
-/// A place at which something is being written.
+/// The context of a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Context {
     pub(super) expected: Expected,
-    /// The part of a word that stands there already.
+    /// Span of the word that is already typed in part.
     pub(super) typed: Span,
     pub(super) level: Level,
-    /// The name of the innermost state that the place is in.
+    /// Span of the name of the innermost state around the position.
     pub(super) state: Option<Span>,
-    /// Where the statement begins that is being written; what it declares is not known in it.
+    /// Start of the current statement. Its own declarations are not visible in it.
     pub(super) statement: Option<usize>,
-    /// Whether the place is in a transition, which does not know the names that the state's statements give.
+    /// True in a transition. Names of the state's statements are not visible there.
     pub(super) in_transition: bool,
-    /// Memory that is declared from here on is not known: laws and derived values know none, a `var` of the machine what stands
-    /// above it, all else whatever there is.
+    /// Memory that is declared from this byte on is not visible.
+    ///
+    /// For laws and derived values this excludes all memory. For a `var` of the machine it excludes memory below it.
     pub(super) memory_end: usize,
 }
 
-/// What may be written at the byte `at` of a text, which must be a whole character's.
+/// The context at the byte `at`, which must be the start of a character.
 pub(super) fn context(text: &str, at: usize) -> Context {
     let before = &text[..at];
     let mut known = tokens(before);
@@ -132,7 +133,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     }
 }
 
-/// Whether the text ends within a comment, a text or a number.
+/// True if the text ends within a comment, a string or a number.
 fn is_unfinished(text: &str, last: Token<'_>) -> bool {
     let is_at_the_end = last.start + last.text.len() == text.len();
     match last.kind {
@@ -164,7 +165,7 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, ")" | "}") => more(statement, level),
         (TokenKind::Mark, "|") if closes_a_norm(statement) => more(statement, level),
         (TokenKind::Mark, _) => Expected::Value,
-        // A unit stands on the line of its number.
+        // A unit is on the same line as its number.
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
         (TokenKind::Name, "lost" | "found") if behind(known, 1) == Some("mark") => Expected::Value,
@@ -174,12 +175,12 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
     }
 }
 
-/// The token so many before the last.
+/// The token that precedes the last one by `back`.
 fn behind<'t>(known: &[Token<'t>], back: usize) -> Option<&'t str> {
     known.iter().rev().nth(back).map(|token| token.text)
 }
 
-/// Whether something else begins so far behind a number that it cannot be its unit.
+/// True if the typed word is too far from a number to be its unit.
 fn known_apart(typed: Span, number: Token<'_>) -> bool {
     typed.start > number.start + number.text.len() + 1
 }
@@ -206,7 +207,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     }
 }
 
-/// Whether the statement stands before or within its list of arguments, or lists whiskers.
+/// True if the statement is at or before its list of arguments, or lists whiskers.
 fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
         Some("law" | "state" | "whisker") => true,
@@ -215,12 +216,12 @@ fn is_declaring(statement: &[Token<'_>]) -> bool {
     }
 }
 
-/// Whether the last of the bars in a statement, of which it ends with one, closes.
+/// True if the last token of a statement is a bar that closes.
 fn closes_a_norm(statement: &[Token<'_>]) -> bool {
     statement.iter().filter(|token| token.is("|")).count() % 2 == 0
 }
 
-/// What may follow a whole value in a statement.
+/// The context after a complete value in a statement.
 fn more(statement: &[Token<'_>], level: Level) -> Expected {
     let has = |word: &str| statement.iter().any(|token| token.text == word);
     let words: &[&str] = match statement.first().map(|token| token.text) {

@@ -1,8 +1,8 @@
-//! What a policy's text declares: from tokens to symbols.
+//! Declarations in a policy's text: from tokens to symbols.
 //!
-//! It reads tokens, not the syntax tree, so that a text with faults has symbols too: those of everything but the fault. Which
-//! braces hold what follows from the word that begins a statement. Where braces are not closed, a word that can stand outside of
-//! all braces ends them when it begins its line without a blank before it.
+//! This module reads tokens instead of the syntax tree, so a text with errors has symbols, too. The keyword at the
+//! beginning of a statement determines the kind of its braces. In a text with unclosed braces, an item keyword in the
+//! first column of a line closes them.
 
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind};
@@ -13,35 +13,35 @@ use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;
 use super::words::{Place, word};
 
-/// What stands between two braces, or outside of all.
+/// The content of a pair of braces, or the text outside of all braces.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Frame<'t> {
-    /// The word that begins the statement before the opening brace; none outside of all braces.
+    /// The keyword of the statement before the opening brace. `None` outside of all braces.
     pub(super) head: Option<&'t str>,
-    /// The token that begins the statement being read.
+    /// The first token of the current statement.
     pub(super) statement: Option<usize>,
-    /// The symbol whose braces these are, if it is one's.
+    /// The symbol to which the braces belong.
     pub(super) owner: Option<usize>,
-    /// What the statement being read has declared.
+    /// The declarations of the current statement.
     pending: Vec<usize>,
-    /// What is known until the closing brace.
+    /// The symbols that are visible until the closing brace.
     inside: Vec<usize>,
 }
 
-/// A text read up to its end.
+/// The declarations in the part of a text that was read.
 #[derive(Debug, Clone)]
 pub(super) struct Declared<'t> {
     /// In the order of their names in the text.
     pub(super) symbols: Vec<Symbol>,
-    /// The braces that are open at the end, the innermost last. Never empty.
+    /// The open braces at the end, the innermost last. It is never empty.
     pub(super) frames: Vec<Frame<'t>>,
-    /// Whether every brace can be trusted to have its other.
+    /// True if all braces of the text are balanced.
     is_balanced: bool,
-    /// The end of the token read last.
+    /// End of the last token.
     end: usize,
 }
 
-/// Whether every brace among tokens has its other.
+/// True if the braces of the tokens are balanced.
 pub(super) fn is_balanced(tokens: &[Token<'_>]) -> bool {
     let mut depth = 0_usize;
     for token in tokens.iter().filter(|token| token.kind == TokenKind::Mark) {
@@ -55,7 +55,8 @@ pub(super) fn is_balanced(tokens: &[Token<'_>]) -> bool {
     depth == 0
 }
 
-/// Reads what `tokens`, among which there are no comments, declare. They may be the beginning of a text whose braces are balanced.
+/// Reads the declarations of `tokens`, which contain no comments. They may be the beginning of a text with balanced
+/// braces.
 pub(super) fn declare<'t>(text: &str, tokens: &[Token<'t>], is_balanced: bool) -> Declared<'t> {
     let mut declared = Declared { symbols: Vec::new(), frames: vec![Frame::default()], is_balanced, end: 0 };
     for (index, token) in tokens.iter().enumerate() {
@@ -75,7 +76,7 @@ pub(super) fn declare<'t>(text: &str, tokens: &[Token<'t>], is_balanced: bool) -
 }
 
 impl<'t> Declared<'t> {
-    /// The symbols of a whole text, at whose end everything open ends.
+    /// The symbols of a complete text. All open constructs end with it.
     pub(super) fn finish(mut self, text: &str) -> Vec<Symbol> {
         while self.frames.len() > 1 {
             self.close(text.len());
@@ -131,7 +132,7 @@ impl<'t> Declared<'t> {
                 SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
                 _ => {}
             }
-            // `whisker a, b`
+            // A list of whiskers: `whisker a, b`
             if kind != SymbolKind::Whisker || !tokens.get(name + 1).is_some_and(|token| token.is(",")) {
                 break;
             }
@@ -209,7 +210,7 @@ impl<'t> Declared<'t> {
         self.frames.push(Frame { head, owner, ..Frame::default() });
     }
 
-    /// Ends the innermost braces, whose contents end at `end`.
+    /// Closes the innermost braces. Their content ends at `end`.
     fn close(&mut self, end: usize) {
         self.finish_statement();
         let Some(frame) = self.frames.pop() else { return };
@@ -218,7 +219,7 @@ impl<'t> Declared<'t> {
         }
     }
 
-    /// Ends the statement being read behind the token read last.
+    /// Ends the current statement after the last token.
     fn finish_statement(&mut self) {
         let end = self.end;
         let start = self.frames.last().and_then(|frame| frame.owner).map(|owner| self.symbols[owner].span.end);
@@ -229,11 +230,11 @@ impl<'t> Declared<'t> {
             match symbol.kind {
                 SymbolKind::Argument => symbol.visible = Span::new(symbol.whole.end, end),
                 SymbolKind::Memory => {
-                    // The transitions and statements above it know it too.
+                    // Memory is visible in the whole state, also above its declaration.
                     symbol.visible = Span::new(start.unwrap_or(symbol.span.start), end);
                     symbol.whole.end = end;
                 }
-                // What stands outside of its braces has none to end it.
+                // Outside of braces, nothing ends the visibility of a local name.
                 SymbolKind::Local => {
                     symbol.visible = Span::new(end, end);
                     symbol.whole.end = end;
@@ -253,7 +254,7 @@ fn begins_line_unindented(text: &str, start: usize) -> bool {
     start == 0 || text.as_bytes().get(start - 1) == Some(&b'\n')
 }
 
-/// The type of the parameter that `tokens` begin with the name of.
+/// The type of the parameter whose declaration begins with `tokens`.
 fn parameter_type(tokens: &[Token<'_>]) -> Option<Type> {
     let value = tokens.get(1..)?.iter().take(3).position(|token| token.kind == TokenKind::Number)? + 1;
     let dimension = match tokens.get(value + 1) {

@@ -1,4 +1,4 @@
-//! What is said of a word when a person points at it.
+//! Hover texts.
 
 use crate::diagnostic::Span;
 use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
@@ -12,20 +12,20 @@ use super::import::{heading, offered};
 use super::symbol::{Meaning, Symbol, SymbolKind};
 use super::words::word;
 
-/// The most bytes of a line that is searched for a comment: looking at all names of a text takes bounded time.
+/// The maximum length of a line that is searched for a comment (bytes). It bounds the time for a text with many names.
 const LINE_LIMIT: usize = 4096;
 
-/// What is said of a word.
+/// A hover text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hover {
-    /// The word.
+    /// Span of the word.
     pub span: Span,
-    /// What is said, in Markdown.
+    /// The hover text in Markdown.
     pub text: String,
 }
 
 impl Index {
-    /// What is to be said of the word at a byte.
+    /// The hover text for the word at a byte.
     #[must_use]
     pub fn hover(&self, at: usize) -> Option<Hover> {
         let known = self.use_at(at)?;
@@ -60,7 +60,7 @@ impl Index {
         paragraphs(&[code(&self.head(symbol)), types, self.description(symbol), file])
     }
 
-    /// What a file gives.
+    /// The laws and derived values of a file.
     fn explain_file(&self, part: usize) -> String {
         let offered = offered(&self.source, part);
         let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
@@ -69,10 +69,10 @@ impl Index {
         paragraphs(&[format!("`{name}`"), about, code(&heads.join("\n"))])
     }
 
-    /// What the comments beside a symbol say of it.
+    /// The description of a symbol in the comments beside it.
     #[must_use]
     pub fn description(&self, symbol: &Symbol) -> String {
-        // A comment beside an argument is one of what it belongs to.
+        // A comment beside an argument describes the item that contains the argument.
         let behind = self.source.slice(Span::new(symbol.span.start, symbol.span.start + LINE_LIMIT + 1));
         let is_line = behind.len() <= LINE_LIMIT || behind.contains('\n');
         let is_described = symbol.kind != SymbolKind::Argument && is_line;
@@ -89,7 +89,7 @@ fn code(text: &str) -> String {
     format!("```fsm\n{text}\n```")
 }
 
-/// The type, and the units that it is written in.
+/// The type and its units.
 fn type_line(r#type: Type) -> String {
     match r#type {
         Type::Scalar(dimension) if dimension != Dimension::NUMBER => {
@@ -109,7 +109,7 @@ fn unit_line(unit: &str, dimension: Dimension) -> String {
     }
 }
 
-/// How a member can be written.
+/// The notations of a member.
 fn usages(owner: Type, member: &Member) -> Vec<String> {
     let plain = format!("{}.{}", owner_name(owner), member.name);
     let with_value = member.at.map(|at| format!("{plain}({})", at.takes().0));

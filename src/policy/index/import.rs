@@ -1,6 +1,6 @@
-//! Files that a text uses, and the names that they bring.
+//! Imported files and names.
 //!
-//! They are read from tokens like all else, so that what a file brings is known while its `use` is being written.
+//! They are read from tokens, so the names of a file are known while its `use` is being typed.
 
 use std::ops::Range;
 
@@ -13,30 +13,30 @@ use super::code_tokens;
 use super::declare::{declare, place};
 use super::symbol::{Symbol, SymbolKind};
 
-/// A `use`, as far as it can be read.
+/// A `use`, complete or not.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Import {
-    /// Its tokens, from the word `use` on.
+    /// The tokens of the `use`, including the keyword.
     pub(super) tokens: Range<usize>,
-    /// Where it begins.
+    /// First byte of the `use`.
     pub(super) start: usize,
-    /// Where the file is named.
+    /// Span of the file's name.
     pub(super) from: Span,
-    /// The name of the file, if it can be one.
+    /// The name of the file, if it is valid.
     pub(super) file: Option<String>,
-    /// The names that it brings; all of the file, if `None`.
+    /// The imported names. `None` if the whole file is imported.
     pub(super) names: Option<Vec<Span>>,
 }
 
 impl Import {
-    /// The part of a source that is the file.
+    /// The part of a source that contains the file.
     pub(super) fn part(&self, source: &Source) -> Option<usize> {
         let name = self.file.as_deref()?;
         (1..source.count()).find(|&part| source.part_name(part) == name && source.absence(part).is_none())
     }
 }
 
-/// Every `use` among the tokens of the file called `name`.
+/// Every `use` among the tokens of the file `name`.
 pub(super) fn imports(name: &str, tokens: &[Token<'_>]) -> Vec<Import> {
     let words = tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Keyword && token.text == "use");
     words.filter_map(|(index, _)| import(name, tokens, index)).collect()
@@ -78,7 +78,7 @@ fn named(token: Token<'_>) -> Name {
     Name { text: token.text.to_owned(), span: place(token) }
 }
 
-/// Adds to `symbols`, of which the first part of a source gives the first `own`, the ones that a `use` in it brings.
+/// Appends the symbols that a `use` imports. The first `own` symbols are those of the text itself.
 pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
@@ -91,7 +91,7 @@ pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>,
     }
 }
 
-/// What the file that is a part of a source gives to others: its laws and derived values.
+/// The exported symbols of a part of a source: its laws and derived values.
 pub(super) fn offered(source: &Source, part: usize) -> Vec<Symbol> {
     let span = source.part_span(part);
     let text = source.slice(span);
@@ -101,7 +101,7 @@ pub(super) fn offered(source: &Source, part: usize) -> Vec<Symbol> {
     own.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
 }
 
-/// What the comment with which a file begins says of it.
+/// The description of a file in the comment at its beginning.
 pub(super) fn heading(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix('#')).map(str::trim);
     lines.collect::<Vec<_>>().join(" ")

@@ -1,8 +1,9 @@
-//! What is known of every place in a policy's text: for editors, which ask while it is being written.
+//! The index of a policy's text: names, types, references and completion for editors.
 //!
-//! [`Index::new`] reads any text, with faults or without. `declare` finds the names that it gives and where they are known, `import`
-//! those that other files bring, `resolve` what each word means; all work on tokens, so that a fault hides nothing but itself. Only
-//! types of derived and local values come from the compiler, and where it cannot tell, from the index before.
+//! [`Index::new`] reads any text, with errors or without. `declare` finds declarations and their visibility. `import`
+//! adds the names of other files. `resolve` finds the meaning of each word. All of them work on tokens, so an error
+//! hides nothing but itself. Only the types of derived and local values come from the compiler. If it cannot determine
+//! one, the type comes from the previous index.
 
 mod candidate;
 mod context;
@@ -36,7 +37,7 @@ pub use origin::Origin;
 pub use rename::RenameError;
 pub use symbol::{Role, Symbol, SymbolKind};
 
-/// What is known of a policy's text.
+/// The index of a policy's text.
 ///
 /// ```
 /// use vibrissa::{diagnostic::Source, policy::index::Index};
@@ -49,26 +50,26 @@ pub use symbol::{Role, Symbol, SymbolKind};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Index {
     source: Source,
-    /// Those of the text itself, and behind them those that other files bring.
+    /// The symbols of the text, and then the imported ones.
     symbols: Vec<Symbol>,
-    /// How many of them are the text's own.
+    /// Number of the text's own symbols.
     own: usize,
     imports: Vec<Import>,
     /// For every part of the source, the `use` that leads to it.
     ways: Vec<Option<Span>>,
     resolved: Resolved,
-    /// Whether its syntax has no fault.
+    /// True if the text has no syntax errors.
     is_read: bool,
 }
 
-/// Adds to a source, as parts, all files that it uses, as [`gather`](super::gather) does; also those of a `use` that is being
-/// written and at fault behind the file's name.
+/// Adds all used files to a source as parts, as [`gather`](super::gather) does. It includes files of an incomplete
+/// `use` with an error after the file's name.
 #[must_use]
 pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
     complete(load::load(source, library).source, library)
 }
 
-/// Adds the files of each `use` that is at fault.
+/// Adds the files of each `use` with an error.
 fn complete(mut source: Source, library: &mut Library<'_>) -> Source {
     let files = import::imports(&source.name, &code_tokens(text(&source))).into_iter().filter_map(|import| import.file);
     let files: Vec<String> = files.take(FILE_LIMIT).collect();
@@ -87,8 +88,8 @@ fn text(source: &Source) -> &str {
 }
 
 impl Index {
-    /// Reads a text. Of the files that it uses only the standard library and parts of the source are known. Where the compiler cannot
-    /// tell types, they come from what was known of the text `before`.
+    /// Indexes a text. It may use the standard library and the parts of the source. Types that the compiler cannot
+    /// determine come from `before`, the previous index.
     #[must_use]
     pub fn new(source: &Source, before: Option<&Self>) -> Self {
         let refuse = &mut |_: &str| Err(String::new());
@@ -115,32 +116,32 @@ impl Index {
         Self { source, symbols, own, imports, ways, resolved, is_read }
     }
 
-    /// The text, and those of all files that it uses as parts.
+    /// The text, with the used files as parts.
     #[must_use]
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// The names that the text gives, in their order. [`Symbol::owner`] is a place in this list.
+    /// The declared names, in order. [`Symbol::owner`] is an index into this list.
     #[must_use]
     pub fn symbols(&self) -> &[Symbol] {
         &self.symbols[..self.own]
     }
 
-    /// The `use` in the text that leads to a part of the source, be it through other files.
+    /// The `use` in the text that leads to a part of the source, directly or through other files.
     #[must_use]
     pub fn way_to(&self, part: usize) -> Option<Span> {
         self.ways.get(part).copied().flatten()
     }
 
-    /// The file that gives a symbol, if it is another.
+    /// The file that declares a symbol, if it is another file.
     fn file_of(&self, symbol: &Symbol) -> Option<&str> {
         let part = self.source.part_at(symbol.span.start);
         (part > 0).then(|| self.source.part_name(part))
     }
 
-    /// Where the name at a byte is given, maybe in another part of the [source](Self::source); the beginning of the file that is
-    /// named there.
+    /// Span of the declaration of the name at a byte. It may be in another part of the [source](Self::source). For the
+    /// name of a file, the beginning of that file.
     #[must_use]
     pub fn definition(&self, at: usize) -> Option<Span> {
         match self.use_at(at)?.meaning {
@@ -153,13 +154,13 @@ impl Index {
         }
     }
 
-    /// Every place in the text of what the name at a byte stands for, in their order; none if it is no name that files give.
+    /// All uses of the name at a byte, in order. Empty if no file declares it.
     #[must_use]
     pub fn references(&self, at: usize) -> Vec<(Span, Role)> {
         self.symbol_at(at).map_or_else(Vec::new, |(_, wanted)| self.places(wanted))
     }
 
-    /// How a symbol is written, without its braces and on one line: `law swipe(w: whisker)`.
+    /// The declaration of a symbol on one line, without its braces: `law swipe(w: whisker)`.
     #[must_use]
     pub fn head(&self, symbol: &Symbol) -> String {
         let whole = self.source.slice(symbol.whole);
@@ -179,7 +180,7 @@ impl Index {
         words
     }
 
-    /// The word at a byte; the one that ends there, if none begins.
+    /// The word that begins or contains a byte, or else the word that ends there.
     fn use_at(&self, at: usize) -> Option<Use> {
         let uses = &self.resolved.uses;
         let behind = uses.partition_point(|known| known.span.start <= at);
@@ -187,7 +188,7 @@ impl Index {
         (at <= before.span.end).then_some(*before)
     }
 
-    /// The name at a byte and what it stands for, if the text gives it.
+    /// The name at a byte and its symbol, if the text declares it.
     fn symbol_at(&self, at: usize) -> Option<(Span, usize)> {
         let known = self.use_at(at)?;
         match known.meaning {
@@ -202,14 +203,14 @@ impl Index {
     }
 }
 
-/// By what a symbol is known again when the text has changed: its name, and that of what it stands in.
+/// The identity of a symbol after a change of the text: its name, and the name of its owner.
 type Identity<'s> = (&'s str, Option<&'s str>);
 
 fn identity<'s>(symbols: &'s [Symbol], symbol: &'s Symbol) -> Identity<'s> {
     (&symbol.name, symbol.owner.and_then(|owner| symbols.get(owner)).map(|owner| owner.name.as_str()))
 }
 
-/// The tokens of a text without its comments.
+/// The tokens of a text without comments.
 fn code_tokens(text: &str) -> Vec<Token<'_>> {
     tokens(text).into_iter().filter(|token| token.kind != TokenKind::Comment).collect()
 }

@@ -1,41 +1,41 @@
-//! What names stand for, told across files.
+//! Identity of symbols across files.
 
 use crate::diagnostic::Span;
 
 use super::symbol::{Meaning, Role, Symbol};
 use super::{Index, RenameError};
 
-/// Where a name is given: the same for every text in which it stands for the same.
+/// The declaration of a symbol. It is the same in every text that refers to the symbol.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
-    /// The name of the file, as the [source](Index::source) of the one that uses it has it.
+    /// The name of the file in the [source](Index::source) of a file that uses it.
     pub file: String,
-    /// The place in that file.
+    /// Span in that file.
     pub place: Span,
 }
 
 impl Index {
-    /// Where the name at a byte is given; `None` if it is no name that files give.
+    /// The declaration of the name at a byte. `None` if no file declares it.
     #[must_use]
     pub fn origin(&self, at: usize) -> Option<Origin> {
         self.symbol_at(at).map(|(_, index)| self.origin_of(&self.symbols[index]))
     }
 
-    /// Every place in the text of what is given at `origin`, in their order.
+    /// All uses of the symbol of `origin` in the text, in order.
     #[must_use]
     pub fn references_to(&self, origin: &Origin) -> Vec<(Span, Role)> {
         self.given_at(origin).map_or_else(Vec::new, |index| self.places(index))
     }
 
-    /// The places in the text at which `name` must be written for what is given at `origin` to be called so.
+    /// The spans in this text to replace with `name` when the symbol of `origin` is renamed.
     ///
     /// # Errors
-    /// The name cannot be changed, or not to this one.
+    /// The name cannot be changed, or not to `name`.
     pub fn rename_to(&self, origin: &Origin, name: &str) -> Result<Vec<Span>, RenameError> {
         self.given_at(origin).map_or(Ok(Vec::new()), |index| self.renamed(index, name))
     }
 
-    /// Every place in the text of a symbol, in their order.
+    /// All uses of a symbol in the text, in order.
     pub(super) fn places(&self, wanted: usize) -> Vec<(Span, Role)> {
         let places = self.resolved.uses.iter().filter_map(|known| match known.meaning {
             Meaning::Symbol(index, role) if index == wanted => Some((known.span, role)),

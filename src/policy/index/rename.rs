@@ -1,4 +1,4 @@
-//! Giving something another name.
+//! Renaming.
 
 use thiserror::Error;
 
@@ -10,28 +10,28 @@ use crate::policy::path::standard;
 use super::Index;
 use super::symbol::{Meaning, Symbol, SymbolKind};
 
-/// Why something cannot be given another name.
+/// The reason for which a name cannot be changed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RenameError {
-    /// There is no name at the place.
+    /// There is no name at the position.
     #[error("there is no name here; point at the name of a state, a law, a value or a whisker")]
     NoName,
-    /// The text could not be read.
+    /// The text has syntax errors.
     #[error("the policy has a fault of syntax, so that not every place of a name is known; mend that first")]
     Unreadable,
-    /// It belongs to the language.
+    /// The name belongs to the language.
     #[error("`{0}` belongs to the language and keeps its name")]
     BuiltIn(String),
-    /// Nothing is called so.
+    /// The name is not declared.
     #[error("nothing is called `{0}`; mend that first")]
     Unknown(String),
-    /// The new name is none.
+    /// The new name is not a valid name.
     #[error("`{0}` cannot be a name; a name has letters from a to z, digits and `_`, and does not begin with a digit")]
     Malformed(String),
-    /// The new name is a word of the language, or of a function.
+    /// The new name is a keyword or a built-in function.
     #[error("`{0}` has a meaning of its own in the language; choose another name")]
     Reserved(String),
-    /// The standard library gives the name.
+    /// The standard library declares the name.
     #[error("`{name}` belongs to the standard library (`{module}`), which is part of the program; it keeps its name")]
     Standard {
         /// The name.
@@ -39,7 +39,7 @@ pub enum RenameError {
         /// The module.
         module: String,
     },
-    /// A file that is used brings the new name.
+    /// The new name is imported from a file.
     #[error("the name `{name}` is brought from `{file}`; choose another name")]
     Brought {
         /// The new name.
@@ -47,7 +47,7 @@ pub enum RenameError {
         /// The file.
         file: String,
     },
-    /// The new name is taken.
+    /// The new name is already declared.
     #[error("the name `{name}` is given in line {line} already; choose another name")]
     Taken {
         /// The new name.
@@ -58,24 +58,24 @@ pub enum RenameError {
 }
 
 impl Index {
-    /// The name at a byte, if it can be changed.
+    /// Span of the name at a byte, if it can be changed.
     ///
     /// # Errors
-    /// What is there keeps its name, or is not known well enough.
+    /// The name cannot be changed, or its meaning is not certain.
     pub fn renamable(&self, at: usize) -> Result<Span, RenameError> {
         self.to_rename(at).map(|(span, _)| span)
     }
 
-    /// The places in the text at which `name` must be written for what the name at a byte stands for to be called so. Other files
-    /// may have more, see [`rename_to`](Self::rename_to).
+    /// The spans to replace with `name` when the name at a byte is changed. They are in this text only.
+    /// [`rename_to`](Self::rename_to) returns those in other files.
     ///
     /// # Errors
-    /// The name cannot be changed, or not to this one.
+    /// The name cannot be changed, or not to `name`.
     pub fn rename(&self, at: usize, name: &str) -> Result<Vec<Span>, RenameError> {
         self.to_rename(at).and_then(|(_, index)| self.renamed(index, name))
     }
 
-    /// The places at which `name` must be written for a symbol to be called so.
+    /// The spans to replace with `name` when a symbol is renamed.
     pub(super) fn renamed(&self, index: usize, name: &str) -> Result<Vec<Span>, RenameError> {
         let symbol = &self.symbols[index];
         if !self.is_read {
@@ -117,7 +117,8 @@ impl Index {
     }
 }
 
-/// Whether there is a place at which both are known, so that they cannot have one name. The machine's name is a thing apart.
+/// True if both names are visible at one position, so that they must differ. The machine's name is independent of all
+/// others.
 fn meet(a: &Symbol, b: &Symbol) -> bool {
     let (a_reach, b_reach) = (a.visible.to(a.span), b.visible.to(b.span));
     let apart = a_reach.end <= b_reach.start || b_reach.end <= a_reach.start;

@@ -1,4 +1,4 @@
-//! What the words of a text mean, given what it declares.
+//! Name resolution.
 
 use std::collections::HashMap;
 
@@ -14,15 +14,15 @@ use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
 use super::words::{Place, Word, word};
 
-/// The words of a text with their meanings, in their order.
+/// The words of a text with their meanings, in the order of the text.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Resolved {
     pub(super) uses: Vec<Use>,
-    /// What stands before each `.`, where it is known, by the byte of the `.`.
+    /// The owner before each `.`, if it is known, by the byte of the `.`.
     pub(super) owners: HashMap<usize, Owner>,
 }
 
-/// What stands before a `.`.
+/// The operand before a `.`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Owner {
     /// A value of this type.
@@ -31,8 +31,8 @@ pub(super) enum Owner {
     State(usize),
 }
 
-/// Finds the meaning of every word among `tokens`, those of the first part of a source without its comments. `imports` are the
-/// uses of files among them; the symbols behind the first `own` are those that they bring.
+/// Resolves every word of `tokens`. They are the tokens of the first part of a source, without comments. `imports` are
+/// its uses of files. Symbols from index `own` on are imported.
 pub(super) fn resolve(
     source: &Source,
     tokens: &[Token<'_>],
@@ -42,9 +42,9 @@ pub(super) fn resolve(
 ) -> Resolved {
     let mut names = Names::new(symbols);
     let mut resolved = Resolved::default();
-    // The operand that ends with the token before, and what each open parenthesis is called on.
+    // The operand that ends with the previous token, and the operand before each open parenthesis.
     let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
-    // Where the name of a type ends that is being read.
+    // End of the current type name.
     let mut type_end = 0;
     for (index, token) in tokens.iter().enumerate() {
         names.advance(token.start);
@@ -68,7 +68,7 @@ pub(super) fn resolve(
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
                 word(token.text).map(|word| Meaning::Word(word.text))
             }
-            // A member, or a state within another: `-> Outer(w).Inner`.
+            // A member, or an inner state: `-> Outer(w).Inner`.
             TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
                 Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
@@ -112,7 +112,7 @@ pub(super) fn resolve(
     resolved
 }
 
-/// The meanings of what stands in a `use`.
+/// The meanings of the words in a `use`.
 fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -> Vec<Use> {
     let part = import.part(source);
     let brought = |name: &str| {
@@ -125,12 +125,12 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
     std::iter::once(file).chain(names).collect()
 }
 
-/// Whether a word has its meaning behind `mark` alone.
+/// True if a word has its meaning only after `mark`.
 fn is_mark(word: &Word) -> bool {
     word.places == [Place::Mark]
 }
 
-/// Whether a word behind `if` is the end of `whisker a if fitted`: a condition would go on.
+/// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
 fn is_fitted(text: &str, next: Option<&Token<'_>>) -> bool {
     text == "fitted" && next.is_none_or(|next| next.kind == TokenKind::Keyword && !["and", "or"].contains(&next.text))
 }
@@ -140,20 +140,20 @@ fn member(owner: Type, name: &str) -> Option<Meaning> {
     Some(Meaning::Member(owner, *member))
 }
 
-/// The names that are known at a place that moves through the text.
+/// The names that are visible at a position that moves through the text.
 struct Names<'s> {
     symbols: &'s [Symbol],
     declared: HashMap<Span, usize>,
-    /// Symbols in the order in which they come to be known, and how many of them are.
+    /// Symbols in the order of the beginnings of their visibility, and the number of those that have begun.
     order: Vec<usize>,
     begun: usize,
-    /// For every name the symbols that it stands for, the innermost last; some may be known no longer.
+    /// For every name its symbols, the innermost last. Some may no longer be visible.
     known: HashMap<&'s str, Vec<usize>>,
 }
 
 impl<'s> Names<'s> {
     fn new(symbols: &'s [Symbol]) -> Self {
-        // Nothing can refer to the machine.
+        // The machine's name cannot be referred to.
         let mut order: Vec<usize> =
             (0..symbols.len()).filter(|&index| symbols[index].kind != SymbolKind::Machine).collect();
         order.sort_by_key(|&index| symbols[index].visible.start);
@@ -175,7 +175,7 @@ impl<'s> Names<'s> {
             return Some(Meaning::Symbol(declared, Role::Declares));
         }
         if let Some(known) = self.known.get_mut(name) {
-            // Braces are nested, so that what came to be known last ceases to be known first.
+            // Braces are nested, so the symbol that became visible last is the first to become invisible.
             while known.last().is_some_and(|&index| self.symbols[index].visible.end <= span.start) {
                 known.pop();
             }

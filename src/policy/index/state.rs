@@ -1,4 +1,4 @@
-//! States that can be written at a place.
+//! Completion of states.
 
 use std::collections::HashSet;
 
@@ -11,20 +11,20 @@ use super::symbol::SymbolKind;
 use super::words::{Place, words_of};
 
 impl Index {
-    /// What can stand behind `->`.
+    /// Candidates after `->`.
     pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
         let can_resume = !self.nesting().is_empty();
         let words = words_of(Place::Target).filter(|word| can_resume || word.text != "resume");
         self.states().map(|state| self.target(state, context)).chain(words.map(of_word)).collect()
     }
 
-    /// What can stand behind `resume`.
+    /// Candidates after `resume`.
     pub(super) fn resumable(&self, context: &Context) -> Vec<Candidate> {
         let nesting = self.nesting();
         self.states().filter(|state| nesting.contains(state)).map(|state| self.target(state, context)).collect()
     }
 
-    /// What can stand behind `initial`: in a state those that lie directly in it, outside those that a run can start in.
+    /// Candidates after `initial`: direct inner states in a state, and outermost states outside.
     pub(super) fn beginnings(&self, context: &Context) -> Vec<Candidate> {
         let around = self.state_around(context);
         let states = self.states().filter(|&state| {
@@ -34,7 +34,7 @@ impl Index {
         states.map(|state| self.symbol(&self.symbols[state])).collect()
     }
 
-    /// What can stand behind the `.` behind a state: those in it, if no state between takes values.
+    /// Candidates after a state and `.`: its inner states, unless a state between them takes values.
     pub(super) fn inner_states(&self, outer: usize) -> Vec<Candidate> {
         let is_near = |state: usize| {
             let mut between = self.outward(state).skip(1).skip_while(|&on_way| {
@@ -45,7 +45,7 @@ impl Index {
         self.states().filter(|&state| is_near(state)).map(|state| self.symbol(&self.symbols[state])).collect()
     }
 
-    /// A state as a target: behind those outer ones that are entered on the way and take values.
+    /// A state as a target, with the entered outer states that take values.
     fn target(&self, target: usize, context: &Context) -> Candidate {
         let around = self.state_around(context);
         let stays = |outer: usize| {
@@ -72,17 +72,17 @@ impl Index {
         (0..self.own).filter(|&index| self.symbols[index].kind == SymbolKind::State)
     }
 
-    /// The states that have others in them.
+    /// The states that have inner states.
     fn nesting(&self) -> HashSet<usize> {
         self.states().filter_map(|state| self.symbols[state].owner).collect()
     }
 
-    /// The state that a place is in, the innermost.
+    /// The innermost state around the position.
     fn state_around(&self, context: &Context) -> Option<usize> {
         self.states().find(|&state| Some(self.symbols[state].span) == context.state)
     }
 
-    /// A state and those that it lies in, the innermost first; no more than a policy can have.
+    /// A state and its ancestors, the innermost first. The number is limited to that of a valid policy.
     fn outward(&self, state: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(state), |&state| self.symbols.get(state)?.owner).take(NESTING_LIMIT)
     }

@@ -1,11 +1,11 @@
-//! Names that a policy gives, and where they are used.
+//! Declared names and their uses.
 
 use crate::diagnostic::Span;
 use crate::policy::builtins::Member;
 use crate::policy::types::Type;
 use vibrissa_runtime::units::Dimension;
 
-/// What a name that a policy gives stands for.
+/// The kind of a declared name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SymbolKind {
     /// The machine or the library itself.
@@ -22,72 +22,72 @@ pub enum SymbolKind {
     State,
     /// An argument of a law, a derived value or a state.
     Argument,
-    /// A value that a statement names.
+    /// A named value of a statement.
     Local,
-    /// What a state, or the machine, keeps from tick to tick.
+    /// Memory of a state or of the machine, kept from tick to tick.
     Memory,
 }
 
 impl SymbolKind {
-    /// Whether the whole policy knows the name.
+    /// True if the whole policy knows the name.
     pub(super) fn is_item(self) -> bool {
         !matches!(self, Self::Argument | Self::Local | Self::Memory)
     }
 
-    /// Whether the name stands for a value.
+    /// True if the name means a value.
     pub(super) fn is_value(self) -> bool {
         !matches!(self, Self::Machine | Self::Law | Self::State)
     }
 }
 
-/// A name that a policy gives.
+/// A declared name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symbol {
     /// The name.
     pub name: String,
-    /// What it stands for.
+    /// The kind.
     pub kind: SymbolKind,
-    /// Where it is given, maybe in another part of the source.
+    /// Span of the name in its declaration, which may be in another part of the source.
     pub span: Span,
-    /// All that gives it its meaning: an item, a statement, an argument with its type.
+    /// Span of the whole declaration: an item, a statement, or an argument with its type.
     pub whole: Span,
-    /// The names of its arguments.
+    /// The names of the arguments.
     pub arguments: Vec<String>,
-    /// The symbol in whose braces or parentheses it stands.
+    /// The symbol whose braces or parentheses contain this one.
     pub owner: Option<usize>,
-    /// Where it is known.
+    /// The span in which the name is visible.
     pub(super) visible: Span,
     pub(super) r#type: Option<Type>,
 }
 
-/// What a use of a name does.
+/// The effect of a use of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Gives the name its meaning.
+    /// The use declares the name.
     Declares,
-    /// Changes the memory that the name stands for.
+    /// The use changes the memory.
     Writes,
-    /// Anything else.
+    /// Any other use.
     Reads,
 }
 
-/// What a word in the text means.
+/// The meaning of a word in the text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
     Symbol(usize, Role),
-    /// A function of the language, by its place in the table.
+    /// A built-in function, by its index in the table.
     Function(usize),
     Member(Type, Member),
     Type(Type),
     Unit(Dimension),
-    /// A file that is used, by its part of the source.
+    /// A used file, by its part of the source.
     File(usize),
-    /// A word of the language.
+    /// A keyword.
     Word(&'static str),
     Unknown,
 }
 
-/// A word in the text, and what it means.
+/// A word in the text with its meaning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Use {
     pub(super) span: Span,

@@ -1,11 +1,11 @@
-//! Names of types among tokens.
+//! Type names among tokens.
 
 use crate::policy::ast::{Binary, Name, TypeName};
 use crate::policy::format::{Token, TokenKind};
 
 use super::declare::place;
 
-/// The name of a type that begins with the token `at`, and the index of its last token: `length`, `vector of length`,
+/// The type that is named from the token `at` on, and the index of its last token: `length`, `vector of length`,
 /// `angular_speed / length`.
 pub(super) fn type_name(tokens: &[Token<'_>], at: usize) -> Option<(TypeName, usize)> {
     let name = |at: usize| {

@@ -1,50 +1,50 @@
-//! The words of the language: where each may stand, how it is used, what it does.
+//! Keywords: allowed positions, notation, meaning.
 
-/// Where a word may stand.
+/// A position in which a keyword is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
-    /// First in a file.
+    /// At the beginning of a file.
     File,
     /// Outside of all braces.
     Item,
-    /// Between the braces of a state.
+    /// In the braces of a state.
     State,
-    /// Between the braces of a test.
+    /// In the braces of a test.
     Test,
-    /// Between any braces.
+    /// In any braces.
     Statement,
     /// Within a statement.
     Inside,
-    /// Where a value is due.
+    /// At a value.
     Value,
-    /// Where a value of a whole run is due.
+    /// At a value in a test.
     Run,
-    /// Where the name of a state is due.
+    /// At the name of a state.
     Target,
-    /// Behind `mark`.
+    /// After `mark`.
     Mark,
-    /// Behind `by`.
+    /// After `by`.
     TipModel,
 }
 
-/// A word of the language.
+/// A keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Word {
     pub(super) text: &'static str,
     pub(super) places: &'static [Place],
-    /// What to write, with `${1:…}` for what is to be filled in.
+    /// The text to insert, with placeholders `${1:…}`.
     pub(super) snippet: &'static str,
     pub(super) meaning: &'static str,
 }
 
 impl Word {
-    /// Whether a statement, a transition or an item begins with it.
+    /// True if a statement, a transition or an item begins with the keyword.
     pub(super) fn begins_statement(&self) -> bool {
         use Place::{File, Item, State, Statement, Test};
         self.places.iter().any(|place| [File, Item, State, Statement, Test].contains(place))
     }
 
-    /// How it is used: the snippet without its marks.
+    /// The notation: the snippet without its placeholders' marks.
     pub(super) fn usage(&self) -> String {
         let mut usage = String::new();
         for (index, part) in self.snippet.split("${").enumerate() {
@@ -77,7 +77,7 @@ const TARGET: &[Place] = &[Place::Target];
 const MARK: &[Place] = &[Place::Mark];
 const TIP_MODEL: &[Place] = &[Place::TipModel];
 
-/// Every word of the language that is no function.
+/// Every keyword that is not a function.
 pub(super) const WORDS: [Word; 53] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry("library", FILE, "library ${1:name}", "Begins a file of laws and derived values for others, and names it."),
@@ -229,12 +229,12 @@ pub(super) const WORDS: [Word; 53] = [
     entry("Failure", TARGET, "Failure(\"${1:reason}\")", "Ends the run as failed; the platform stands still."),
 ];
 
-/// The word of the language that is written `text`.
+/// The keyword with this text.
 pub(super) fn word(text: &str) -> Option<&'static Word> {
     WORDS.iter().find(|word| word.text == text)
 }
 
-/// The words that may stand in a place.
+/// The keywords that are allowed in a position.
 pub(super) fn words_of(place: Place) -> impl Iterator<Item = &'static Word> {
     WORDS.iter().filter(move |word| word.places.contains(&place))
 }

@@ -1,16 +1,16 @@
-//! A program whose code is being shortened.
+//! A program during optimisation.
 
 use vibrissa_runtime::machine::{Block, Guard, Op, Program, Register, Target, Transition};
 
-/// A program whose code is being shortened: operations are struck out, and the rest moves up at the end.
+/// A program during optimisation. Passes mark operations as removed, and `finish` compacts the code.
 pub(super) struct Draft {
     program: Program,
     pub(super) ops: Vec<Op>,
-    /// Whether each operation stays in its place.
+    /// For each operation, true if it is kept.
     pub(super) is_kept: Vec<bool>,
-    /// What a run begins with.
+    /// Code that is executed once, at the start of a run.
     pub(super) start: Vec<Op>,
-    /// Stretches of the code that are run from their starts to their ends.
+    /// Ranges of the code that are executed from start to end.
     pub(super) runs: Vec<std::ops::Range<usize>>,
 }
 
@@ -21,7 +21,7 @@ impl Draft {
         Self { is_kept: vec![true; ops.len()], ops, start: Vec::new(), runs, program }
     }
 
-    /// How many registers there are.
+    /// Number of registers.
     pub(super) fn registers(&self) -> usize {
         self.program.image.len()
     }
@@ -40,7 +40,7 @@ impl Draft {
             .flatten()
     }
 
-    /// For every operation, whether a jump leads there.
+    /// For every operation, true if it is the target of a jump.
     pub(super) fn targets(&self) -> Vec<bool> {
         let mut is_target = vec![false; self.ops.len() + 1];
         for target in self.ops.iter().filter_map(|op| op.target()) {
@@ -49,9 +49,9 @@ impl Draft {
         is_target
     }
 
-    /// The program without what was struck out.
+    /// The program without the removed operations.
     pub(super) fn finish(mut self) -> Program {
-        // Where each operation goes, or what comes behind it if it goes nowhere.
+        // The new index of each operation. A removed operation has that of the next kept one.
         let mut places = Vec::with_capacity(self.ops.len() + 1);
         let mut place = 0;
         for &is_kept in &self.is_kept {
@@ -78,7 +78,8 @@ impl Draft {
     }
 }
 
-/// Stretches of the code that are run from their starts to their ends: the guards of a source in one go, all else by itself.
+/// Ranges of the code that are executed from start to end: all guards of a source together, and every other block
+/// separately.
 fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
     let of_target = |target: &Target| match target {
         Target::State { arguments, .. } => arguments.clone(),

@@ -1,13 +1,13 @@
-//! One operation for several.
+//! Fusion: one operation in place of several.
 
 use vibrissa_runtime::machine::{Op, Register};
 
 use super::draft::Draft;
 
-/// The most operations that one takes the place of.
+/// The maximum number of operations that one can replace.
 const MOST: usize = 3;
 
-/// Puts one operation in the place of several that follow one another; `reads` is how often each register is read.
+/// Replaces consecutive operations by fused ones. `reads` has the number of reads of each register.
 pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
     let is_target = draft.targets();
     for run in draft.runs.clone() {
@@ -27,9 +27,9 @@ pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
     }
 }
 
-/// What one operation can do in the place of the first of these, and of how many.
+/// The operation that can replace the first of `ops`, with the number of replaced operations.
 fn fused(ops: &[Op], reads: &[u32]) -> Option<(usize, Op)> {
-    // Whether a value is for the operation behind it alone.
+    // True if only the next operation reads the value.
     let is_passed = |from: Register, into: Register| from == into && reads[usize::from(from)] == 1;
     match *ops {
         [Op::Multiply { to: x, a, b }, Op::Multiply { to: y, a: c, b: d }, Op::Add { to, a: p, b: q }, ..]

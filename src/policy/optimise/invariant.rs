@@ -1,11 +1,11 @@
-//! What parameters and constants fix is computed once a run.
+//! Loop-invariant code motion: the computation of run invariants at the start of the run.
 
 use vibrissa_runtime::machine::{Effect, Operands, Place};
 
 use super::draft::Draft;
 
-/// Moves to the start of a run what follows from registers that never change, and is the only thing in its own. `operands` are
-/// those of every operation.
+/// Moves operations to the start of the run if their inputs never change and no other operation writes their results.
+/// `operands` belong to the operations of `draft`.
 pub(super) fn hoist(draft: &mut Draft, operands: &[Operands]) {
     let mut writers = vec![0_u32; draft.registers()];
     let kept = operands.iter().zip(&draft.is_kept).filter(|(_, is_kept)| **is_kept);
@@ -19,7 +19,7 @@ pub(super) fn hoist(draft: &mut Draft, operands: &[Operands]) {
         if *is_kept && op.effect() == Effect::Computes && are(0, &operands.reads) && are(1, &operands.writes) {
             *is_kept = false;
             draft.start.push(*op);
-            // From now on the same for a whole run.
+            // The results are invariant from now on.
             for place in operands.writes {
                 writers[place.registers()].fill(0);
             }

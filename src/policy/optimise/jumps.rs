@@ -1,17 +1,17 @@
-//! Jumps lead where they end.
+//! Jump threading.
 
 use vibrissa_runtime::machine::Op;
 
 use super::draft::Draft;
 
-/// Lets jumps to jumps lead where those do, and strikes out jumps to what comes next anyway.
+/// Redirects jumps to jumps to their final targets, and removes jumps to the next operation.
 pub(super) fn shorten(draft: &mut Draft) {
-    // For every operation, the first from there on that is kept.
+    // For every operation, the next kept one from there on.
     let mut kept = vec![0; draft.ops.len() + 1];
     for run in &draft.runs {
         let mut next = run.end;
         kept[run.end] = run.end;
-        // From behind, so that every jump is met by those to it when it leads where it ends.
+        // Backwards, so that the target of each jump is final before the jumps to it are processed.
         for index in run.clone().rev() {
             kept[index] = next;
             if !draft.is_kept[index] {

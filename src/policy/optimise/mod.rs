@@ -1,11 +1,11 @@
-//! Shorter code of the same meaning, to the last bit.
+//! The optimiser. Its results are bit-identical to those of the original program.
 //!
-//! Lowering writes every law and derived value where it is used, as plainly as it can, and the analysis reads that. What runs
-//! need not ask twice for what it knows (`reuse`), compute what nothing reads (`dead`), compute in every tick what parameters
-//! fix for a whole run (`invariant`), or take several operations where one says the same (`fuse`, `jumps`).
+//! Lowering inlines every law and derived value without optimisation, and the analysis reads that code. The passes here
+//! eliminate common subexpressions (`reuse`) and dead code (`dead`), hoist invariants of a run (`invariant`), fuse
+//! operations (`fuse`) and shorten jumps (`jumps`).
 //!
-//! All of them rely on this: jumps lead ahead within their block, so that walking a block from its start sees every write
-//! before the reads that it can reach; and no register is read before the code that belongs to it has written it.
+//! All passes rely on two properties. Jumps lead forward within their block, so a walk from its start sees every write
+//! before the reads that it can reach. No register is read before the code to which it belongs has written it.
 
 mod dead;
 mod draft;
@@ -18,7 +18,7 @@ use vibrissa_runtime::machine::{Operands, Program};
 
 use draft::Draft;
 
-/// The same program with less to do in a tick.
+/// The program with fewer operations per tick.
 pub(super) fn optimise(program: Program) -> Program {
     let mut draft = Draft::new(program);
     reuse::reuse(&mut draft);

@@ -1,38 +1,39 @@
-//! What is known is not computed or asked for again, and copies are read where they come from.
+//! Elimination of common subexpressions, and copy propagation.
 
 use vibrissa_runtime::machine::{Effect, Op, Operands, Place, Register, Role};
 
 use super::draft::Draft;
 
-/// How many values that come of the same register are looked through: laws repeat themselves close by, and looking takes time.
+/// The maximum number of candidates that are compared. Repetitions are usually close, and each comparison takes time.
 const LOOKS: usize = 16;
 
-/// An operation done before. Numbers of operations count from 1, so that 0 comes before all.
+/// A previous operation. Operations are numbered from 1, so 0 precedes all.
 struct Known {
     number: usize,
-    /// The operation with its result in register 0.
+    /// The operation with its result register set to 0.
     op: Op,
     operands: Operands,
-    /// The one before it that comes of the same register, counted from 1.
+    /// The previous operation with the same first input, numbered from 1.
     before: usize,
 }
 
-/// What is known on the way through one run of the code.
+/// The known values during a pass through one range of the code.
 struct Walk {
     known: Vec<Known>,
-    /// For every register, the last known operation that reads it first, counted from 1; behind them, that of those that read none.
+    /// For every register, the last known operation that reads it first, numbered from 1. The last entry is for
+    /// operations that read none.
     last: Vec<usize>,
-    /// The registers that were copied into, each with the number of the copy.
+    /// The destinations of copies, each with the number of the copy.
     copied: Vec<(usize, Register)>,
-    /// For every register that was copied into, where from.
+    /// For every register that is a copy, the source.
     sources: Vec<Option<Register>>,
-    /// The number of the operation that wrote each register last.
+    /// The number of the operation that last wrote each register.
     written: Vec<usize>,
-    /// The number of the operation that recorded a tip last.
+    /// The number of the last operation that recorded a tip.
     recorded: usize,
 }
 
-/// Copies what is known instead of computing it again, and reads copies where they come from.
+/// Replaces repeated computations by copies, and reads of copies by reads of their sources.
 pub(super) fn reuse(draft: &mut Draft) {
     let registers = draft.registers();
     let mut walk = Walk {
@@ -43,7 +44,7 @@ pub(super) fn reuse(draft: &mut Draft) {
         written: vec![0; registers],
         recorded: 0,
     };
-    // For every operation, the first of the jumps that lead there.
+    // For every operation, the first jump that leads to it.
     let mut jumps = vec![usize::MAX; draft.ops.len() + 1];
     for (index, op) in draft.ops.iter().enumerate().rev() {
         if let Some(target) = op.target() {
@@ -53,7 +54,7 @@ pub(super) fn reuse(draft: &mut Draft) {
     for run in &draft.runs {
         walk.forget_after(0);
         for index in run.clone() {
-            // What was done behind a jump that leads here may have been left out.
+            // The jump may have skipped the operations after it.
             if jumps[index] != usize::MAX {
                 walk.forget_after(jumps[index] + 1);
             }
@@ -64,7 +65,7 @@ pub(super) fn reuse(draft: &mut Draft) {
 }
 
 impl Walk {
-    /// Forgets what was done behind an operation.
+    /// Forgets all operations after a number.
     fn forget_after(&mut self, number: usize) {
         while let Some(known) = self.known.pop_if(|known| known.number > number) {
             let first = self.first(&known.operands);
@@ -75,13 +76,13 @@ impl Walk {
         }
     }
 
-    /// The register that an operation reads first, or the number of registers for one that reads none.
+    /// The first register that an operation reads. The number of registers if it reads none.
     fn first(&self, operands: &Operands) -> usize {
         let read = operands.whisker.map(usize::from).or_else(|| operands.reads[0].registers().next());
         read.unwrap_or(self.sources.len())
     }
 
-    /// An operation that reads copies where they come from.
+    /// The operation, reading the sources of copies.
     fn with_sources(&self, mut op: Op) -> Op {
         op.visit(|role, register| {
             let source = match role {
@@ -96,13 +97,13 @@ impl Walk {
         op
     }
 
-    /// Where a register is copied from, if both still hold the same.
+    /// The source of a copy, if neither register has changed since.
     fn source(&self, register: Register) -> Option<Register> {
         let from = self.sources[usize::from(register)]?;
         (self.written[usize::from(from)] < self.written[usize::from(register)]).then_some(from)
     }
 
-    /// Goes on behind an operation. Gives what takes its place: a copy, if the same has been done before.
+    /// Processes an operation. Returns its replacement: a copy, if the result is already known.
     fn step(&mut self, number: usize, op: Op) -> Op {
         let operands = op.operands();
         let result = operands.writes[0];
@@ -131,7 +132,7 @@ impl Walk {
         op
     }
 
-    /// Where the result of an operation is already, if that has been done before and nothing has changed.
+    /// The register that already has the result of an operation, if its inputs have not changed.
     fn again(&self, placeless: Op, operands: &Operands) -> Option<Register> {
         let known = |at: usize| self.known.get(at.checked_sub(1)?);
         let alike = std::iter::successors(known(self.last[self.first(operands)]), |&alike| known(alike.before));
@@ -139,7 +140,7 @@ impl Walk {
         Some(same.operands.writes[0].first)
     }
 
-    /// Whether an operation would give again what it gave.
+    /// True if an operation would give the same result again.
     fn holds(&self, known: &Known) -> bool {
         let written = |place: &Place| self.written[place.registers()].iter();
         known.operands.writes.iter().flat_map(written).all(|&written| written == known.number)
@@ -153,7 +154,7 @@ impl Walk {
     }
 }
 
-/// An operation with its result in register 0; `None` for a copy, and for one that does more than to give a result.
+/// The operation with its result register set to 0. `None` for a copy, and for operations with side effects.
 fn placeless(mut op: Op) -> Option<Op> {
     if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::Acts {
         return None;
