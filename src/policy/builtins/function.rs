@@ -32,60 +32,60 @@ pub(in crate::policy) enum Function {
 
 /// Every function: its name, the function, its notation and its result.
 pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
-    ("abs", Function::Abs, "abs(x)", "the magnitude of a number"),
-    ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1"),
-    ("sqrt", Function::Sqrt, "sqrt(x)", "the square root of a number, with the root of its dimension"),
-    ("min", Function::Min, "min(a, b)", "the lesser of two numbers"),
-    ("max", Function::Max, "max(a, b)", "the greater of two numbers"),
-    ("clamp", Function::Clamp, "clamp(x, low, high)", "`min(max(x, low), high)`"),
+    ("abs", Function::Abs, "abs(x)", "the absolute value of a number"),
+    ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1, the sign of a number"),
     (
-        "blend",
-        Function::Blend,
-        "blend(a, b, share)",
-        "`(1 - share) * a + share * b`: `a` at a share of 0, `b` at a share of 1",
+        "sqrt",
+        Function::Sqrt,
+        "sqrt(x)",
+        "the square root of a number. Its dimension is the square root of the number's dimension",
     ),
-    ("sin", Function::Sin, "sin(angle)", "its sine, a plain number"),
-    ("cos", Function::Cos, "cos(angle)", "its cosine, a plain number"),
-    ("tan", Function::Tan, "tan(angle)", "its tangent, a plain number"),
-    ("asin", Function::Asin, "asin(x)", "the angle from \u{2212}90 deg to 90 deg with this sine"),
-    ("acos", Function::Acos, "acos(x)", "the angle from 0 deg to 180 deg with this cosine"),
+    ("min", Function::Min, "min(a, b)", "the smaller of two numbers"),
+    ("max", Function::Max, "max(a, b)", "the larger of two numbers"),
+    ("clamp", Function::Clamp, "clamp(x, low, high)", "`min(max(x, low), high)`"),
+    ("blend", Function::Blend, "blend(a, b, share)", "the linear interpolation `(1 - share) * a + share * b`"),
+    ("sin", Function::Sin, "sin(angle)", "the sine of an angle, a plain number"),
+    ("cos", Function::Cos, "cos(angle)", "the cosine of an angle, a plain number"),
+    ("tan", Function::Tan, "tan(angle)", "the tangent of an angle, a plain number"),
+    ("asin", Function::Asin, "asin(x)", "the arcsine of a plain number, an angle from \u{2212}90 deg to 90 deg"),
+    ("acos", Function::Acos, "acos(x)", "the arccosine of a plain number, an angle from 0 deg to 180 deg"),
     ("exp", Function::Exp, "exp(x)", "e to the power of a plain number"),
-    ("floor", Function::Floor, "floor(x)", "the greatest whole number that is not above a plain number"),
+    ("floor", Function::Floor, "floor(x)", "the largest integer that does not exceed a plain number"),
     (
         "direction",
         Function::Direction,
         "direction(angle)",
-        "the unit vector that points there (0 is along x, counter-clockwise positive)",
+        "the unit vector with the direction of an angle (0 is along x, counter-clockwise positive)",
     ),
-    ("vector", Function::Vector, "vector(x, y)", "the vector of two numbers of one dimension"),
-    ("unit", Function::Unit, "unit(vector)", "the vector at length 1, a plain vector"),
-    ("angle", Function::Angle, "angle(vector)", "its direction, from \u{2212}180 deg to 180 deg"),
-    ("rotate", Function::Rotate, "rotate(vector, angle)", "the vector turned counter-clockwise"),
+    ("vector", Function::Vector, "vector(x, y)", "the vector with these components"),
+    ("unit", Function::Unit, "unit(vector)", "the unit vector with the direction of a vector, a plain vector"),
+    ("angle", Function::Angle, "angle(vector)", "the direction of a vector, from \u{2212}180 deg to 180 deg"),
+    ("rotate", Function::Rotate, "rotate(vector, angle)", "the vector, rotated counter-clockwise by the angle"),
     (
         "turn",
         Function::Turn,
         "turn(from, to)",
-        "the shorter turn from one angle to another, above \u{2212}180 deg to 180 deg",
+        "the smallest rotation from one angle to another, above \u{2212}180 deg to 180 deg",
     ),
-    ("wrap", Function::Wrap, "wrap(angle)", "the same direction as an angle above \u{2212}180 deg to 180 deg"),
+    ("wrap", Function::Wrap, "wrap(angle)", "the angle, wrapped to the range above \u{2212}180 deg to 180 deg"),
     ("dot", Function::Dot, "dot(a, b)", "the scalar product of two vectors"),
     (
         "cross",
         Function::Cross,
         "cross(a, b)",
-        "the product of two vectors that is positive when the second is to the left of the first",
+        "the cross product of two vectors. It is positive if the second is to the left of the first",
     ),
     (
         "lowpass",
         Function::LowPass,
         "lowpass(x, cutoff)",
-        "a number through a first-order low-pass filter with the cutoff, a frequency",
+        "a number, filtered by a first-order low-pass filter with this cutoff frequency",
     ),
     (
         "pid",
         Function::Pid,
         "pid(error, p, i, d, limit)",
-        "the output of a PID controller, within \u{00b1} the limit; its integral stands still at the limit",
+        "the output of a PID controller, limited to \u{00b1} the limit. The integral does not change while the output is at the limit (anti-windup)",
     ),
 ];
 
@@ -99,9 +99,9 @@ impl Function {
     pub(in crate::policy) fn takes(self) -> &'static str {
         match self {
             Self::Abs | Self::Sign => "one number of any dimension",
-            Self::Sqrt => "one number whose dimension is a square, such as an area",
+            Self::Sqrt => "one number with a dimension that is a square, such as an area",
             Self::Min | Self::Max | Self::Vector => "two numbers of one dimension",
-            Self::Clamp => "three numbers of one dimension: what to clamp, the least, the greatest",
+            Self::Clamp => "three numbers of one dimension: the value, the minimum, the maximum",
             Self::Blend => "two numbers or two vectors of one dimension, and a plain number",
             Self::Sin | Self::Cos | Self::Tan | Self::Direction | Self::Wrap => "one angle",
             Self::Asin | Self::Acos | Self::Exp | Self::Floor => "one plain number",
@@ -111,8 +111,8 @@ impl Function {
             Self::Dot | Self::Cross => "two vectors",
             Self::LowPass => "a number and a frequency",
             Self::Pid => {
-                "the error, gains for its value, its integral and its change, and the output's limit; each gain times what \
-             it is for has the dimension of the limit"
+                "the error, gains for the error, its integral and its derivative, and the limit of the output. Each gain \
+             multiplied by its quantity has the dimension of the limit"
             }
         }
     }

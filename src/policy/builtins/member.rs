@@ -48,7 +48,7 @@ impl At {
     /// The name of the argument, its type, and an example.
     pub(in crate::policy) fn takes(self) -> (&'static str, Type, &'static str) {
         match self {
-            Self::Tip => ("deflection", Type::ANGLE, "300 urad"),
+            Self::Tip => ("base angle", Type::ANGLE, "300 urad"),
             Self::Contour(_) => ("distance behind the end", Type::LENGTH, "5 mm"),
         }
     }
@@ -67,41 +67,45 @@ const fn place(name: &'static str, quantity: WhiskerVector, meaning: &'static st
 }
 
 const WHISKER: [Member; 13] = [
-    scalar(
-        "deflection",
-        Type::ANGLE,
-        WhiskerScalar::Deflection,
-        "the filtered angle of its base, counter-clockwise positive",
-    ),
+    scalar("deflection", Type::ANGLE, WhiskerScalar::Deflection, "the filtered base angle, counter-clockwise positive"),
     scalar(
         "touching",
         Type::Truth,
         WhiskerScalar::Touching,
-        "whether the deflection is beyond the rig's contact threshold",
+        "true if the magnitude of the base angle exceeds the rig's contact threshold",
     ),
-    scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of its straight shaft"),
-    scalar("side", Type::NUMBER, WhiskerScalar::Side, "\u{2212}1 on the right, 1 on the left"),
+    scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of the undeflected shaft"),
+    scalar(
+        "side",
+        Type::NUMBER,
+        WhiskerScalar::Side,
+        "the side of the platform: \u{2212}1 on the right, 1 on the left",
+    ),
     scalar(
         "sense",
         Type::NUMBER,
         WhiskerScalar::Sense,
-        "1 when bent as forward motion bends it, \u{2212}1 when bent the other way, 0 when not touching",
+        "the sign of the base angle: 1 for the sign that forward motion causes, \u{2212}1 for the other, 0 without contact",
     ),
-    scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of its shaft"),
-    place("tip", WhiskerVector::Tip, "where its tip touches, by the tip model"),
-    place("tip_base", WhiskerVector::TipBase, "the same seen from its base: x along the straight shaft, y to its left"),
+    scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of the shaft"),
+    place("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
+    place(
+        "tip_base",
+        WhiskerVector::TipBase,
+        "the position of the tip relative to the base: x along the undeflected shaft, y to its left",
+    ),
     scalar(
         "tip_spread",
         Type::LENGTH,
         WhiskerScalar::TipSpread,
-        "how far off `tip` may be by its tip model, as a standard deviation; infinite beyond the model's range",
+        "the standard deviation of `tip` that the contact estimator reports. It is infinite outside of the estimator's range",
     ),
-    place("base", WhiskerVector::Base, "its base"),
+    place("base", WhiskerVector::Base, "the position of the base"),
     scalar(
         "fitted",
         Type::Truth,
         WhiskerScalar::Fitted,
-        "whether the rig has it, which may lack one that is bound `if fitted`",
+        "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing",
     ),
     Member {
         at: Some(At::Tip),
@@ -109,10 +113,15 @@ const WHISKER: [Member; 13] = [
             "tip_at",
             Type::PLACE,
             MemberSource::At,
-            "where the tip would touch at another deflection, seen from its base",
+            "the position of the tip at a given base angle, relative to the base",
         )
     },
-    member("contour", Type::Contour, MemberSource::Contour, "what `record` has gathered behind its tip"),
+    member(
+        "contour",
+        Type::Contour,
+        MemberSource::Contour,
+        "the local contour behind the tip, from the points of `record`",
+    ),
 ];
 
 const CONTOUR: [Member; 6] = [
@@ -120,7 +129,7 @@ const CONTOUR: [Member; 6] = [
         "ready",
         Type::Truth,
         WhiskerScalar::ContourReady,
-        "whether this tick or the one before recorded it, and there are seven points, each a millimetre or more from the last; the curve is fitted to the newest seven",
+        "true if a point was recorded in this tick or the one before, and there are seven points with at least a millimetre between them. The curve is fitted to the newest seven",
     ),
     Member {
         at: Some(At::Contour(ContourVector::Tangent)),
@@ -128,7 +137,7 @@ const CONTOUR: [Member; 6] = [
             "tangent",
             Type::Vector(Dimension::NUMBER),
             MemberSource::Vector(WhiskerVector::ContourTangent),
-            "the direction of travel at its end, or a distance behind it",
+            "the tangent of the curve in the direction of travel, at its newest end or at a distance behind it",
         )
     },
     Member {
@@ -137,37 +146,41 @@ const CONTOUR: [Member; 6] = [
             "normal",
             Type::Vector(Dimension::NUMBER),
             MemberSource::Vector(WhiskerVector::ContourNormal),
-            "the direction away from the object: square to the tangent, on the side on which the whisker's base was when the newest \
-             point was taken",
+            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded",
         )
     },
-    place("end", WhiskerVector::ContourEnd, "its newest point"),
+    place("end", WhiskerVector::ContourEnd, "the newest point of the contour"),
     Member {
         at: Some(At::Contour(ContourVector::Point)),
-        ..member("point", Type::PLACE, MemberSource::At, "the point of the curve at a distance behind its end")
+        ..member("point", Type::PLACE, MemberSource::At, "the point of the curve at a distance behind its newest end")
     },
     scalar(
         "curvature",
         Type::Scalar(Dimension::new(-1, 1, 0, 0)),
         WhiskerScalar::ContourCurvature,
-        "the curvature at its end, counter-clockwise positive",
+        "the curvature at the newest end, counter-clockwise positive",
     ),
 ];
 
 const BODY: [Member; 4] = [
-    member("yaw", Type::ANGLE, MemberSource::Body(BodyScalar::Yaw), "its heading; it counts whole turns"),
-    member("position", Type::PLACE, MemberSource::BodyPosition, "its centre of mass"),
+    member(
+        "yaw",
+        Type::ANGLE,
+        MemberSource::Body(BodyScalar::Yaw),
+        "the heading of the platform, without wrapping at full rotations",
+    ),
+    member("position", Type::PLACE, MemberSource::BodyPosition, "the centre of mass of the platform"),
     member(
         "blocked",
         Type::Truth,
         MemberSource::Body(BodyScalar::Blocked),
-        "whether something other than the whiskers keeps it from following its commands",
+        "true if the body is blocked: an obstacle prevents it from following its commands",
     ),
     member(
         "shortfall",
         Type::SPEED,
         MemberSource::Body(BodyScalar::Shortfall),
-        "the speed that it lacks against its commands, averaged over 0.2 s, at the corner that lacks most",
+        "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest",
     ),
 ];
 
@@ -180,64 +193,69 @@ const RUN: [Member; 17] = [
         "completed",
         Type::Truth,
         RunFigure::Completed,
-        "whether it ended as it should: the loop closed, or the time of a scenario without a loop was up",
+        "true if the run completed: the loop closed, or the time of a scenario without a loop ended",
     ),
-    figure("failed", Type::Truth, RunFigure::Failed, "whether the policy gave up"),
-    figure("timed_out", Type::Truth, RunFigure::TimedOut, "whether the time was up before the loop closed"),
-    figure("diverged", Type::Truth, RunFigure::Diverged, "whether the simulation could not be trusted"),
-    figure("time", Type::TIME, RunFigure::Time, "how much time was simulated"),
+    figure("failed", Type::Truth, RunFigure::Failed, "true if the run ended in `Failure`"),
     figure(
-        "error_mean",
-        Type::LENGTH,
-        RunFigure::ErrorMean,
-        "how far the recorded tips were from the object, on average",
+        "timed_out",
+        Type::Truth,
+        RunFigure::TimedOut,
+        "true if the run reached its time limit before the loop closed",
     ),
-    figure("error_p95", Type::LENGTH, RunFigure::ErrorP95, "the 95th percentile of that"),
-    figure("error_max", Type::LENGTH, RunFigure::ErrorMax, "the maximum of that"),
+    figure("diverged", Type::Truth, RunFigure::Diverged, "true if the simulation diverged"),
+    figure("time", Type::TIME, RunFigure::Time, "the simulated time"),
+    figure("error_mean", Type::LENGTH, RunFigure::ErrorMean, "the mean distance of the recorded tips from the object"),
+    figure(
+        "error_p95",
+        Type::LENGTH,
+        RunFigure::ErrorP95,
+        "the 95th percentile of the distances of the recorded tips from the object",
+    ),
+    figure(
+        "error_max",
+        Type::LENGTH,
+        RunFigure::ErrorMax,
+        "the maximum of the distances of the recorded tips from the object",
+    ),
     figure(
         "outliers",
         Type::NUMBER,
         RunFigure::Outliers,
-        "the share of the recorded tips whose error exceeds 0.1 mm and four of their own standard deviations, 0 to 1",
+        "the share of recorded tips with an error above 0.1 mm plus four reported standard deviations, 0 to 1",
     ),
     figure(
         "hausdorff",
         Type::LENGTH,
         RunFigure::Hausdorff,
-        "the Hausdorff distance between the measured contour and the object's",
+        "the Hausdorff distance between the estimated and the exact contour",
     ),
-    figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the object's outline that was traced, 0 to 1"),
+    figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the exact contour that was traced, 0 to 1"),
     figure(
         "corner_place_max",
         Type::LENGTH,
         RunFigure::CornerPlaceMax,
-        "how far the worst sharp corner was from where it is; not known if there is none, or one was not traced",
+        "the maximum error of the estimated positions of sharp corners. Unknown if there is no sharp corner, or if one was not traced",
     ),
     figure(
         "corner_time_max",
         Type::TIME,
         RunFigure::CornerTimeMax,
-        "the longest time that a sharp corner cost; not known if there is none, or one was not traced",
+        "the maximum time for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
     ),
     figure(
         "corner_path_max",
         Type::LENGTH,
         RunFigure::CornerPathMax,
-        "the longest path of the platform that one cost; not known if there is none, or one was not traced",
+        "the maximum path length of the platform for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
     ),
-    figure("collisions", Type::NUMBER, RunFigure::Collisions, "how often the platform's body touched something"),
+    figure("collisions", Type::NUMBER, RunFigure::Collisions, "the number of collisions of the platform's body"),
     member(
         "visits",
         Type::NUMBER,
         MemberSource::Visits,
-        "how often a tick ended in the state that is given, or in one within it, and the tick before did not",
+        "the number of entries of the given state: ticks that end in it or in an inner state, after a tick that did not",
     ),
-    member(
-        "time_in",
-        Type::TIME,
-        MemberSource::TimeIn,
-        "for how long the state that is given, or one within it, was active",
-    ),
+    member("time_in", Type::TIME, MemberSource::TimeIn, "the total time in the given state or in an inner state"),
 ];
 
 /// The members of a type.

@@ -30,11 +30,12 @@ fn page() -> String {
     let mut page = "\
 # Reference of the policy language
 
-What policies can read and call, with types and units. A test makes this page of the tables that the checker reads; to change
-it, change these, and run `INSTA_UPDATE=always cargo test --lib reference`. How the language works is in
-[language.md](language.md).
+The values and functions of policies, with types and units. [Language](language.md) explains how to use them.
 
-Places and directions are in the world (x right, y up) unless said otherwise.
+A test generates this page from the tables of the compiler. To change it, change the tables, and run
+`INSTA_UPDATE=always cargo test --lib reference`.
+
+Unless stated otherwise, positions and directions are in the world frame (x right, y up).
 
 ## Types
 
@@ -54,25 +55,25 @@ Places and directions are in the world (x right, y up) unless said otherwise.
         row(&mut page, [&format!("`{name}`"), &units]);
     }
     page += "\
-| `vector`, `vector of length`, \u{2026} | x and y, plain or of one dimension |
+| `vector`, `vector of length`, \u{2026} | two components, x and y, plain or with one dimension |
 | `angular_speed / length`, `vector of length / time`, \u{2026} | products and quotients of dimensions |
 
 ## Names
 
-| name | type | is |
+| name | type | meaning |
 |---|---|---|
 ";
     row(&mut page, ["`time`", &shown(Type::TIME), "the time since the start of the run"]);
     for (owner, prefix) in [(Type::Body, "body"), (Type::Whisker, "w"), (Type::Contour, "c"), (Type::Run, "run")] {
         page += match owner {
             Type::Body => "",
-            Type::Whisker => "\n## Members of a whisker `w`\n\n| member | type | is |\n|---|---|---|\n",
+            Type::Whisker => "\n## Members of a whisker `w`\n\n| member | type | meaning |\n|---|---|---|\n",
             Type::Run => {
-                "\n## Members of `run`, in the expectations of a test\n\n| member | type | is |\n|---|---|---|\n"
+                "\n## Members of `run`, in the expectations of a test\n\n| member | type | meaning |\n|---|---|---|\n"
             }
             _ => {
-                "\n## Members of a contour `c`, such as `w.contour`\n\nA distance `back` is a length, and counts along the curve; \
-                 it leads no farther back than the curve's beginning.\n\n| member | type | is |\n|---|---|---|\n"
+                "\n## Members of a contour `c`, such as `w.contour`\n\nA distance `back` is a length along the \
+                 curve, limited to the beginning of the curve.\n\n| member | type | meaning |\n|---|---|---|\n"
             }
         };
         for member in members(owner) {
@@ -87,7 +88,7 @@ Places and directions are in the world (x right, y up) unless said otherwise.
             row(&mut page, [&usage, &shown(member.r#type), member.meaning]);
         }
     }
-    page += "\n## Functions\n\n| function | takes | gives |\n|---|---|---|\n";
+    page += "\n## Functions\n\n| function | arguments | result |\n|---|---|---|\n";
     for (_, function, usage, meaning) in FUNCTIONS {
         row(&mut page, [&format!("`{usage}`"), function.takes(), meaning]);
     }
@@ -104,7 +105,7 @@ fn standard(page: &mut String) {
         let about =
             text.lines().take_while(|line| line.starts_with('#')).map(|line| line.trim_start_matches(['#', ' ']));
         let about = about.collect::<Vec<_>>().join(" ");
-        let _ = write!(page, "\n### `use {ROOT}.{module}`\n\n{about}\n\n| item | is |\n|---|---|\n");
+        let _ = write!(page, "\n### `use {ROOT}.{module}`\n\n{about}\n\n| item | meaning |\n|---|---|\n");
         let laws = file.laws.iter().map(|law| ("law", &law.name, &law.arguments));
         let values = file.derived.iter().map(|value| ("let", &value.name, &value.arguments));
         let mut items: Vec<(&str, &Name, &Vec<Argument>)> = laws.chain(values).collect();
@@ -123,7 +124,7 @@ fn standard(page: &mut String) {
 /// The name of a member's argument.
 fn value(at: At) -> &'static str {
     match at {
-        At::Tip => "deflection",
+        At::Tip => "base_angle",
         At::Contour(_) => "back",
     }
 }
