@@ -77,7 +77,7 @@ impl Queue {
         });
         match refused {
             Some((request, id)) => {
-                let refusal = error(LspErrorCodes::RequestCancelled, "the editor took the request back");
+                let refusal = error(LspErrorCodes::RequestCancelled, "the editor cancelled the request");
                 *request = Ok(Incoming::Faulty(id, refusal));
             }
             None => self.waiting.push_back(message),

@@ -87,7 +87,7 @@ impl Loaded {
         if let Some(reason) = self.source.absence(index) {
             let message = format!("cannot use `{name}`");
             let fault = Diagnostic::error("P0602", message, used.span, reason);
-            self.report(fault.hint("a path leads from the file that it stands in to another"));
+            self.report(fault.hint("a path is relative to the folder of the file that contains it"));
             return None;
         }
         Some(index)
@@ -212,6 +212,8 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
     file.is_library.then(|| {
         Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")
             .note(file.name.span, "a library")
-            .hint("give a law what it needs as arguments; states, whiskers, parameters, memory and tests are the machine's")
+            .hint(
+                "pass values to a law as arguments; only a machine has states, whiskers, parameters, memory and tests",
+            )
     })
 }

@@ -13,18 +13,16 @@ use super::standard::{MODULES, ROOT, text};
 /// Paths are compared as text. Symbolic links are not resolved.
 pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>> {
     match &used.from {
-        From::Path(path) => {
-            match fault(path) {
-                None => Ok(join(using, path)),
-                Some(fault) => {
-                    let message = format!("`{path}` is no path of a library");
-                    let fault = Diagnostic::error("P0601", message, used.span, fault);
-                    Err(Box::new(fault.hint(
-                        "a path leads from this file to another, such as \"laws/corner.fsm\" or \"../corner.fsm\"",
-                    )))
-                }
+        From::Path(path) => match fault(path) {
+            None => Ok(join(using, path)),
+            Some(fault) => {
+                let message = format!("`{path}` is no path of a library");
+                let fault = Diagnostic::error("P0601", message, used.span, fault);
+                Err(Box::new(fault.hint(
+                    "a path is relative to the folder of this file, such as \"laws/corner.fsm\" or \"../corner.fsm\"",
+                )))
             }
-        }
+        },
         From::Module(names) => {
             let known = MODULES.map(|(module, _)| format!("{ROOT}.{module}"));
             let written = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".");
@@ -54,7 +52,7 @@ fn fault(path: &str) -> Option<&'static str> {
     if path.contains(['\\', ':']) || path.contains(char::is_control) {
         Some("a path has `/` between its folders, and no `\\` or `:`")
     } else if path.starts_with('/') {
-        Some("a path begins at the file that it stands in, not at the root")
+        Some("a path is relative to the folder of the file that contains it, and does not begin at the root")
     } else if path.split('/').any(|part| part.trim() != part || part.is_empty()) {
         Some("a folder or the file has no name, or blanks around it")
     } else if Path::new(path).extension().is_none_or(|extension| extension != "fsm") {

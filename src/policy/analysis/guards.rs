@@ -29,7 +29,7 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
         if !is_true(edge) && search.excludes(&[Goal::fails(condition)]) {
             warnings.push(
                 Diagnostic::warning("P0509", "this guard always holds", edge.guard_span(), "always holds")
-                    .hint("it holds for every value that can be felt; write `true` if it is meant to"),
+                    .hint("it holds for all possible inputs; write `true` if this is intended"),
             );
         }
     }

@@ -46,7 +46,7 @@ pub(super) fn overlap(
             Diagnostic::warning("P0512", "two guards can hold at once", edge.span(), "then this is not taken")
                 .note(before.span(), "this comes first and is taken")
                 .hint(format!("both hold at {witness}"))
-                .hint("if that is what you want, say so: `when \u{2026} and not \u{2026}`; if not, change their order"),
+                .hint("if this order is intended, make it explicit: `when \u{2026} and not \u{2026}`; otherwise change the order"),
         );
         // One witness per transition suffices.
         return;

@@ -102,17 +102,17 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
             ));
         } else if has_failure && !fallible[index] && !told[index] {
             told[index] = true;
-            let message = format!("the state `{name}` has no way to `Failure`");
+            let message = format!("the state `{name}` cannot reach `Failure`");
             warnings.push(no_failure(message, state.name.span));
         }
     }
     if !has_failure && !warnings.iter().any(|warning| warning.code == "P0502") {
-        let message = "no state has a way to `Failure`".to_owned();
+        let message = "no state can reach `Failure`".to_owned();
         warnings.push(no_failure(message, model.file.name.span));
     }
 }
 
 fn no_failure(message: String, span: crate::diagnostic::Span) -> Diagnostic {
-    Diagnostic::warning("P0503", message, span, "goes on whatever happens")
-        .hint("say when to give up, such as `always when time > 300 s -> Failure(\"it takes too long\")`")
+    Diagnostic::warning("P0503", message, span, "cannot end in failure")
+        .hint("add a transition to `Failure`, such as `always when time > 300 s -> Failure(\"it takes too long\")`")
 }

@@ -110,5 +110,5 @@ fn register_of_time(model: &Model<'_>, edge: &Edge<'_>) -> Option<Register> {
 
 fn never_taken(edge: &Edge<'_>) -> Diagnostic {
     Diagnostic::warning("P0511", "this transition is never taken", edge.span(), "never taken")
-        .hint("transitions are tried in the order written: put it first, or let the other leave room for it")
+        .hint("transitions are tried in the order written: put it first, or restrict the guard of the other")
 }

@@ -58,7 +58,12 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     unread.extend(file.memory.iter().map(|(name, _)| name).filter(|name| !used.has(&name.text)));
     file.tests.iter().for_each(|test| used.expressions(&test.expectations));
     for name in unread {
-        warnings.push(never_used("P0507", "memory", name, "read it somewhere, or leave it out with what sets it"));
+        warnings.push(never_used(
+            "P0507",
+            "memory",
+            name,
+            "read it somewhere, or remove it and the statements that set it",
+        ));
     }
 
     for (import, &library) in file.uses.iter().zip(files.links.first().into_iter().flatten()) {

@@ -17,7 +17,7 @@ pub enum RenameError {
     #[error("there is no name here; point at the name of a state, a law, a value or a whisker")]
     NoName,
     /// The text has syntax errors.
-    #[error("the policy has a fault of syntax, so that not every place of a name is known; mend that first")]
+    #[error("the policy has a syntax error, so not every use of the name is known; correct the error first")]
     Unreadable,
     /// The name belongs to the language.
     #[error("`{0}` belongs to the language and keeps its name")]

@@ -76,7 +76,7 @@ impl<'f> Compiler<'f> {
             }
             (Type::Contour, Type::Whisker) => diagnostic = diagnostic.hint("`w.contour` is the contour of a whisker"),
             (Type::Truth, Type::Whisker) => {
-                diagnostic = diagnostic.hint("`w.touching` tells whether a whisker touches");
+                diagnostic = diagnostic.hint("`w.touching` is true if a whisker touches");
             }
             _ => {}
         }
@@ -334,7 +334,7 @@ impl<'f> Compiler<'f> {
 /// Advice for operands of types that do not fit.
 fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
     match (operator, left, right) {
-        (Binary::Or | Binary::And, ..) => Some("both sides must be truths".to_owned()),
+        (Binary::Or | Binary::And, ..) => Some("both sides must be truth values".to_owned()),
         (_, Type::Scalar(dimension), Type::Scalar(Dimension::NUMBER))
         | (_, Type::Scalar(Dimension::NUMBER), Type::Scalar(dimension)) => {
             Some(format!("give the plain number a unit, such as {}", units_of(dimension).join(", ")))

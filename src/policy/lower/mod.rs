@@ -194,9 +194,7 @@ impl<'f> Compiler<'f> {
         if self.depth >= DEPTH_LIMIT {
             let message = format!("expressions, laws and derived values nest more than {DEPTH_LIMIT} deep");
             let diagnostic = Diagnostic::error("P0104", message, span, "too deep");
-            self.report(
-                diagnostic.hint("they are written out where they are used; let fewer of them build on one another"),
-            );
+            self.report(diagnostic.hint("laws and derived values are inlined at every use; nest fewer of them"));
             self.broken.extend(self.writing.iter().map(|name| name.span));
             return None;
         }

@@ -98,7 +98,7 @@ impl<'f> Compiler<'f> {
             match self.names().items.get(name.text.as_str()) {
                 Some(&before) if before != name.span => {
                     let message = format!("the name `{}` is given twice", name.text);
-                    let fault = Diagnostic::error("P0202", message, place, format!("brings `{}`", name.text))
+                    let fault = Diagnostic::error("P0202", message, place, format!("imports `{}`", name.text))
                         .note(before, "given here")
                         .note(name.span, "and here");
                     let hint = match &used.names {

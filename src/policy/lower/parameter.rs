@@ -35,7 +35,7 @@ impl<'f> Compiler<'f> {
             let show = |value| written(value, dimension);
             let range_span = low_bound.span.to(high_bound.span);
             if low > high {
-                let message = format!("the range of `{}` is the wrong way round", parameter.name.text);
+                let message = format!("the range of `{}` has its minimum above its maximum", parameter.name.text);
                 let label = format!("{} is more than {}", show(low), show(high));
                 let diagnostic = Diagnostic::error("P0306", message, range_span, label);
                 self.report(diagnostic.hint(format!("write `{} .. {}`", show(high), show(low))));

@@ -102,7 +102,7 @@ impl<'f> Compiler<'f> {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
             self.report(if self.writing.is_empty() {
-                let diagnostic = Diagnostic::error("P0406", message, name.span, "no memory that is known here");
+                let diagnostic = Diagnostic::error("P0406", message, name.span, "not memory that is visible here");
                 // A hidden name has the same spelling, so it must not be suggested.
                 let others = self.variables.iter().map(|known| known.text.as_str()).filter(|known| *known != name.text);
                 did_you_mean(diagnostic, &name.text, others).hint(format!(

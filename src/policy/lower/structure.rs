@@ -17,7 +17,7 @@ use super::{Commandless, Compiler, StateEntry};
 /// The target that ends a run in failure. No state may have this name.
 pub(super) const FAILURE: &str = "Failure";
 /// Advice for a command in `entry` or `exit`, which cannot give commands.
-const ENTERED: &str = "put it among what a state does every tick; the tick that enters a state runs that too";
+const ENTERED: &str = "put it among the statements of the state; the tick that enters the state executes them, too";
 
 /// Checks the items of a policy and its libraries, and all laws and derived values separately. Returns the parameters
 /// of the policy.
@@ -44,8 +44,8 @@ pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
     compiler.watch_growth(last);
     if let Some(item) = compiler.outgrown {
         compiler.report(
-            Diagnostic::error("P0402", "the policy grows too large", item, "grows out of bounds here")
-                .hint("laws and derived values are written out wherever they are used; use them in fewer places"),
+            Diagnostic::error("P0402", "the compiled policy is too large", item, "exceeds the limit here")
+                .hint("laws and derived values are inlined at every use; use them in fewer places"),
         );
     }
 }
@@ -145,11 +145,11 @@ impl<'f> Compiler<'f> {
                 && faulty != Some(name.span)
             {
                 faulty = Some(name.span);
-                let message = format!("there is no tip model `{}`", name.text);
+                let message = format!("there is no contact estimator `{}`", name.text);
                 let known = machine::TipModelKind::ALL.map(machine::TipModelKind::name);
                 let list = known.map(|name| format!("`{name}`")).join(", ");
                 let diagnostic = Diagnostic::error("P0414", message, name.span, "is none");
-                self.report(did_you_mean(diagnostic, &name.text, known).hint(format!("tip models are {list}")));
+                self.report(did_you_mean(diagnostic, &name.text, known).hint(format!("contact estimators are {list}")));
             }
             kinds.push(kind.unwrap_or_default());
         }
@@ -199,7 +199,7 @@ impl<'f> Compiler<'f> {
     /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
         self.commandless =
-            Some(Commandless { place: "the machine itself", hint: "put it among what a state does every tick" });
+            Some(Commandless { place: "the machine itself", hint: "put it among the statements of a state" });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
@@ -218,9 +218,9 @@ impl<'f> Compiler<'f> {
         let mut declared = Vec::with_capacity(file.states.len());
         for (index, state) in file.states.iter().enumerate() {
             if self.hierarchy.outward(index).count() == NESTING_LIMIT + 1 {
-                let message = format!("states lie in one another more than {NESTING_LIMIT} deep");
+                let message = format!("states are nested more than {NESTING_LIMIT} deep");
                 let diagnostic = Diagnostic::error("P0410", message, state.name.span, "this one is too deep");
-                self.report(diagnostic.hint("put fewer of them into one another"));
+                self.report(diagnostic.hint("use fewer levels of states"));
             }
             let start = state.parent.map_or(own.len(), |parent| ends[parent]);
             scope.truncate(start);

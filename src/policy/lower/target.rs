@@ -36,7 +36,7 @@ impl<'f> Compiler<'f> {
             if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
                 let at = reason.span.start + at;
                 let place = Span::new(at, at + letter.len_utf8());
-                let message = "a reason is one line of plain text";
+                let message = "a reason must be one line of plain text";
                 let diagnostic = Diagnostic::error("P0413", message, place, format!("{letter:?} cannot be shown"));
                 self.report(diagnostic.hint("write a space instead, or leave it out"));
                 return None;
@@ -66,7 +66,7 @@ impl<'f> Compiler<'f> {
         if let Some(resume) = target.resume
             && self.hierarchy.inner(state).is_empty()
         {
-            let message = format!("the state `{}` has no states in it that it could resume", target.name.text);
+            let message = format!("the state `{}` has no inner states to resume", target.name.text);
             self.report(
                 Diagnostic::error("P0409", message, resume, "resumes nothing")
                     .hint(format!("write `-> {}` to enter it", target.name.text)),
@@ -97,7 +97,7 @@ impl<'f> Compiler<'f> {
                 let (name, inner) = (&step.name.text, &target.name.text);
                 let is_outer = self.hierarchy.contains(index, state) && index != state && !outer.contains(&index);
                 self.report(if is_outer {
-                    let message = format!("`{name}` stays active on the way to `{inner}`");
+                    let message = format!("`{name}` is already active when a transition enters `{inner}`");
                     Diagnostic::error("P0408", message, step.span, "is not entered")
                         .hint(format!("write `{path}`, without the states that stay active"))
                 } else {

@@ -84,9 +84,9 @@ impl<'f> Compiler<'f> {
         let value = value?;
         if figures.is_empty() || code.iter().any(reads_a_tick) {
             let (message, label) = if code.iter().any(reads_a_tick) {
-                ("what is felt in a tick is not known of a whole run", "reads what is felt in a tick")
+                ("a sensor value of one tick is not a figure of the whole run", "reads a sensor value of one tick")
             } else {
-                ("the expectation says nothing about the run", "the same for every run")
+                ("the expectation does not depend on the run", "the same for every run")
             };
             let diagnostic = Diagnostic::error("P0703", message, truth.span, label);
             self.report(diagnostic.hint("expect something of `run`, such as `run.error_mean < 0.5 mm`"));

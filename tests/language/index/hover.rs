@@ -48,11 +48,11 @@ fn a_hover_says_type_unit_range_and_description() {
     assert_eq!(of(SWIPE, "w.contour"), "```fsm\nw: whisker\n```\n\na whisker");
     assert_eq!(
         of(SWIPE, "clamp("),
-        "```fsm\nclamp(x, low, high)\n```\n\n`min(max(x, low), high)`\n\nIt takes three numbers of one dimension: what to clamp, the \
-         least, the greatest."
+        "```fsm\nclamp(x, low, high)\n```\n\n`min(max(x, low), high)`\n\nIt takes three numbers of one dimension: the value, the \
+         minimum, the maximum."
     );
-    assert!(of(SWIPE, "contour.ready").starts_with("```fsm\nwhisker.contour\n```\n\na contour\n\nwhat `record`"));
-    assert!(of(SWIPE, "tip_at(").starts_with("```fsm\nwhisker.tip_at(deflection)\n```"));
+    assert!(of(SWIPE, "contour.ready").starts_with("```fsm\nwhisker.contour\n```\n\na contour\n\nthe local contour"));
+    assert!(of(SWIPE, "tip_at(").starts_with("```fsm\nwhisker.tip_at(base angle)\n```"));
     assert!(
         of(SWIPE, "tangent\n").starts_with("```fsm\ncontour.tangent\ncontour.tangent(distance behind the end)\n```")
     );
