@@ -37,14 +37,14 @@ pub(super) fn same_length(text: &str) -> Cow<'_, str> {
 }
 
 fn replaced(text: &str, stand_in: impl Fn(char) -> String) -> Cow<'_, str> {
-    if !text.contains(is_obeyed) {
+    if !text.contains(is_interpreted) {
         return Cow::Borrowed(text);
     }
     let mut made = String::with_capacity(text.len());
     let mut letters = text.chars().peekable();
     while let Some(letter) = letters.next() {
         // A line may end with two letters.
-        if is_obeyed(letter) && !(letter == '\r' && letters.peek() == Some(&'\n')) {
+        if is_interpreted(letter) && !(letter == '\r' && letters.peek() == Some(&'\n')) {
             made += &stand_in(letter);
         } else {
             made.push(letter);
@@ -54,7 +54,7 @@ fn replaced(text: &str, stand_in: impl Fn(char) -> String) -> Cow<'_, str> {
 }
 
 /// True if a terminal interprets a character instead of showing it.
-fn is_obeyed(letter: char) -> bool {
+fn is_interpreted(letter: char) -> bool {
     let is_direction =
         matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let parts_lines = matches!(letter, '\u{2028}' | '\u{2029}');
@@ -80,10 +80,10 @@ mod tests {
         #[test]
         fn nothing_that_a_terminal_obeys_is_left_and_all_else_stays(text in texts()) {
             for made in [printable(&text), printable_json(&text), same_length(&text)] {
-                prop_assert!(!made.replace("\r\n", "\n").contains(is_obeyed));
+                prop_assert!(!made.replace("\r\n", "\n").contains(is_interpreted));
             }
             prop_assert_eq!(same_length(&text).len(), text.len());
-            let plain: String = text.chars().filter(|&letter| !is_obeyed(letter)).collect();
+            let plain: String = text.chars().filter(|&letter| !is_interpreted(letter)).collect();
             prop_assert_eq!(printable(&plain), plain.as_str());
         }
 
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn escapes_of_terminals_and_changes_of_direction_are_obeyed_and_letters_are_not() {
         for letter in "\u{1b}\u{7}\u{7f}\u{9b}\r\u{202a}\u{202e}\u{2066}\u{2069}".chars() {
-            assert!(is_obeyed(letter), "{letter:?}");
+            assert!(is_interpreted(letter), "{letter:?}");
         }
         assert_eq!(printable("\u{fc}ber\t5 \u{b5}m \u{2026}\n"), "\u{fc}ber\t5 \u{b5}m \u{2026}\n");
     }

@@ -14,11 +14,11 @@ use crate::policy::format;
 
 use super::diagnose::diagnostic;
 use super::server::Server;
-use super::wire::error;
+use super::transport::error;
 
 impl Server<'_> {
     pub(super) fn prepare_rename(&self, asked: &PrepareRenameParams) -> Result<Option<PrepareRenameResult>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let (document, at) = self.position(&asked.text_document_position_params)?;
         let span = document.index.renamable(at).map_err(|refusal| refused(&refusal))?;
         let placeholder = document.source.slice(span).to_owned();
         Ok(Some(PrepareRenamePlaceholder { range: document.range(span), placeholder }.into()))
@@ -26,8 +26,8 @@ impl Server<'_> {
 
     pub(super) fn rename(&self, asked: &RenameParams) -> Result<Option<WorkspaceEdit>, Error> {
         let place = &asked.text_document_position_params;
-        let (document, at) = self.place(place)?;
-        let known = self.known(document);
+        let (document, at) = self.position(place)?;
+        let known = self.known_documents(document);
         let asked_in = known.first().map_or(&document.index, |document| &document.index);
         // A refusal has its reason in the file of the request, so this file is asked before the others.
         asked_in.rename(at, &asked.new_name).map_err(|refusal| refused(&refusal))?;

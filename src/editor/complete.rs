@@ -12,7 +12,7 @@ use super::server::Server;
 
 impl Server<'_> {
     pub(super) fn complete(&self, asked: &CompletionParams) -> Result<Option<CompletionResponse>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let (document, at) = self.position(&asked.text_document_position_params)?;
         let (typed, candidates) = document.index.candidates(at);
         let range = document.range(typed);
         let items = candidates.into_iter().map(|candidate| item(candidate, range, self.client.snippets));
@@ -38,7 +38,7 @@ fn item(candidate: Candidate, range: Range, snippets: bool) -> CompletionItem {
 /// The nearest kind of the protocol.
 fn kind(kind: CandidateKind) -> CompletionItemKind {
     match kind {
-        CandidateKind::Word => CompletionItemKind::Keyword,
+        CandidateKind::Keyword => CompletionItemKind::Keyword,
         CandidateKind::Function => CompletionItemKind::Function,
         CandidateKind::Member => CompletionItemKind::Field,
         CandidateKind::Type => CompletionItemKind::Struct,

@@ -26,7 +26,7 @@ pub(super) fn diagnostics(uri: &Uri, document: &Document, client: Client) -> Pub
 pub(super) fn diagnostic(document: &Document, fault: &diagnostic::Diagnostic, client: Client) -> Option<Diagnostic> {
     let source = document.index.source();
     let part = source.part_at(fault.primary.span.start);
-    let place = if part == 0 { fault.primary.span } else { document.index.way_to(part)? };
+    let place = if part == 0 { fault.primary.span } else { document.index.use_leading_to(part)? };
     let mut message = fault.message.clone();
     // Writing to a string cannot fail.
     if !fault.primary.text.is_empty() {

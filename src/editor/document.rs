@@ -36,7 +36,7 @@ impl Document {
     }
 
     /// Analyses the text and the files that it uses.
-    pub(super) fn look(&mut self, library: &mut Library<'_>) {
+    pub(super) fn analyse(&mut self, library: &mut Library<'_>) {
         let whole = gather(&self.source, library);
         self.lines = Lines::new(&self.source.text);
         self.index = Index::new(&whole, Some(&self.index));

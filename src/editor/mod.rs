@@ -5,17 +5,17 @@
 //! the editor had when it asked. A text is compiled when a request needs it, or when no more messages arrive. Of
 //! several queued changes only the last is compiled.
 
-mod answer;
 mod capabilities;
 mod change;
 mod complete;
 mod diagnose;
+mod dispatch;
 mod document;
-mod look;
+mod navigation;
 mod position;
 mod queue;
 mod server;
+mod transport;
 mod uri;
-mod wire;
 
 pub(crate) use server::{Ended, serve};

@@ -10,10 +10,10 @@ use gen_lsp_types::json_rpc::{Id, RequestObject};
 use gen_lsp_types::{LspErrorCodes, LspNotificationMethod as Method};
 use serde_json::Value;
 
-use super::wire::{self, Incoming, error};
+use super::transport::{self, Incoming, error};
 
 /// The maximum number of messages that are read ahead. An editor that sends more must wait.
-const AHEAD: usize = 1024;
+const READ_AHEAD: usize = 1024;
 
 /// Messages in the order of their arrival. A thread reads them while others are answered.
 pub(super) struct Queue {
@@ -26,12 +26,12 @@ impl Queue {
     ///
     /// # Errors
     /// The system does not start a thread.
-    pub(super) fn of(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
-        let (sender, read) = sync_channel(AHEAD);
+    pub(super) fn read_from(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
+        let (sender, read) = sync_channel(READ_AHEAD);
         // The thread is never joined, because it may be blocked in a read when the server ends.
         Builder::new().spawn(move || {
             loop {
-                let message = wire::read(&mut input);
+                let message = transport::read(&mut input);
                 let is_last = matches!(message, Ok(Incoming::End) | Err(_));
                 if sender.send(message).is_err() || is_last {
                     break;
@@ -43,7 +43,7 @@ impl Queue {
 
     /// The next message. `None` if none arrives within `patience`.
     pub(super) fn next(&mut self, patience: Option<Duration>) -> Option<io::Result<Incoming>> {
-        while self.waiting.len() < AHEAD
+        while self.waiting.len() < READ_AHEAD
             && let Ok(message) = self.read.try_recv()
         {
             self.add(message);

@@ -17,11 +17,11 @@ use super::capabilities::{Client, initialized};
 use super::diagnose::diagnostics;
 use super::document::Document;
 use super::queue::Queue;
+use super::transport::{self, Incoming, error};
 use super::uri;
-use super::wire::{self, Incoming, error};
 
 /// The time without messages after which a changed text is analysed without a request.
-const QUIET: Duration = Duration::from_millis(10);
+const QUIET_TIME: Duration = Duration::from_millis(10);
 
 /// The manner in which a server ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,11 +61,11 @@ pub(super) struct Server<'l> {
 pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
     let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
-    let mut queue = Queue::of(input)?;
+    let mut queue = Queue::read_from(input)?;
     loop {
-        let patience = (!server.changed.is_empty()).then_some(QUIET);
+        let patience = (!server.changed.is_empty()).then_some(QUIET_TIME);
         let Some(incoming) = queue.next(patience) else {
-            server.catch_up(output)?;
+            server.publish_changed(output)?;
             continue;
         };
         match incoming? {
@@ -74,8 +74,8 @@ pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, libra
                 let parameters = parameters.unwrap_or_default();
                 match id {
                     Some(id) => {
-                        server.catch_up(output)?;
-                        wire::write(output, &server.request(id, &method, parameters))?;
+                        server.publish_changed(output)?;
+                        transport::write(output, &server.request(id, &method, parameters))?;
                     }
                     None if Method::from(method.as_str()) == Method::Exit => {
                         let is_orderly = server.phase == Phase::ShutDown;
@@ -85,10 +85,10 @@ pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, libra
                     None => {}
                 }
             }
-            Incoming::Faulty(id, error) => wire::write(output, &ResponseObject::from_error(id, error))?,
+            Incoming::Faulty(id, error) => transport::write(output, &ResponseObject::from_error(id, error))?,
             Incoming::Nothing => {}
             Incoming::End => {
-                server.catch_up(output)?;
+                server.publish_changed(output)?;
                 return Ok(Ended::Abrupt);
             }
         }
@@ -117,7 +117,7 @@ impl Server<'_> {
 
     /// Handles a notification. Unintelligible ones are ignored, because nobody waits for an answer.
     fn notification(&mut self, method: &str, parameters: Value) {
-        if let Some(uri) = self.note(method, parameters)
+        if let Some(uri) = self.apply(method, parameters)
             && !self.changed.contains(&uri)
         {
             self.changed.push(uri);
@@ -125,7 +125,7 @@ impl Server<'_> {
     }
 
     /// Handles a notification. Returns the document whose text it changed.
-    fn note(&mut self, method: &str, parameters: Value) -> Option<Uri> {
+    fn apply(&mut self, method: &str, parameters: Value) -> Option<Uri> {
         match Method::from(method) {
             Method::TextDocumentDidOpen => {
                 let opened = read::<DidOpenTextDocumentParams>(parameters)?.text_document;
@@ -152,39 +152,40 @@ impl Server<'_> {
     }
 
     /// Analyses all changed documents and publishes their diagnostics.
-    fn catch_up(&mut self, output: &mut dyn Write) -> io::Result<()> {
+    fn publish_changed(&mut self, output: &mut dyn Write) -> io::Result<()> {
         for changed in std::mem::take(&mut self.changed) {
-            for news in self.news(&changed) {
-                wire::write(output, &news)?;
+            for messages in self.diagnostics_after(&changed) {
+                transport::write(output, &messages)?;
             }
         }
         Ok(())
     }
 
     /// The messages to publish after a document was changed or closed: for it, and for the documents that use it.
-    fn news(&mut self, changed: &Uri) -> Vec<RequestObject> {
+    fn diagnostics_after(&mut self, changed: &Uri) -> Vec<RequestObject> {
         if self.documents.get(changed).is_some_and(Document::is_stale) {
-            self.look(changed);
+            self.analyse(changed);
         }
         let none = || PublishDiagnosticsParams { uri: changed.clone(), version: None, diagnostics: Vec::new() };
         let own = self.documents.get(changed).map(|document| diagnostics(changed, document, self.client));
-        let mut news = vec![publish(own.unwrap_or_else(none))];
+        let mut messages = vec![publish(own.unwrap_or_else(none))];
         let path = uri::path(changed);
         let uses = |document: &Document| path.as_deref().is_some_and(|path| document.uses(path));
         let users = self.documents.iter().filter(|(uri, document)| *uri != changed && uses(document));
         let mut users: Vec<Uri> = users.map(|(uri, _)| uri.clone()).collect();
         users.sort_by(|a, b| a.as_ref().cmp(b.as_ref()));
         for user in users {
-            self.look(&user);
-            news.extend(self.documents.get(&user).map(|document| publish(diagnostics(&user, document, self.client))));
+            self.analyse(&user);
+            messages
+                .extend(self.documents.get(&user).map(|document| publish(diagnostics(&user, document, self.client))));
         }
-        news
+        messages
     }
 
     /// Analyses a document.
-    fn look(&mut self, uri: &Uri) {
+    fn analyse(&mut self, uri: &Uri) {
         if let Some((uri, mut document)) = self.documents.remove_entry(uri) {
-            document.look(&mut |path: &str| self.text(path));
+            document.analyse(&mut |path: &str| self.text(path));
             self.documents.insert(uri, document);
         }
     }
@@ -203,16 +204,16 @@ impl Server<'_> {
 
     /// Every known file: `first`, the other open files, and all files that these use. All are analysed again, so that
     /// positions across files are valid.
-    pub(super) fn known(&self, first: &Document) -> Vec<Document> {
+    pub(super) fn known_documents(&self, first: &Document) -> Vec<Document> {
         let mut open: Vec<&Document> = self.documents.values().filter(|document| document.uri != first.uri).collect();
         open.sort_by(|a, b| a.uri.as_ref().cmp(b.uri.as_ref()));
-        let look = |uri: Uri, version, text: &str| {
+        let analyse = |uri: Uri, version, text: &str| {
             let library = &mut |path: &str| self.text(path);
             Document::new(uri, version, text.to_owned(), self.client.encoding, library)
         };
         let open = std::iter::once(first).chain(open);
         let mut known: Vec<Document> =
-            open.map(|document| look(document.uri.clone(), document.version, &document.source.text)).collect();
+            open.map(|document| analyse(document.uri.clone(), document.version, &document.source.text)).collect();
         for index in 0..known.len() {
             let source = known[index].index.source().clone();
             for part in (1..source.count()).filter(|&part| source.absence(part).is_none()) {
@@ -221,7 +222,7 @@ impl Server<'_> {
                 if let Some(uri) = uri::of_path(name)
                     && known.iter().all(|document| document.source.name != name)
                 {
-                    known.push(look(uri, 0, source.slice(source.part_span(part))));
+                    known.push(analyse(uri, 0, source.slice(source.part_span(part))));
                 }
             }
         }
@@ -234,7 +235,7 @@ impl Server<'_> {
     }
 
     /// The document, and the byte of a position in it.
-    pub(super) fn place(&self, place: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
+    pub(super) fn position(&self, place: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
         let document = self.document(&place.text_document.uri)?;
         Ok((document, document.byte(place.position)))
     }
@@ -244,6 +245,6 @@ fn read<T: DeserializeOwned>(parameters: Value) -> Option<T> {
     serde_json::from_value(parameters).ok()
 }
 
-fn publish(news: PublishDiagnosticsParams) -> RequestObject {
-    RequestObject::from_notification::<PublishDiagnosticsNotification>(news)
+fn publish(messages: PublishDiagnosticsParams) -> RequestObject {
+    RequestObject::from_notification::<PublishDiagnosticsNotification>(messages)
 }

@@ -5,8 +5,8 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Result, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 
-use super::identity::{Identity, place};
-use super::output::{Output, OutputError, Stream, Way};
+use super::identity::{Identity, resolve_links};
+use super::output::{Method, Output, OutputError, Stream};
 use super::regular::{self, read_at_most};
 use super::special;
 
@@ -28,7 +28,7 @@ enum Use {
 }
 
 /// The kind of an output file.
-enum Goal {
+enum OutputKind {
     /// A regular file, or no file yet.
     Regular,
     /// Any other file, such as a pipe.
@@ -111,15 +111,15 @@ impl CommandFiles {
     /// [`OutputError`] if the file cannot be written, is an input, or is already an output.
     pub fn output(&mut self, argument: &'static str, path: &Path) -> std::result::Result<Output, OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
-        let way = match self.goal(path).map_err(unwritable)? {
-            Goal::Regular => {
+        let method = match self.output_kind(path).map_err(unwritable)? {
+            OutputKind::Regular => {
                 self.write_once(argument, path)?;
-                Way::Replace
+                Method::Replace
             }
-            Goal::Special => Way::Open(special::open(path).map_err(unwritable)?),
-            Goal::Stream(stream) => Way::Stream(stream),
+            OutputKind::Special => Method::Open(special::open(path).map_err(unwritable)?),
+            OutputKind::Stream(stream) => Method::Stream(stream),
         };
-        Ok(Output::new(argument, path, way))
+        Ok(Output::new(argument, path, method))
     }
 
     /// An output to which lines are appended. The caller opens the file.
@@ -128,9 +128,9 @@ impl CommandFiles {
     /// [`OutputError`] as of [`Self::output`], and if the file is not regular or receives a stream of the program.
     pub fn growing(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
-        match self.goal(path).map_err(unwritable)? {
-            Goal::Regular => self.write_once(argument, path),
-            Goal::Special | Goal::Stream(_) => {
+        match self.output_kind(path).map_err(unwritable)? {
+            OutputKind::Regular => self.write_once(argument, path),
+            OutputKind::Special | OutputKind::Stream(_) => {
                 let cause = "lines are added only to a regular file of their own";
                 Err(unwritable(Error::new(ErrorKind::InvalidInput, cause)))
             }
@@ -138,22 +138,22 @@ impl CommandFiles {
     }
 
     /// The kind of the file at an output's path.
-    fn goal(&self, path: &Path) -> Result<Goal> {
-        let Ok(about) = path.metadata() else { return Ok(Goal::Regular) };
+    fn output_kind(&self, path: &Path) -> Result<OutputKind> {
+        let Ok(about) = path.metadata() else { return Ok(OutputKind::Regular) };
         if about.is_dir() {
             return Err(ErrorKind::IsADirectory.into());
         }
         let stream = Identity::inode(&about).and_then(|inode| self.stream(&inode));
         Ok(match stream {
-            Some(stream) => Goal::Stream(stream),
-            None if about.is_file() => Goal::Regular,
-            None => Goal::Special,
+            Some(stream) => OutputKind::Stream(stream),
+            None if about.is_file() => OutputKind::Regular,
+            None => OutputKind::Special,
         })
     }
 
     /// Records that a regular file is written.
     fn write_once(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
-        place(path).map_err(|cause| OutputError::Unwritable { argument, path: path.to_owned(), cause })?;
+        resolve_links(path).map_err(|cause| OutputError::Unwritable { argument, path: path.to_owned(), cause })?;
         let identities: Vec<_> = Identity::of(path).collect();
         for identity in identities {
             let (argument, path) = (argument, path.to_owned());

@@ -5,7 +5,7 @@ use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
 /// The maximum number of links in a chain.
-const LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// A property that no two files share.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -13,14 +13,14 @@ pub(super) enum Identity {
     /// The device and the number of the inode. They are the same under all names, including hard links.
     Inode(u64, u64),
     /// The path without links. The file need not exist.
-    Place(PathBuf),
+    Path(PathBuf),
 }
 
 impl Identity {
     /// The identities of the file at a path. There are none if its folder does not exist.
     pub(super) fn of(path: &Path) -> impl Iterator<Item = Self> {
         let inode = path.metadata().ok().and_then(|about| Self::inode(&about));
-        inode.into_iter().chain(place(path).ok().map(Self::Place))
+        inode.into_iter().chain(resolve_links(path).ok().map(Self::Path))
     }
 
     #[cfg(unix)]
@@ -45,13 +45,13 @@ pub fn is_at(file: &File, path: &Path) -> bool {
 
 /// The path with all links resolved. The file itself need not exist, because a link may lead to a file that is not yet
 /// written.
-pub(super) fn place(path: &Path) -> Result<PathBuf> {
+pub(super) fn resolve_links(path: &Path) -> Result<PathBuf> {
     match path.canonicalize() {
         Err(cause) if cause.kind() == ErrorKind::NotFound => {}
         found => return found,
     }
     let mut path = path.to_owned();
-    for _ in 0..LINKS {
+    for _ in 0..MAX_LINKS {
         let Ok(target) = path.read_link() else {
             let name = path.file_name().ok_or(ErrorKind::InvalidInput)?;
             return Ok(folder(&path).canonicalize()?.join(name));
@@ -90,14 +90,14 @@ mod tests {
         symlink("./a/../three", root.join("four")).unwrap();
         for path in ["new", "a/one", "to_b/two", "three", "four", "to_b/../one", "a/b/new"] {
             let path = root.join(path);
-            let before = place(&path).unwrap();
+            let before = resolve_links(&path).unwrap();
             assert!(!path.exists(), "{}", path.display());
             std::fs::write(&path, "").unwrap();
             assert_eq!(before, path.canonicalize().unwrap());
-            assert!(Identity::of(&path).any(|identity| identity == Identity::Place(before.clone())));
+            assert!(Identity::of(&path).any(|identity| identity == Identity::Path(before.clone())));
             std::fs::remove_file(before).unwrap();
         }
         symlink("circle", root.join("circle")).unwrap();
-        assert!(place(&root.join("circle")).is_err() && place(&root.join("nowhere/new")).is_err());
+        assert!(resolve_links(&root.join("circle")).is_err() && resolve_links(&root.join("nowhere/new")).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! Access to files: bounded reading of regular files, identities, atomic writing.
 //!
 //! No other code opens a file. `clippy.toml` forbids it.
-#![expect(clippy::disallowed_methods, reason = "this is the place where files are opened")]
+#![expect(clippy::disallowed_methods, reason = "this module opens all files")]
 
 mod command_files;
 mod identity;

@@ -13,12 +13,12 @@ use super::replace::replace;
 pub struct Output {
     argument: &'static str,
     path: PathBuf,
-    way: Way,
+    method: Method,
 }
 
 /// The method of writing.
 #[derive(Debug)]
-pub(super) enum Way {
+pub(super) enum Method {
     /// A new file replaces the old one.
     Replace,
     /// The file is not a regular one, such as a pipe. It is open and written to.
@@ -81,8 +81,8 @@ pub enum OutputError {
 }
 
 impl Output {
-    pub(super) fn new(argument: &'static str, path: &Path, way: Way) -> Self {
-        Self { argument, path: path.to_owned(), way }
+    pub(super) fn new(argument: &'static str, path: &Path, method: Method) -> Self {
+        Self { argument, path: path.to_owned(), method }
     }
 
     /// The path on the command line.
@@ -97,12 +97,12 @@ impl Output {
     /// [`OutputError::Unwritable`].
     pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
         let content = content.as_ref();
-        let Self { argument, path, way } = self;
-        let written = match way {
-            Way::Replace => replace(&path, content),
-            Way::Open(mut file) => file.write_all(content),
-            Way::Stream(Stream::Output) => stdout().write_all(content).and_then(|()| stdout().flush()),
-            Way::Stream(Stream::Error) => stderr().write_all(content),
+        let Self { argument, path, method } = self;
+        let written = match method {
+            Method::Replace => replace(&path, content),
+            Method::Open(mut file) => file.write_all(content),
+            Method::Stream(Stream::Output) => stdout().write_all(content).and_then(|()| stdout().flush()),
+            Method::Stream(Stream::Error) => stderr().write_all(content),
         };
         written.map_err(|cause| OutputError::Unwritable { argument, path, cause })
     }

@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Result, Write};
 use std::path::Path;
 
-use super::identity::{folder, place};
+use super::identity::{folder, resolve_links};
 
 /// Prefix of temporary files. Random letters and digits follow, and then `.tmp`. Such a file remains only if the
 /// program was killed.
@@ -22,7 +22,7 @@ const RANDOM: usize = 12;
 /// The file or its folder may not be written, or the disk is full. Then the old content is there. If only the
 /// synchronisation of the folder failed, the new content may be there.
 pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
-    let path = place(path)?;
+    let path = resolve_links(path)?;
     let folder = folder(&path);
     // Renaming does not ask for permission to write the file. Opening does, and changes nothing.
     let old = match OpenOptions::new().write(true).open(&path) {

@@ -16,14 +16,14 @@ pub(super) fn description(source: &Source, name: Span) -> Option<String> {
     let behind = source.slice(Span::new(name.start, part.end));
     let line = &behind[..behind.find('\n').unwrap_or(behind.len())];
     let text = match comment_behind(line) {
-        Some(comment) => said(comment),
-        None => above(source.slice(Span::new(part.start, name.start))),
+        Some(comment) => comment_text(comment),
+        None => comment_above(source.slice(Span::new(part.start, name.start))),
     };
     (!text.is_empty()).then(|| bounded(text))
 }
 
 /// The comment lines above an item. `before` is the text before its name.
-fn above(before: &str) -> String {
+fn comment_above(before: &str) -> String {
     let mut head = before.trim_end();
     // In a list of whiskers, the keyword precedes only the first.
     while let Some(others) = head.strip_suffix(',') {
@@ -35,7 +35,7 @@ fn above(before: &str) -> String {
         return String::new();
     }
     let lines = head[..line_start].lines().rev().map(str::trim).take_while(|line| line.starts_with('#'));
-    let lines: Vec<String> = lines.map(said).collect();
+    let lines: Vec<String> = lines.map(comment_text).collect();
     lines.into_iter().rev().filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -47,7 +47,7 @@ pub(super) fn describe(program: &mut Program, source: &Source, file: &File) {
 }
 
 /// A comment without its mark, on one line.
-fn said(comment: &str) -> String {
+fn comment_text(comment: &str) -> String {
     let words =
         comment.trim().trim_start_matches('#').split(|letter: char| letter.is_whitespace() || letter.is_control());
     words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")

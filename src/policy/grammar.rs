@@ -9,7 +9,7 @@ use pest::iterators::Pairs;
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
-use super::pair::{self, Found};
+use super::parse_tree::{self, Match};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
 
@@ -36,23 +36,23 @@ mod derived {
 pub(super) use derived::Rule;
 
 /// The matches in the modules of the standard library. They never change, and are a third of all parsed text.
-static STANDARD: [OnceLock<Vec<Found>>; MODULES.len()] = [const { OnceLock::new() }; MODULES.len()];
+static STANDARD: [OnceLock<Vec<Match>>; MODULES.len()] = [const { OnceLock::new() }; MODULES.len()];
 
 /// The matches in a module of the standard library, if the text is one.
-fn standard(source: &Source) -> Option<&'static [Found]> {
+fn standard(source: &Source) -> Option<&'static [Match]> {
     let (_, found) = MODULES.iter().zip(&STANDARD).find(|((_, text), _)| *text == source.text)?;
     if found.get().is_none() {
         // Another thread may have stored the same result first.
-        let _ = found.set(pair::all(parse(source).ok()?));
+        let _ = found.set(parse_tree::flatten(parse(source).ok()?));
     }
     found.get().map(Vec::as_slice)
 }
 
 /// The matches in a whole file. They are borrowed for a module of the standard library.
-pub(super) fn found(source: &Source) -> Result<Cow<'static, [Found]>, Box<Diagnostic>> {
+pub(super) fn matches(source: &Source) -> Result<Cow<'static, [Match]>, Box<Diagnostic>> {
     match standard(source) {
         Some(found) => Ok(Cow::Borrowed(found)),
-        None => Ok(Cow::Owned(pair::all(parse(source)?))),
+        None => Ok(Cow::Owned(parse_tree::flatten(parse(source)?))),
     }
 }
 

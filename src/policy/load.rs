@@ -104,8 +104,8 @@ impl Loaded {
     }
 
     /// For every file, the `use` in the first file that leads to it, directly or indirectly. `None` for the first file.
-    pub(super) fn ways(&self) -> Vec<Option<Span>> {
-        let mut ways = vec![None; self.files.len()];
+    pub(super) fn root_uses(&self) -> Vec<Option<Span>> {
+        let mut root_uses = vec![None; self.files.len()];
         let uses = self.files.first().into_iter().flatten().flat_map(|file| &file.uses);
         let links = self.links.first().into_iter().flatten().copied().zip(uses.map(|used| used.span));
         // A breadth-first search, so that direct uses precede indirect ones.
@@ -113,12 +113,12 @@ impl Loaded {
         let mut next = 0;
         while let Some(&(file, way)) = found.get(next) {
             next += 1;
-            if file > 0 && ways.get(file) == Some(&None) {
-                ways[file] = Some(way);
+            if file > 0 && root_uses.get(file) == Some(&None) {
+                root_uses[file] = Some(way);
                 found.extend(self.links.get(file).into_iter().flatten().flatten().map(|&link| (link, way)));
             }
         }
-        ways
+        root_uses
     }
 
     /// All texts, and the files. The first file alone if they are inconsistent.

@@ -1,6 +1,6 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! - `grammar` parses a text with pest (`grammar/fsm.pest`). `pair` stores the result in a flat list.
+//! - `grammar` parses a text with pest (`grammar/fsm.pest`). `parse_tree` stores the result in a flat list.
 //! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors.
 //! - `lower` checks names, types and units, and generates code.
 //! - `analysis` finds probable mistakes in the tree and the code.
@@ -14,19 +14,19 @@ mod ast;
 mod builtins;
 pub mod chart;
 mod description;
-mod foreign;
+mod foreign_syntax;
 mod format;
 mod grammar;
-mod hint;
 pub mod index;
 mod load;
 mod lower;
 mod optimise;
-mod pair;
 mod parse;
+mod parse_tree;
 mod path;
 mod recover;
 mod standard;
+mod suggestion;
 mod syntax_error;
 mod test;
 mod types;

@@ -17,7 +17,7 @@ use super::ast::{
     TypeName, Use,
 };
 use super::grammar::{self, Rule};
-use super::pair::{Pair, Pairs};
+use super::parse_tree::{Pair, Pairs};
 use expression::{binary, climb};
 use reader::{Reader, values};
 use state::{state, target, variable};
@@ -27,7 +27,7 @@ type Parsed<T> = Result<T, Box<Diagnostic>>;
 
 /// Parses the text of one file. Its spans count from `start`.
 pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
-    let found = grammar::found(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
+    let found = grammar::matches(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
     let mut file = File {
         name: Name { text: String::new(), span: Span::new(start, start) },
         is_library: false,
@@ -85,7 +85,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             Rule::memory => file.memory.push(variable(&mut reader)?),
             _ => {
-                file.acts.get_or_insert(item.place());
+                file.acts.get_or_insert(item.span());
                 file.body.push(statement(item)?);
             }
         }
@@ -95,7 +95,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
 
 fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
     let from = reader.next()?;
-    let span = from.place();
+    let span = from.span();
     let is_text = from.as_rule() == Rule::text;
     let mut parts = Reader::new(from);
     let from = if is_text {
@@ -115,7 +115,7 @@ fn fitted(optional: Pair<'_>) -> Parsed<()> {
     }
     let message = format!("`{}` is unexpected here", word.as_str());
     // The `if` may be the beginning of a statement.
-    Err(Box::new(Diagnostic::error("P0101", message, word.place(), "expected `fitted`, or `{` behind this")))
+    Err(Box::new(Diagnostic::error("P0101", message, word.span(), "expected `fitted`, or `{` behind this")))
 }
 
 fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
@@ -130,7 +130,7 @@ fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
 }
 
 fn bound(pair: Pair<'_>) -> Parsed<Bound> {
-    let span = pair.place();
+    let span = pair.span();
     let mut reader = Reader::new(pair);
     let negative = reader.has(Rule::minus);
     if negative {
@@ -140,7 +140,7 @@ fn bound(pair: Pair<'_>) -> Parsed<Bound> {
 }
 
 fn quantity(pair: Pair<'_>) -> Parsed<Quantity> {
-    let span = pair.place();
+    let span = pair.span();
     let mut reader = Reader::new(pair);
     let number = reader.take(Rule::number)?.as_str().to_owned();
     let unit = if reader.has(Rule::unit) { Some(named(reader.take(Rule::unit)?)) } else { None };
@@ -198,7 +198,7 @@ fn block(pair: Pair<'_>) -> Parsed<Vec<Statement>> {
 
 fn statement(pair: Pair<'_>) -> Parsed<Statement> {
     let rule = pair.as_rule();
-    let span = pair.place();
+    let span = pair.span();
     let mut reader = Reader::new(pair);
     Ok(match rule {
         Rule::binding => Statement::Let { name: reader.name()?, value: reader.expression()? },
@@ -232,7 +232,7 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
 }
 
 fn named(pair: Pair<'_>) -> Name {
-    Name { text: pair.as_str().to_owned(), span: pair.place() }
+    Name { text: pair.as_str().to_owned(), span: pair.span() }
 }
 
 fn internal(span: Span) -> Box<Diagnostic> {

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::diagnostic::Diagnostic;
 
 use super::ast::{From, Use};
-use super::hint::did_you_mean;
 use super::standard::{MODULES, ROOT, text};
+use super::suggestion::did_you_mean;
 
 /// The name of the file that `used` means in the file `using`: `std.` and a module, or a path.
 ///

@@ -4,9 +4,9 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
-use super::foreign::instead;
+use super::foreign_syntax::advice_for;
 use super::grammar::{Rule, brackets, is_keyword, is_word};
-use super::hint::did_you_mean;
+use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
 const ITEM: &str =
@@ -153,7 +153,7 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         "else" => "`else` follows the `}` of an `if`".to_owned(),
         "machine" | "library" => "a file holds one machine or one library, which stands first".to_owned(),
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
-        _ if instead(found).is_some() => instead(found)?.to_owned(),
+        _ if advice_for(found).is_some() => advice_for(found)?.to_owned(),
         _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
             statement(found, rest[found.len()..].trim_start())?
         }

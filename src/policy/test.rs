@@ -38,14 +38,14 @@ pub struct Expectation {
     pub span: Span,
     pub(super) code: Vec<Op>,
     /// Initial values of the registers.
-    pub(super) image: Vec<f64>,
-    pub(super) truth: Register,
-    pub(super) figures: Vec<FigurePlace>,
+    pub(super) initial: Vec<f64>,
+    pub(super) result: Register,
+    pub(super) figures: Vec<FigureRegister>,
 }
 
 /// A register for a figure of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FigurePlace {
+pub(super) struct FigureRegister {
     pub(super) register: Register,
     pub(super) figure: RunFigure,
     pub(super) span: Span,
@@ -112,7 +112,7 @@ impl Expectation {
     ///
     /// `figure` returns figures in SI units, bools as 1 and 0, and NaN for a figure that the run does not have.
     pub fn violation(&self, program: &Program, figure: impl Fn(RunFigure) -> f64) -> Option<Diagnostic> {
-        let mut registers = self.image.clone();
+        let mut registers = self.initial.clone();
         let parameters = program.parameters.len();
         registers[..parameters].copy_from_slice(&program.image[..parameters]);
         for place in &self.figures {
@@ -120,8 +120,8 @@ impl Expectation {
         }
         // The code of a test has far fewer operations than this.
         let everything = 0..u32::try_from(self.code.len()).unwrap_or(u32::MAX);
-        compute(&self.code, &everything, &mut registers, &mut Numb);
-        if registers[usize::from(self.truth)] > 0.5 {
+        compute(&self.code, &everything, &mut registers, &mut NoSenses);
+        if registers[usize::from(self.result)] > 0.5 {
             return None;
         }
         let diagnostic = Diagnostic::error("P0701", "the run is not as expected", self.span, "does not hold");
@@ -133,9 +133,9 @@ impl Expectation {
 }
 
 /// Senses without values. The code of expectations reads only registers.
-struct Numb;
+struct NoSenses;
 
-impl Senses for Numb {
+impl Senses for NoSenses {
     fn time(&self) -> f64 {
         f64::NAN
     }

@@ -29,7 +29,7 @@ impl Type {
     pub(super) const TIME: Self = Self::Scalar(Dimension::TIME);
     pub(super) const SPEED: Self = Self::Scalar(Dimension::SPEED);
     /// A position or a displacement.
-    pub(super) const PLACE: Self = Self::Vector(Dimension::LENGTH);
+    pub(super) const POSITION: Self = Self::Vector(Dimension::LENGTH);
     pub(super) const ANGULAR_SPEED: Self = Self::Scalar(Dimension::ANGULAR_SPEED);
 
     /// Number of registers of a value.

@@ -5,16 +5,16 @@ use std::sync::Arc;
 use crate::diagnostic::Diagnostic;
 use vibrissa_runtime::machine::{Cause, Failure, Machine, WhiskerScalar};
 
+use super::cycle_search::{Step, goals, immediate_cycles};
 use super::model::Model;
 use super::point::Point;
 use super::search::{Goal, Search};
 use super::unknown::{Domain, Unknown};
-use super::walk::{Step, goals, walk};
 
 /// Reports cycles of transitions that exceed the microstep limit, each with a witness confirmed by the machine.
 pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
     let mut faults = Vec::new();
-    let found = walk(model);
+    let found = immediate_cycles(model);
     if found.is_empty() {
         return faults;
     }
@@ -28,7 +28,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         }
         let start = path[0].0;
         let fails = |point: &Point, registers: Vec<f64>| {
-            is_felt_freely(model, point) && {
+            has_independent_inputs(model, point) && {
                 let mut machine = Machine::entering(Arc::clone(&program), start, registers);
                 let left = machine.tick(&mut point.clone()).failsafe;
                 // A fallback transition is for unexpected failures, so it does not excuse a cycle.
@@ -63,20 +63,20 @@ fn fault(model: &Model<'_>, path: &[Step<'_>], witness: &str) -> Diagnostic {
 
 /// True if the inputs of a point can be chosen independently. Other inputs, such as positions of tips, depend on each
 /// other through the rig.
-fn is_felt_freely(model: &Model<'_>, point: &Point) -> bool {
+fn has_independent_inputs(model: &Model<'_>, point: &Point) -> bool {
     point.values().into_iter().all(|(unknown, _)| match unknown {
         Unknown::Register(register) => {
             usize::from(register) < model.program.parameters.len()
                 || matches!(model.domain(register), None | Some(Domain::Values(_)))
         }
         Unknown::Whisker(_, quantity) => quantity == WhiskerScalar::ContourCurvature,
-        Unknown::WhiskerVector(..) | Unknown::Away(_) => false,
+        Unknown::WhiskerVector(..) | Unknown::Normal(_) => false,
         Unknown::Time
         | Unknown::Body(_)
         | Unknown::BodyPosition(_)
         | Unknown::Contact(_)
         | Unknown::Deflection(_)
         | Unknown::Contour(_)
-        | Unknown::Travel(_) => true,
+        | Unknown::Tangent(_) => true,
     })
 }

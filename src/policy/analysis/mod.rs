@@ -8,22 +8,22 @@
 mod arithmetic;
 mod bounds;
 mod cycle;
+mod cycle_search;
+mod data_flow;
 mod direction;
-mod flow;
 mod guards;
 mod interval;
 mod model;
 mod names;
 mod narrow;
+mod never_taken;
 mod overlap;
 mod point;
-mod reach;
+mod reachability;
 mod region;
 mod search;
-mod shadow;
 mod unknown;
 mod unused;
-mod walk;
 mod witness;
 
 use crate::diagnostic::Diagnostic;
@@ -47,8 +47,8 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     let model = Model::new(&files.main, lowered);
     let mut warnings = Vec::new();
     unused::unused(files, &mut warnings);
-    reach::unreachable(&model, &mut warnings);
-    reach::without_a_way_out(&model, &mut warnings);
+    reachability::unreachable(&model, &mut warnings);
+    reachability::without_exit(&model, &mut warnings);
     let mut search = Search::new(&model);
     transitions(&mut search, (&[], &[]), &model.always, &mut warnings);
     // For every state, its transitions that can be due.
@@ -83,7 +83,7 @@ fn transitions<'a>(
         if search.is_exhausted() {
             break;
         }
-        if !shadow::shadowed(search, outer, edges, &can_hold, index, warnings) {
+        if !never_taken::report_never_taken(search, outer, edges, &can_hold, index, warnings) {
             overlap::overlap(search, (always, outer), edges, index, warnings);
         }
     }

@@ -6,7 +6,7 @@ use crate::policy::lower::Lowered;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{self, Program, Register};
 
-use super::flow::Flow;
+use super::data_flow::Flow;
 use super::interval::Interval;
 use super::unknown::Domain;
 
@@ -89,7 +89,7 @@ impl<'a> Edge<'a> {
 
 impl Node<'_> {
     /// The targets of the state's own transitions and of its fallback transition. `None` is a failure.
-    pub(super) fn ways_out(&self) -> impl Iterator<Item = Option<usize>> {
+    pub(super) fn exits(&self) -> impl Iterator<Item = Option<usize>> {
         self.edges.iter().map(Edge::leads_to).chain(self.failsafe.map(leads_to))
     }
 }

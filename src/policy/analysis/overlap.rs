@@ -5,8 +5,8 @@ use crate::policy::ast::{Expression, Kind};
 use vibrissa_runtime::machine::Program;
 
 use super::model::Edge;
+use super::never_taken::comes_first;
 use super::search::{Goal, Search};
-use super::shadow::comes_first;
 
 /// Warns if a transition's guard can hold together with that of a preceding one, so that only their order decides.
 ///

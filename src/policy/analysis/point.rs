@@ -36,7 +36,7 @@ impl Source for Values {
     fn domain(&mut self, unknown: Unknown) -> &Domain {
         let known = self.0.iter().position(|(known, _)| *known == unknown);
         let index = known.unwrap_or_else(|| {
-            let value = plain(unknown, &Domain::felt(unknown));
+            let value = plain(unknown, &Domain::possible(unknown));
             self.0.push((unknown, single(value)));
             self.0.len() - 1
         });

@@ -4,7 +4,7 @@ use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVect
 
 use super::interval::Interval;
 use super::model::Model;
-use super::unknown::{Domain, Source, TOUCH, Unknown};
+use super::unknown::{Domain, MIN_CONTACT_ANGLE, Source, Unknown};
 
 /// The domains of all unknowns that have been read so far.
 #[derive(Clone)]
@@ -140,8 +140,8 @@ impl<'m> Region<'m> {
                 let free = self.range(Unknown::Deflection(whisker));
                 let size = to.absolute();
                 let size = Interval {
-                    low: if size.low <= TOUCH { 0.0 } else { size.low },
-                    high: size.high.max(TOUCH),
+                    low: if size.low <= MIN_CONTACT_ANGLE { 0.0 } else { size.low },
+                    high: size.high.max(MIN_CONTACT_ANGLE),
                     nan: true,
                 };
                 let side = if free.low >= 0.0 {
@@ -200,7 +200,7 @@ impl Source for Region<'_> {
     fn domain(&mut self, unknown: Unknown) -> &Domain {
         let known = self.parts.iter().position(|part| part.unknown == unknown);
         let index = known.unwrap_or_else(|| {
-            self.parts.push(Part { unknown, domain: Domain::felt(unknown), splits: 0 });
+            self.parts.push(Part { unknown, domain: Domain::possible(unknown), splits: 0 });
             self.parts.len() - 1
         });
         self.read |= bit(index);

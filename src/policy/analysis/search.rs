@@ -51,13 +51,13 @@ impl<'a> Goal<'a> {
 pub(super) type Accept<'a> = dyn Fn(&Point, Vec<f64>) -> bool + 'a;
 
 /// The result of a search.
-enum Found {
+enum Outcome {
     /// A point at which every goal is met.
     Witness(Point),
     /// A proof that there is no such point.
-    Nothing,
+    Excluded,
     /// No result within the limits.
-    Unclear,
+    Inconclusive,
 }
 
 /// The purpose of a search.
@@ -88,25 +88,25 @@ impl<'m> Search<'m> {
 
     /// True if it is proved that no point meets every goal.
     pub(super) fn excludes(&mut self, goals: &[Goal<'_>]) -> bool {
-        matches!(self.find(goals, Purpose::Proof), Found::Nothing)
+        matches!(self.find(goals, Purpose::Proof), Outcome::Excluded)
     }
 
     /// A point at which every goal is met and that `accept` accepts, if it is given. `None` also if the search is
     /// inconclusive.
     pub(super) fn witness(&mut self, goals: &[Goal<'_>], accept: Option<&Accept<'_>>) -> Option<Point> {
         match self.find(goals, Purpose::Witness(accept)) {
-            Found::Witness(point) => Some(point),
-            Found::Nothing | Found::Unclear => None,
+            Outcome::Witness(point) => Some(point),
+            Outcome::Excluded | Outcome::Inconclusive => None,
         }
     }
 
-    fn find(&mut self, goals: &[Goal<'_>], purpose: Purpose<'_>) -> Found {
+    fn find(&mut self, goals: &[Goal<'_>], purpose: Purpose<'_>) -> Outcome {
         let mut open = VecDeque::from([Region::whole(self.model)]);
         let (mut looked_at, mut is_unclear) = (0, false);
         while let Some(mut region) = open.pop_front() {
             looked_at += 1;
             if looked_at > REGION_LIMIT || self.is_exhausted() {
-                return Found::Unclear;
+                return Outcome::Inconclusive;
             }
             if !self.may_meet(goals, &mut region) {
                 continue;
@@ -124,7 +124,7 @@ impl<'m> Search<'m> {
                 for choice in [Choice::Plain, Choice::Inside, Choice::Middle, Choice::Low, Choice::High] {
                     let point = Point::of(&region, self.model, choice);
                     if self.meets(goals, &point) && self.accepts(&point, accept) {
-                        return Found::Witness(point);
+                        return Outcome::Witness(point);
                     }
                 }
             }
@@ -133,7 +133,7 @@ impl<'m> Search<'m> {
                 None => is_unclear = true,
             }
         }
-        if is_unclear { Found::Unclear } else { Found::Nothing }
+        if is_unclear { Outcome::Inconclusive } else { Outcome::Excluded }
     }
 
     /// Narrows a region to the points at which all goals may be met. False if there are none. Goals of earlier calls

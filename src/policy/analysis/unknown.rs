@@ -7,11 +7,11 @@ use vibrissa_runtime::machine::{BodyScalar, Register, WhiskerScalar, WhiskerVect
 use super::interval::Interval;
 
 /// A bound of all distances (m).
-const FAR: f64 = 1e6;
+const DISTANCE_LIMIT: f64 = 1e6;
 /// A bound of the body's yaw (rad).
-const WHIRL: f64 = 1e5;
+const YAW_LIMIT: f64 = 1e5;
 /// The minimum base angle of a whisker in contact (rad).
-pub(super) const TOUCH: f64 = 1e-9;
+pub(super) const MIN_CONTACT_ANGLE: f64 = 1e-9;
 
 /// One degree of freedom of the inputs of guards.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,9 +29,9 @@ pub(super) enum Unknown {
     /// The state of a whisker's contour: one of [`CONTOURS`].
     Contour(usize),
     /// The tangent direction of a whisker's contour (rad).
-    Travel(usize),
+    Tangent(usize),
     /// The direction of a whisker's contour normal, away from the object (rad).
-    Away(usize),
+    Normal(usize),
     /// Any other scalar of a whisker.
     Whisker(usize, WhiskerScalar),
     /// A coordinate of any other vector of a whisker.
@@ -55,24 +55,26 @@ pub(super) enum Domain {
 
 impl Domain {
     /// All possible values of an input. For registers, see [`Model::domain`](super::model::Model::domain).
-    pub(super) fn felt(unknown: Unknown) -> Self {
+    pub(super) fn possible(unknown: Unknown) -> Self {
         let range = |low, high| Self::Range(Interval::new(low, high));
         match unknown {
             Unknown::Register(_) => Self::Range(Interval::ANYTHING),
             Unknown::Time => range(0.0, 1e9),
-            Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-WHIRL, WHIRL),
+            Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-YAW_LIMIT, YAW_LIMIT),
             // The simplest body follows its commands, so that value comes first.
             Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
-            Unknown::Body(BodyScalar::Shortfall) => range(0.0, FAR),
+            Unknown::Body(BodyScalar::Shortfall) => range(0.0, DISTANCE_LIMIT),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
             Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
-            Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
-            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
+            Unknown::Tangent(_) | Unknown::Normal(_) => range(-PI, PI),
+            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
             Unknown::Whisker(_, WhiskerScalar::TipSpread) => range(0.0, f64::INFINITY),
-            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => range(-FAR, FAR),
+            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => {
+                range(-DISTANCE_LIMIT, DISTANCE_LIMIT)
+            }
         }
     }
 
@@ -160,7 +162,7 @@ pub(super) fn middle(range: Interval) -> f64 {
         -middle(range.negate())
     } else if high > 4.0 * low.max(1e-6) {
         // The geometric mean, if both ends have a plausible magnitude.
-        (low.max(1e-6) * high.min(FAR)).sqrt()
+        (low.max(1e-6) * high.min(DISTANCE_LIMIT)).sqrt()
     } else {
         low + (high - low) / 2.0
     }
@@ -187,7 +189,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
         WhiskerScalar::Deflection => {
             let free = source.range(Unknown::Deflection(whisker));
             let size = free.absolute();
-            let bent = Interval::new(size.low.max(TOUCH), size.high.max(TOUCH));
+            let bent = Interval::new(size.low.max(MIN_CONTACT_ANGLE), size.high.max(MIN_CONTACT_ANGLE));
             contacts(source, whisker)
                 .map(|(side, sense)| if sense == 0.0 { free } else { bent.multiply(Interval::point(side * sense)) })
                 .reduce(Interval::join)
@@ -210,11 +212,11 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
 pub(super) fn vector(source: &mut impl Source, whisker: usize, quantity: WhiskerVector) -> [Interval; 2] {
     match quantity {
         WhiskerVector::ContourTangent => {
-            let travel = source.range(Unknown::Travel(whisker));
+            let travel = source.range(Unknown::Tangent(whisker));
             [travel.cosine(), travel.sine()].map(|part| once_readable(source, whisker, part))
         }
         WhiskerVector::ContourNormal => {
-            let away = source.range(Unknown::Away(whisker));
+            let away = source.range(Unknown::Normal(whisker));
             [away.cosine(), away.sine()].map(|part| once_readable(source, whisker, part))
         }
         WhiskerVector::ContourEnd => {

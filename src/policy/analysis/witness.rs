@@ -11,7 +11,7 @@ use super::search::{Accept, Goal, Search};
 use super::unknown::{Domain, Unknown};
 
 /// The number of bisections in the search for the simplest valid value.
-const HALVINGS: usize = 60;
+const BISECTION_LIMIT: usize = 60;
 
 impl Search<'_> {
     /// A witness as text: `r0.touching = true, r0.deflection = 950 urad`. Its values are as simple as possible for the
@@ -33,7 +33,7 @@ impl Search<'_> {
             }
         }
         let named = named_values(model, &point);
-        let felt = senses.readings().into_iter().filter_map(|reading| felt(program, &senses, reading));
+        let felt = senses.readings().into_iter().filter_map(|reading| reading_text(program, &senses, reading));
         let words: Vec<String> = named.into_iter().chain(felt).collect();
         if words.is_empty() { "any time".to_owned() } else { words.join(", ") }
     }
@@ -45,7 +45,7 @@ impl Search<'_> {
             let value = point.value(unknown);
             let domain = match unknown {
                 Unknown::Register(register) => self.model.domain(register),
-                _ => Some(Domain::felt(unknown)),
+                _ => Some(Domain::possible(unknown)),
             };
             let Some(domain) = domain else { continue };
             let plain = plainest(self.model, unknown, &domain);
@@ -63,7 +63,7 @@ impl Search<'_> {
             };
             let mut best = if meets(plain) { plain } else { value };
             let mut worse = plain;
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTION_LIMIT {
                 let between = best + (worse - best) / 2.0;
                 if meets(between) { best = between } else { worse = between }
             }
@@ -101,7 +101,7 @@ fn dimension(model: &Model<'_>, unknown: Unknown) -> Dimension {
     let r#type = match unknown {
         Unknown::Register(register) => model.named(register).map(|named| named.r#type),
         Unknown::Time => Some(Type::TIME),
-        Unknown::Deflection(_) | Unknown::Travel(_) | Unknown::Away(_) => Some(Type::ANGLE),
+        Unknown::Deflection(_) | Unknown::Tangent(_) | Unknown::Normal(_) => Some(Type::ANGLE),
         Unknown::Body(quantity) => member(MemberSource::Body(quantity)).map(|(_, member)| member.r#type),
         Unknown::Whisker(_, quantity) => member(MemberSource::Scalar(quantity)).map(|(_, member)| member.r#type),
         Unknown::BodyPosition(_) => Some(Type::LENGTH),
@@ -175,7 +175,7 @@ fn show(r#type: Type, [x, y]: [f64; 2]) -> String {
 }
 
 /// A reading as text. `None` if it is NaN.
-fn felt(program: &Program, point: &Point, reading: Reading) -> Option<String> {
+fn reading_text(program: &Program, point: &Point, reading: Reading) -> Option<String> {
     let (whisker, source, value) = match reading {
         Reading::Time => return Some(format!("time = {}", show(Type::TIME, [point.time(), 0.0]))),
         Reading::Body(quantity) => (None, MemberSource::Body(quantity), [point.body(quantity), 0.0]),

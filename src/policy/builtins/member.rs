@@ -62,8 +62,8 @@ const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meani
     member(name, r#type, MemberSource::Scalar(quantity), meaning)
 }
 
-const fn place(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
-    member(name, Type::PLACE, MemberSource::Vector(quantity), meaning)
+const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
+    member(name, Type::POSITION, MemberSource::Vector(quantity), meaning)
 }
 
 const WHISKER: [Member; 13] = [
@@ -88,8 +88,8 @@ const WHISKER: [Member; 13] = [
         "the sign of the base angle: 1 for the sign that forward motion causes, \u{2212}1 for the other, 0 without contact",
     ),
     scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of the shaft"),
-    place("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
-    place(
+    position("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
+    position(
         "tip_base",
         WhiskerVector::TipBase,
         "the position of the tip relative to the base: x along the undeflected shaft, y to its left",
@@ -100,7 +100,7 @@ const WHISKER: [Member; 13] = [
         WhiskerScalar::TipSpread,
         "the standard deviation of `tip` that the contact estimator reports. It is infinite outside of the estimator's range",
     ),
-    place("base", WhiskerVector::Base, "the position of the base"),
+    position("base", WhiskerVector::Base, "the position of the base"),
     scalar(
         "fitted",
         Type::Truth,
@@ -111,7 +111,7 @@ const WHISKER: [Member; 13] = [
         at: Some(At::Tip),
         ..member(
             "tip_at",
-            Type::PLACE,
+            Type::POSITION,
             MemberSource::At,
             "the position of the tip at a given base angle, relative to the base",
         )
@@ -149,10 +149,15 @@ const CONTOUR: [Member; 6] = [
             "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded",
         )
     },
-    place("end", WhiskerVector::ContourEnd, "the newest point of the contour"),
+    position("end", WhiskerVector::ContourEnd, "the newest point of the contour"),
     Member {
         at: Some(At::Contour(ContourVector::Point)),
-        ..member("point", Type::PLACE, MemberSource::At, "the point of the curve at a distance behind its newest end")
+        ..member(
+            "point",
+            Type::POSITION,
+            MemberSource::At,
+            "the point of the curve at a distance behind its newest end",
+        )
     },
     scalar(
         "curvature",
@@ -169,7 +174,7 @@ const BODY: [Member; 4] = [
         MemberSource::Body(BodyScalar::Yaw),
         "the heading of the platform, without wrapping at full rotations",
     ),
-    member("position", Type::PLACE, MemberSource::BodyPosition, "the centre of mass of the platform"),
+    member("position", Type::POSITION, MemberSource::BodyPosition, "the centre of mass of the platform"),
     member(
         "blocked",
         Type::Truth,

@@ -12,8 +12,9 @@ pub(in crate::policy) fn build(source: &Source, file: &File) -> Chart {
     let names = file.states.iter().map(|state| state.name.text.as_str());
     let builder = Builder { source, states: names.zip(0..).collect() };
     let of_states = file.states.iter().zip(0..).map(|(state, index)| (Origin::State(index), state));
-    let of_states = of_states.flat_map(|(origin, state)| builder.ways(origin, &state.transitions, &state.failsafes));
-    let always = builder.ways(Origin::AnyState, &file.always, &file.failsafes);
+    let of_states =
+        of_states.flat_map(|(origin, state)| builder.transitions(origin, &state.transitions, &state.failsafes));
+    let always = builder.transitions(Origin::AnyState, &file.always, &file.failsafes);
     Chart {
         machine: file.name.text.clone(),
         states: file.states.iter().zip(0..).map(|(state, index)| builder.state(index, state, file)).collect(),
@@ -50,21 +51,26 @@ impl Builder<'_> {
 
     /// The transitions from one origin, and its fallback transition. A transition to an unknown state is omitted. A
     /// file that compiles has none.
-    fn ways(&self, origin: Origin, transitions: &[ast::Transition], failsafes: &[ast::Target]) -> Vec<Transition> {
+    fn transitions(
+        &self,
+        origin: Origin,
+        transitions: &[ast::Transition],
+        failsafes: &[ast::Target],
+    ) -> Vec<Transition> {
         let transitions = transitions.iter().map(|transition| (self.guard(&transition.guard), &transition.target));
-        let ways = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
-        let mut ways: Vec<Transition> = ways
+        let built = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
+        let mut built: Vec<Transition> = built
             .filter_map(|(guard, target)| {
                 Some(Transition { origin, number: None, guard, target: self.target(target)? })
             })
             .collect();
         // A fallback transition is not tried among the others.
-        let tried = ways.iter_mut().filter(|way| way.guard != Guard::Failsafe);
+        let tried = built.iter_mut().filter(|transition| transition.guard != Guard::Failsafe);
         let mut tried: Vec<&mut Transition> = tried.collect();
         if tried.len() > 1 {
-            tried.iter_mut().zip(1..).for_each(|(way, number)| way.number = Some(number));
+            tried.iter_mut().zip(1..).for_each(|(transition, number)| transition.number = Some(number));
         }
-        ways
+        built
     }
 
     fn guard(&self, guard: &ast::Guard) -> Guard {

@@ -5,8 +5,8 @@
 //! on one line stays there if it fits. Everything else follows from the tokens alone, so formatting is idempotent.
 
 mod align;
-mod cut;
 mod line;
+mod line_break;
 mod spacing;
 mod statement;
 mod structure;
@@ -33,8 +33,8 @@ use super::recover::faults;
 /// ```
 pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     let pairs = grammar::parse(source).map_err(|_| faults(source))?;
-    let places = structure::structure(token::tokens(&source.text), &statement::starts(pairs));
-    let mut lines = cut::cut(&places);
+    let structure = structure::structure(token::tokens(&source.text), &statement::starts(pairs));
+    let mut lines = line_break::break_lines(&structure);
     line::separate(&mut lines);
     align::align(&mut lines);
     let text = line::render(&lines);
@@ -86,7 +86,7 @@ mod tests {
             let tokens = token::tokens(&text);
             let covered: usize = tokens.iter().map(|token| token.text.len()).sum();
             prop_assert!(covered <= text.len());
-            let mut lines = cut::cut(&structure::structure(tokens, &starts));
+            let mut lines = line_break::break_lines(&structure::structure(tokens, &starts));
             line::separate(&mut lines);
             align::align(&mut lines);
             line::render(&lines);

@@ -21,7 +21,7 @@ pub(super) enum Role {
 
 /// A token with its role.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<'t> {
+pub(super) struct Element<'t> {
     pub(super) token: Token<'t>,
     pub(super) role: Role,
     /// True if a statement or an item begins here.
@@ -50,7 +50,7 @@ impl Block {
 /// The tokens of a text with their roles, and its blocks.
 #[derive(Debug)]
 pub(super) struct Structure<'t> {
-    pub(super) places: Vec<Place<'t>>,
+    pub(super) elements: Vec<Element<'t>>,
     /// In the order of their opening braces.
     pub(super) blocks: Vec<Block>,
 }
@@ -58,17 +58,17 @@ pub(super) struct Structure<'t> {
 /// The structure of a text whose statements and items begin at the bytes `starts`, in ascending order.
 pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structure<'t> {
     let mut starts = starts.iter().copied().peekable();
-    let mut before: Option<Place<'t>> = None;
-    let (mut places, mut blocks) = (Vec::with_capacity(tokens.len()), Vec::<Block>::new());
+    let mut before: Option<Element<'t>> = None;
+    let (mut elements, mut blocks) = (Vec::with_capacity(tokens.len()), Vec::<Block>::new());
     // For every open block, its index and the first block of its current statement.
     let mut open: Vec<(usize, Option<usize>)> = vec![];
     let mut first = None;
     // The names after `use` are not values, and its list is not a list of arguments.
     let mut is_use = false;
     for token in tokens {
-        let index = places.len();
+        let index = elements.len();
         if token.kind == Kind::Comment {
-            places.push(Place { token, role: Role::Other, begins: false, block: None });
+            elements.push(Element { token, role: Role::Other, begins: false, block: None });
             continue;
         }
         let mut begins = before.is_none_or(|before| before.token.is("{"));
@@ -94,11 +94,11 @@ pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structu
         }
         let after_operand = !begins && before.is_some_and(|before| matches!(before.role, Role::Operand | Role::Closes));
         let role = if is_use && !token.is("(") && !token.is(")") { Role::Other } else { role(&token, after_operand) };
-        let place = Place { token, role, begins, block };
-        before = Some(place);
-        places.push(place);
+        let element = Element { token, role, begins, block };
+        before = Some(element);
+        elements.push(element);
     }
-    Structure { places, blocks }
+    Structure { elements, blocks }
 }
 
 fn role(token: &Token<'_>, after_operand: bool) -> Role {

@@ -11,17 +11,17 @@ use crate::policy::unit::units_of;
 use vibrissa_runtime::units::Dimension;
 
 use super::context::{Context, Expected, Level, context};
-use super::import::{heading, offered};
+use super::import::{exports, heading};
+use super::keyword::{Keyword, Position, keyword, keywords_at};
 use super::resolve::Owner;
 use super::symbol::{Symbol, SymbolKind};
-use super::words::{Place, Word, word, words_of};
 use super::{Index, text};
 
 /// The kind of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CandidateKind {
     /// A keyword.
-    Word,
+    Keyword,
     /// A built-in function.
     Function,
     /// A member of a whisker, a contour or the body.
@@ -96,11 +96,11 @@ impl Index {
                 states.map(|state| Candidate { snippet: state.name.clone(), ..self.symbol(state) }).collect()
             }
             Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
-            Expected::Mark => words_of(Place::Mark).map(of_word).collect(),
-            Expected::TipModel => words_of(Place::TipModel).map(of_word).collect(),
+            Expected::Mark => keywords_at(Position::Mark).map(of_keyword).collect(),
+            Expected::TipModel => keywords_at(Position::TipModel).map(of_keyword).collect(),
             Expected::File => modules(&format!("{ROOT}.")).collect(),
             Expected::Module => modules("").collect(),
-            Expected::Chosen => self.offered(context),
+            Expected::Chosen => self.exported(context),
             Expected::Value if context.level == Level::Test => self.values_of_a_run(context),
             Expected::Law => of_kind(&[SymbolKind::Law]).collect(),
             Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
@@ -110,11 +110,11 @@ impl Index {
             Expected::Dimension => dimensions().collect(),
             Expected::Unit => units().collect(),
             Expected::Value => self.values(context),
-            Expected::Machine => words_of(Place::File).map(of_word).collect(),
-            Expected::Only(text) => word(text).map(of_word).into_iter().collect(),
+            Expected::Machine => keywords_at(Position::File).map(of_keyword).collect(),
+            Expected::Only(text) => keyword(text).map(of_keyword).into_iter().collect(),
             Expected::Statement(level) => self.statements(level).collect(),
             Expected::More(level, words) => {
-                words.iter().filter_map(|text| word(text)).map(of_word).chain(self.statements(level)).collect()
+                words.iter().filter_map(|text| keyword(text)).map(of_keyword).chain(self.statements(level)).collect()
             }
         }
     }
@@ -146,36 +146,36 @@ impl Index {
 
     fn values(&self, context: &Context) -> Vec<Candidate> {
         let named = self.known(context).filter(|symbol| symbol.kind.is_value()).map(|symbol| self.symbol(symbol));
-        named.chain(words_of(Place::Value).map(of_word)).chain(functions()).collect()
+        named.chain(keywords_at(Position::Value).map(of_keyword)).chain(functions()).collect()
     }
 
     /// Values that expectations of tests can read.
     fn values_of_a_run(&self, context: &Context) -> Vec<Candidate> {
         let kinds = [SymbolKind::Parameter, SymbolKind::Derived];
         let named = self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol));
-        words_of(Place::Run).map(of_word).chain(named).chain(functions()).collect()
+        keywords_at(Position::Run).map(of_keyword).chain(named).chain(functions()).collect()
     }
 
     /// Names that the file of the current `use` provides.
-    fn offered(&self, context: &Context) -> Vec<Candidate> {
+    fn exported(&self, context: &Context) -> Vec<Candidate> {
         let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
         let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
         let candidate = |symbol: &Symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) };
-        offered(&self.source, part).iter().map(candidate).collect()
+        exports(&self.source, part).iter().map(candidate).collect()
     }
 
     /// Keywords that begin a statement or an item at this level of braces.
     fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
         let place = match level {
-            Level::Outside => Place::Item,
-            Level::State => Place::State,
-            Level::Test => Place::Test,
-            Level::Block => Place::Statement,
+            Level::Outside => Position::Item,
+            Level::State => Position::State,
+            Level::Test => Position::Test,
+            Level::Block => Position::Statement,
         };
         let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
         let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
-        let fits = move |word: &&Word| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
-        words_of(place).filter(fits).map(of_word)
+        let fits = move |word: &&Keyword| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
+        keywords_at(place).filter(fits).map(of_keyword)
     }
 
     pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
@@ -191,10 +191,10 @@ impl Index {
     }
 }
 
-pub(super) fn of_word(word: &'static Word) -> Candidate {
+pub(super) fn of_keyword(word: &'static Keyword) -> Candidate {
     Candidate {
         label: word.text.to_owned(),
-        kind: CandidateKind::Word,
+        kind: CandidateKind::Keyword,
         detail: String::new(),
         meaning: word.meaning.to_owned(),
         snippet: word.snippet.to_owned(),

@@ -9,9 +9,9 @@ use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::Type;
 use vibrissa_runtime::units::{Dimension, parse_unit};
 
+use super::keyword::{Position, keyword};
 use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;
-use super::words::{Place, word};
 
 /// The content of a pair of braces, or the text outside of all braces.
 #[derive(Debug, Clone, Default)]
@@ -98,12 +98,12 @@ impl<'t> Declared<'t> {
         let token = tokens[index];
         let before = index.checked_sub(1).map(|before| tokens[before]);
         let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
-        let Some(known) = word(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
+        let Some(known) = keyword(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
         // `always when` and `else if` are one statement.
         if before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
             return;
         }
-        if !self.is_balanced && known.places.contains(&Place::Item) && begins_line_unindented(text, token.start) {
+        if !self.is_balanced && known.positions.contains(&Position::Item) && begins_line_unindented(text, token.start) {
             while self.frames.len() > 1 {
                 self.close(self.end);
             }

@@ -8,9 +8,9 @@ use crate::policy::unit::units_of;
 use vibrissa_runtime::units::{Dimension, format_si, parse_unit};
 
 use super::Index;
-use super::import::{heading, offered};
+use super::import::{exports, heading};
+use super::keyword::keyword;
 use super::symbol::{Meaning, Symbol, SymbolKind};
-use super::words::word;
 
 /// The maximum length of a line that is searched for a comment (bytes). It bounds the time for a text with many names.
 const LINE_LIMIT: usize = 4096;
@@ -45,8 +45,8 @@ impl Index {
                 let unit = self.source.slice(known.span);
                 paragraphs(&[code(unit), unit_line(unit, dimension)])
             }
-            Meaning::Word(text) => {
-                let word = word(text)?;
+            Meaning::Keyword(text) => {
+                let word = keyword(text)?;
                 paragraphs(&[code(&word.usage()), word.meaning.to_owned()])
             }
             Meaning::Unknown => return None,
@@ -62,7 +62,7 @@ impl Index {
 
     /// The laws and derived values of a file.
     fn explain_file(&self, part: usize) -> String {
-        let offered = offered(&self.source, part);
+        let offered = exports(&self.source, part);
         let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
         let name = self.source.part_name(part);
         let about = heading(self.source.slice(self.source.part_span(part)));

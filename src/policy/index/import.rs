@@ -79,10 +79,10 @@ fn named(token: Token<'_>) -> Name {
 }
 
 /// Appends the symbols that a `use` imports. The first `own` symbols are those of the text itself.
-pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
+pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
-    for symbol in offered(source, part) {
+    for symbol in exports(source, part) {
         let is_chosen =
             import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
         if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
@@ -92,7 +92,7 @@ pub(super) fn bring(source: &Source, import: &Import, symbols: &mut Vec<Symbol>,
 }
 
 /// The exported symbols of a part of a source: its laws and derived values.
-pub(super) fn offered(source: &Source, part: usize) -> Vec<Symbol> {
+pub(super) fn exports(source: &Source, part: usize) -> Vec<Symbol> {
     let span = source.part_span(part);
     let text = source.slice(span);
     let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();

@@ -10,13 +10,13 @@ mod context;
 mod declare;
 mod hover;
 mod import;
+mod keyword;
 mod origin;
 mod rename;
 mod resolve;
 mod state;
 mod symbol;
 mod type_name;
-mod words;
 
 use std::collections::HashMap;
 
@@ -56,7 +56,7 @@ pub struct Index {
     own: usize,
     imports: Vec<Import>,
     /// For every part of the source, the `use` that leads to it.
-    ways: Vec<Option<Span>>,
+    root_uses: Vec<Option<Span>>,
     resolved: Resolved,
     /// True if the text has no syntax errors.
     is_read: bool,
@@ -94,7 +94,7 @@ impl Index {
     pub fn new(source: &Source, before: Option<&Self>) -> Self {
         let refuse = &mut |_: &str| Err(String::new());
         let loaded = load::load(source, refuse);
-        let (is_read, ways) = (loaded.is_read(), loaded.ways());
+        let (is_read, root_uses) = (loaded.is_read(), loaded.root_uses());
         let (source, files) = loaded.known();
         let source = complete(source, refuse);
         let text = text(&source);
@@ -103,7 +103,7 @@ impl Index {
         let own = symbols.len();
         let imports = import::imports(&source.name, &tokens);
         for import in imports.iter().take(FILE_LIMIT) {
-            import::bring(&source, import, &mut symbols, own);
+            import::add_imported(&source, import, &mut symbols, own);
         }
         let types = files.as_ref().map(lower::types).unwrap_or_default();
         let known = before.map(Self::types).unwrap_or_default();
@@ -113,7 +113,7 @@ impl Index {
             symbols[index].r#type = symbol.r#type.or_else(|| types.get(&symbol.span).copied()).or_else(of_before);
         }
         let resolved = resolve::resolve(&source, &tokens, &symbols, own, &imports);
-        Self { source, symbols, own, imports, ways, resolved, is_read }
+        Self { source, symbols, own, imports, root_uses, resolved, is_read }
     }
 
     /// The text, with the used files as parts.
@@ -130,8 +130,8 @@ impl Index {
 
     /// The `use` in the text that leads to a part of the source, directly or through other files.
     #[must_use]
-    pub fn way_to(&self, part: usize) -> Option<Span> {
-        self.ways.get(part).copied().flatten()
+    pub fn use_leading_to(&self, part: usize) -> Option<Span> {
+        self.root_uses.get(part).copied().flatten()
     }
 
     /// The file that declares a symbol, if it is another file.

@@ -11,7 +11,7 @@ pub struct Origin {
     /// The name of the file in the [source](Index::source) of a file that uses it.
     pub file: String,
     /// Span in that file.
-    pub place: Span,
+    pub span: Span,
 }
 
 impl Index {
@@ -51,7 +51,7 @@ impl Index {
     fn origin_of(&self, symbol: &Symbol) -> Origin {
         let part = self.source.part_at(symbol.span.start);
         let start = self.source.part_span(part).start;
-        let place = Span::new(symbol.span.start - start, symbol.span.end - start);
-        Origin { file: self.source.part_name(part).to_owned(), place }
+        let span = Span::new(symbol.span.start - start, symbol.span.end - start);
+        Origin { file: self.source.part_name(part).to_owned(), span }
     }
 }

@@ -41,7 +41,7 @@ pub enum RenameError {
     },
     /// The new name is imported from a file.
     #[error("the name `{name}` is brought from `{file}`; choose another name")]
-    Brought {
+    Imported {
         /// The new name.
         name: String,
         /// The file.
@@ -91,7 +91,7 @@ impl Index {
         let others = self.symbols.iter().enumerate().filter(|&(other, _)| other != index);
         if let Some((_, other)) = others.into_iter().find(|(_, other)| other.name == name && meet(symbol, other)) {
             if let Some(file) = self.file_of(other) {
-                return Err(RenameError::Brought { name: name.to_owned(), file: file.to_owned() });
+                return Err(RenameError::Imported { name: name.to_owned(), file: file.to_owned() });
             }
             let line = self.source.line_column(other.span.start).line;
             return Err(RenameError::Taken { name: name.to_owned(), line });

@@ -10,9 +10,9 @@ use vibrissa_runtime::units::parse_unit;
 
 use super::declare::place;
 use super::import::Import;
+use super::keyword::{Keyword, Position, keyword};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
-use super::words::{Place, Word, word};
 
 /// The words of a text with their meanings, in the order of the text.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -63,10 +63,10 @@ pub(super) fn resolve(
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
             TokenKind::Name if is_before("mark") => {
-                word(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Word(word.text))
+                keyword(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Keyword(word.text))
             }
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
-                word(token.text).map(|word| Meaning::Word(word.text))
+                keyword(token.text).map(|word| Meaning::Keyword(word.text))
             }
             // A member, or an inner state: `-> Outer(w).Inner`.
             TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
@@ -77,7 +77,7 @@ pub(super) fn resolve(
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(place(*token), token.text, role)
             }
-            TokenKind::Keyword => word(token.text).map(|word| Meaning::Word(word.text)),
+            TokenKind::Keyword => keyword(token.text).map(|word| Meaning::Keyword(word.text)),
             TokenKind::Unit => {
                 parse_unit(&token.text.replace('*', " ")).ok().map(|unit| Meaning::Unit(unit.dimension()))
             }
@@ -95,7 +95,7 @@ pub(super) fn resolve(
             }
             (TokenKind::Mark, ")", _) => calls.pop().flatten(),
             (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
-            (TokenKind::Name, "run", Some(Meaning::Word(_))) => Some(Owner::Value(Type::Run)),
+            (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
             (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
                 Some(Owner::State(symbol))
             }
@@ -126,8 +126,8 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
 }
 
 /// True if a word has its meaning only after `mark`.
-fn is_mark(word: &Word) -> bool {
-    word.places == [Place::Mark]
+fn is_mark(word: &Keyword) -> bool {
+    word.positions == [Position::Mark]
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
@@ -185,7 +185,7 @@ impl<'s> Names<'s> {
         }
         match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
             Some(function) => Some(Meaning::Function(function)),
-            None => word(name).filter(|word| !is_mark(word)).map(|word| Meaning::Word(word.text)),
+            None => keyword(name).filter(|word| !is_mark(word)).map(|word| Meaning::Keyword(word.text)),
         }
     }
 

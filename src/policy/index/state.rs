@@ -5,17 +5,17 @@ use std::collections::HashSet;
 use vibrissa_runtime::machine::NESTING_LIMIT;
 
 use super::Index;
-use super::candidate::{Candidate, of_word};
+use super::candidate::{Candidate, of_keyword};
 use super::context::Context;
+use super::keyword::{Position, keywords_at};
 use super::symbol::SymbolKind;
-use super::words::{Place, words_of};
 
 impl Index {
     /// Candidates after `->`.
     pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
         let can_resume = !self.nesting().is_empty();
-        let words = words_of(Place::Target).filter(|word| can_resume || word.text != "resume");
-        self.states().map(|state| self.target(state, context)).chain(words.map(of_word)).collect()
+        let words = keywords_at(Position::Target).filter(|word| can_resume || word.text != "resume");
+        self.states().map(|state| self.target(state, context)).chain(words.map(of_keyword)).collect()
     }
 
     /// Candidates after `resume`.

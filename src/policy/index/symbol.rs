@@ -83,7 +83,7 @@ pub(super) enum Meaning {
     /// A used file, by its part of the source.
     File(usize),
     /// A keyword.
-    Word(&'static str),
+    Keyword(&'static str),
     Unknown,
 }
 

@@ -9,7 +9,7 @@ use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register}
 pub(super) struct Code {
     pub(super) ops: Vec<Op>,
     /// Initial values of the registers.
-    pub(super) image: Vec<f64>,
+    pub(super) initial: Vec<f64>,
     /// Registers of constants, by their bits.
     constants: BTreeMap<u64, Register>,
     /// True if the program exceeded its limits. No more code is emitted then.
@@ -25,29 +25,29 @@ pub(super) struct Mark {
 
 impl Code {
     pub(super) fn new() -> Self {
-        Self { ops: Vec::new(), image: Vec::new(), constants: BTreeMap::new(), full: false }
+        Self { ops: Vec::new(), initial: Vec::new(), constants: BTreeMap::new(), full: false }
     }
 
     /// The current position, for [`rewind`](Self::rewind).
     pub(super) fn mark(&self) -> Mark {
-        Mark { ops: self.ops.len(), registers: self.image.len() }
+        Mark { ops: self.ops.len(), registers: self.initial.len() }
     }
 
     /// Discards the code after `mark`.
     pub(super) fn rewind(&mut self, mark: Mark) {
         self.ops.truncate(mark.ops);
-        self.image.truncate(mark.registers);
+        self.initial.truncate(mark.registers);
         self.constants.retain(|_, register| usize::from(*register) < mark.registers);
     }
 
     /// The first of `width` new registers.
-    pub(super) fn place(&mut self, width: u16) -> Register {
-        if self.image.len() + usize::from(width) > REGISTER_LIMIT {
+    pub(super) fn allocate(&mut self, width: u16) -> Register {
+        if self.initial.len() + usize::from(width) > REGISTER_LIMIT {
             self.full = true;
             return 0;
         }
-        let register = Register::try_from(self.image.len()).unwrap_or(0);
-        self.image.resize(self.image.len() + usize::from(width), 0.0);
+        let register = Register::try_from(self.initial.len()).unwrap_or(0);
+        self.initial.resize(self.initial.len() + usize::from(width), 0.0);
         register
     }
 
@@ -56,8 +56,8 @@ impl Code {
         if let Some(&register) = self.constants.get(&value.to_bits()) {
             return register;
         }
-        let register = self.place(1);
-        if let Some(cell) = self.image.get_mut(usize::from(register))
+        let register = self.allocate(1);
+        if let Some(cell) = self.initial.get_mut(usize::from(register))
             && !self.full
         {
             *cell = value;
@@ -77,14 +77,14 @@ impl Code {
 
     /// Emits an operation whose result is a number. Returns its register.
     pub(super) fn scalar(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
-        let to = self.place(1);
+        let to = self.allocate(1);
         self.push(op(to));
         to
     }
 
     /// Emits an operation whose result is a vector. Returns its first register.
     pub(super) fn vector(&mut self, op: impl FnOnce(Register) -> Op) -> Register {
-        let to = self.place(2);
+        let to = self.allocate(2);
         self.push(op(to));
         to
     }
@@ -117,7 +117,7 @@ impl Code {
     }
 
     /// Sets the target of the jump at `jump` to the next operation.
-    pub(super) fn land(&mut self, jump: u32) {
+    pub(super) fn set_jump_target(&mut self, jump: u32) {
         let here = self.here();
         if let Some(Op::Jump { target } | Op::JumpUnless { target, .. }) = self.ops.get_mut(jump as usize) {
             *target = here;

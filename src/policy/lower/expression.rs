@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Binary, Expression, Kind, Name, Quantity};
 use crate::policy::builtins::{self, At, Member, MemberSource};
-use crate::policy::hint::did_you_mean;
+use crate::policy::suggestion::did_you_mean;
 use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
 use crate::policy::unit::{unit_hint, units_of};
@@ -130,7 +130,7 @@ impl<'f> Compiler<'f> {
             && let Some(derived) = self.names().derived.get(name.text.as_str()).copied()
         {
             if derived.1.arguments.is_empty() && values.is_some_and(<[Expression]>::is_empty) {
-                self.not_called(format!("`{}` takes no values", name.text), span);
+                self.report_call(format!("`{}` takes no values", name.text), span);
                 return None;
             }
             return self.derived_value(scope, derived, values.unwrap_or_default(), span);
@@ -151,14 +151,14 @@ impl<'f> Compiler<'f> {
             }
         };
         if values.is_some() {
-            self.not_called(format!("`{}` is {} and takes no values", name.text, value.r#type), span);
+            self.report_call(format!("`{}` is {} and takes no values", name.text, value.r#type), span);
             return None;
         }
         Some(value)
     }
 
     /// Reports parentheses after a name that takes no values.
-    fn not_called(&mut self, message: String, place: Span) {
+    fn report_call(&mut self, message: String, place: Span) {
         let diagnostic = Diagnostic::error("P0304", message, place, "called like a function");
         self.report(diagnostic.hint("leave out the parentheses"));
     }
@@ -215,7 +215,7 @@ impl<'f> Compiler<'f> {
             (MemberSource::Visits, ..) => self.run_of_state(RunFigure::Visits, name, values)?,
             (MemberSource::TimeIn, ..) => self.run_of_state(RunFigure::TimeIn, name, values)?,
             (_, _, Some(_)) => {
-                self.not_called(format!("`{}` takes no values", name.text), name.span);
+                self.report_call(format!("`{}` takes no values", name.text), name.span);
                 return None;
             }
             (MemberSource::Contour | MemberSource::At, ..) => whisker,

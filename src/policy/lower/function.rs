@@ -64,7 +64,7 @@ impl<'f> Compiler<'f> {
             }
             (Function::Direction, &[Type::ANGLE]) => vector(Dimension::NUMBER, self.direction(register(0))),
             (Function::Vector, &[Type::Scalar(x), Type::Scalar(y)]) if x == y => {
-                let to = self.code.place(2);
+                let to = self.code.allocate(2);
                 self.code.push(Op::Copy { to, a: register(0) });
                 self.code.push(Op::Copy { to: to + 1, a: register(1) });
                 vector(x, to)
@@ -98,7 +98,7 @@ impl<'f> Compiler<'f> {
                 Function::Pid,
                 &[Type::Scalar(error), Type::Scalar(p), Type::Scalar(i), Type::Scalar(d), Type::Scalar(limit)],
             ) if is_pid(error, p, i, d, limit) => {
-                let (memory, gains) = (self.memory(4), self.code.place(4));
+                let (memory, gains) = (self.memory(4), self.code.allocate(4));
                 for gain in 0..4 {
                     self.code.copy(gains + gain, register(usize::from(gain) + 1), 1);
                 }
@@ -121,14 +121,14 @@ impl<'f> Compiler<'f> {
 
     /// New registers for the memory of a stateful function. The entry of the current state resets them.
     fn memory(&mut self, count: u16) -> u16 {
-        let memory = self.code.place(count);
+        let memory = self.code.allocate(count);
         self.memories.push((memory, count));
         memory
     }
 
     /// The unit vector with the direction of an angle.
     fn direction(&mut self, angle: u16) -> u16 {
-        let to = self.code.place(2);
+        let to = self.code.allocate(2);
         self.code.push(Op::Cosine { to, a: angle });
         self.code.push(Op::Sine { to: to + 1, a: angle });
         to
@@ -166,7 +166,7 @@ impl<'f> Compiler<'f> {
         let rest = self.code.scalar(|to| Op::Multiply { to, a: below, b: above });
         let other = self.code.scalar(|to| Op::SquareRoot { to, a: rest });
         let sides = if function == Function::Asin { [other, x] } else { [x, other] };
-        let vector = self.code.place(2);
+        let vector = self.code.allocate(2);
         self.code.push(Op::Copy { to: vector, a: sides[0] });
         self.code.push(Op::Copy { to: vector + 1, a: sides[1] });
         self.code.scalar(|to| Op::Angle { to, a: vector })
@@ -195,9 +195,9 @@ impl<'f> Compiler<'f> {
         span: Span,
     ) -> Option<Value> {
         let inner = self.arguments(scope, &derived.name, &derived.arguments, values, span)?;
-        self.writing.push(&derived.name);
+        self.inlining.push(&derived.name);
         let value = self.within(file, |compiler| compiler.expression(&inner, &derived.value));
-        self.writing.pop();
+        self.inlining.pop();
         value
     }
 
@@ -211,8 +211,8 @@ impl<'f> Compiler<'f> {
         values: &'f [Expression],
         span: Span,
     ) -> Option<Scope<'f>> {
-        if self.writing.iter().any(|writing| writing.span == name.span) {
-            let chain = self.writing.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join("` uses `");
+        if self.inlining.iter().any(|inlined| inlined.span == name.span) {
+            let chain = self.inlining.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join("` uses `");
             let message = format!("`{}` uses itself (`{chain}` uses `{}`)", name.text, name.text);
             self.report(
                 Diagnostic::error("P0401", message, span, "used within itself")
@@ -239,8 +239,8 @@ impl<'f> Compiler<'f> {
             complete &= value.is_some();
             inner.insert(&argument.name, value);
         }
-        if self.broken.contains(&name.span) {
-            self.broken.extend(self.writing.iter().map(|name| name.span));
+        if self.erroneous.contains(&name.span) {
+            self.erroneous.extend(self.inlining.iter().map(|name| name.span));
             return None;
         }
         complete.then_some(inner)

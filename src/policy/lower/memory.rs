@@ -15,7 +15,7 @@ impl<'f> Compiler<'f> {
         for (name, value) in &file.memory {
             let memory = self.expression(&scope, value).map(|value| self.copied(value));
             self.note_type(name, memory);
-            self.watch_growth(name.span);
+            self.check_size(name.span);
             // The check of item names has already refused duplicates.
             scope.insert(name, memory);
         }
@@ -28,7 +28,7 @@ impl<'f> Compiler<'f> {
         let mark = self.code.mark();
         let value = self.expression(scope, value);
         self.code.rewind(mark);
-        value.map(|Value { r#type, .. }| Value { r#type, register: self.code.place(r#type.width()) })
+        value.map(|Value { r#type, .. }| Value { r#type, register: self.code.allocate(r#type.width()) })
     }
 
     /// Lowers the initialisation of a state's memory.

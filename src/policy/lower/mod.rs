@@ -22,9 +22,9 @@ use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use vibrissa_runtime::machine::{Program, Register};
 
 use super::ast::{Argument, Expression, Name, Statement, TypeName};
-use super::hint::did_you_mean;
 use super::load::Files;
-use super::test::{FigurePlace, PolicyTest};
+use super::suggestion::did_you_mean;
+use super::test::{FigureRegister, PolicyTest};
 use super::types::{DIMENSIONS, Type, Value, dimension};
 use code::Code;
 use hierarchy::Hierarchy;
@@ -48,7 +48,7 @@ pub(super) type Types = HashMap<Span, Type>;
 pub(super) fn check(files: &Files) -> Result<(), Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     structure::items(&mut compiler, files);
-    structure::growth(&mut compiler, files.main.name.span);
+    structure::report_size(&mut compiler, files.main.name.span);
     let diagnostics = in_order(compiler.diagnostics);
     if diagnostics.is_empty() { Ok(()) } else { Err(diagnostics) }
 }
@@ -117,35 +117,35 @@ struct Compiler<'f> {
     /// The names of each file, the policy first.
     files: Vec<Names<'f>>,
     /// The number of the current file.
-    here: usize,
+    current_file: usize,
     /// The types of names, if they are requested.
     types: Option<Types>,
     states: HashMap<&'f str, StateEntry>,
     hierarchy: Hierarchy<'f>,
     /// Declarations of laws and derived values with errors.
-    broken: HashSet<Span>,
+    erroneous: HashSet<Span>,
     /// Laws and derived values that are being inlined.
-    writing: Vec<&'f Name>,
+    inlining: Vec<&'f Name>,
     /// The statements of the state whose transitions are being lowered.
-    doing: &'f [Statement],
+    state_body: &'f [Statement],
     /// The memory of the state whose memory is being declared.
-    begun: &'f [(Name, Expression)],
+    declaring: &'f [(Name, Expression)],
     /// The memory of the machine, of the current state and of its outer states.
     variables: Vec<&'f Name>,
     /// Memory of stateful functions in the current state: the first register, and the number of registers.
     memories: Vec<(Register, u16)>,
     /// The figures that the current expectation reads. `None` outside of tests.
-    figures: Option<Vec<FigurePlace>>,
+    figures: Option<Vec<FigureRegister>>,
     tests: Vec<PolicyTest>,
     /// The construct that does not allow commands here, if there is one.
     commandless: Option<Commandless>,
     /// Span of the use of the outermost law that is being inlined.
-    used: Option<Span>,
+    outer_use: Option<Span>,
     /// Current depth in the syntax tree, and number of visited nodes.
     depth: usize,
     work: usize,
     /// The item that was being lowered when the program exceeded its limits.
-    outgrown: Option<Span>,
+    oversized_item: Option<Span>,
 }
 
 impl<'f> Compiler<'f> {
@@ -154,23 +154,23 @@ impl<'f> Compiler<'f> {
             code: Code::new(),
             diagnostics: Vec::new(),
             files: Vec::new(),
-            here: 0,
+            current_file: 0,
             types: None,
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
-            broken: HashSet::new(),
-            writing: Vec::new(),
-            doing: &[],
-            begun: &[],
+            erroneous: HashSet::new(),
+            inlining: Vec::new(),
+            state_body: &[],
+            declaring: &[],
             variables: Vec::new(),
             memories: Vec::new(),
             figures: None,
             tests: Vec::new(),
             commandless: None,
-            used: None,
+            outer_use: None,
             depth: 0,
             work: 0,
-            outgrown: None,
+            oversized_item: None,
         }
     }
 
@@ -195,7 +195,7 @@ impl<'f> Compiler<'f> {
             let message = format!("expressions, laws and derived values nest more than {DEPTH_LIMIT} deep");
             let diagnostic = Diagnostic::error("P0104", message, span, "too deep");
             self.report(diagnostic.hint("laws and derived values are inlined at every use; nest fewer of them"));
-            self.broken.extend(self.writing.iter().map(|name| name.span));
+            self.erroneous.extend(self.inlining.iter().map(|name| name.span));
             return None;
         }
         self.depth += 1;
@@ -222,7 +222,7 @@ impl<'f> Compiler<'f> {
     fn bind_arguments(&mut self, scope: &mut Scope<'f>, hidable: usize, arguments: &'f [Argument]) {
         for argument in arguments {
             let meaning = self.type_of(&argument.type_name).map(|r#type| {
-                let register = self.code.place(r#type.width());
+                let register = self.code.allocate(r#type.width());
                 Value { r#type, register }
             });
             self.bind(scope, hidable, &argument.name, meaning);

@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Derived, File, Law, Name, Use};
-use crate::policy::hint::did_you_mean;
 use crate::policy::load::Files;
+use crate::policy::suggestion::did_you_mean;
 
 use super::Compiler;
 use super::scope::{Meaning, is_reserved, reserved, taken};
@@ -34,18 +34,18 @@ impl Names<'_> {
 impl<'f> Compiler<'f> {
     /// The names of the current file.
     pub(super) fn names(&self) -> &Names<'f> {
-        &self.files[self.here]
+        &self.files[self.current_file]
     }
 
     pub(super) fn names_mut(&mut self) -> &mut Names<'f> {
-        &mut self.files[self.here]
+        &mut self.files[self.current_file]
     }
 
     /// Lowers a part of another file.
     pub(super) fn within<T>(&mut self, file: usize, write: impl FnOnce(&mut Self) -> T) -> T {
-        let before = std::mem::replace(&mut self.here, file);
+        let before = std::mem::replace(&mut self.current_file, file);
         let written = write(self);
-        self.here = before;
+        self.current_file = before;
         written
     }
 

@@ -3,9 +3,9 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
-use crate::policy::foreign::instead;
-use crate::policy::hint::did_you_mean;
+use crate::policy::foreign_syntax::advice_for;
 use crate::policy::standard;
+use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::units::parse_unit;
 use vibrissa_runtime::units::suggest;
@@ -83,7 +83,7 @@ impl<'f> Compiler<'f> {
         let message = format!("nothing is called `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
         let text = &name.text;
-        if let Some(advice) = instead(text) {
+        if let Some(advice) = advice_for(text) {
             self.report(diagnostic.hint(advice));
             return;
         }
@@ -91,14 +91,14 @@ impl<'f> Compiler<'f> {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
         } else if text == "run" {
             diagnostic.hint("only the expectations of a `test` know the run")
-        } else if let Some(memory) = self.begun.iter().find(|(known, _)| known.text == *text) {
+        } else if let Some(memory) = self.declaring.iter().find(|(known, _)| known.text == *text) {
             diagnostic.note(memory.0.span, "given here").hint(
                 "a `var` of a state knows only those above it; a name that the state gives hides that of a state around it in the whole state",
             )
         } else if self.variables.iter().any(|known| known.text == *text) {
             // Code that may access memory at all knows the state's memory where it is declared, and that of the
             // machine.
-            diagnostic.hint(if self.writing.is_empty() && self.figures.is_none() {
+            diagnostic.hint(if self.inlining.is_empty() && self.figures.is_none() {
                 format!("`{text}` is memory of the machine: a `var` of the machine knows only those above it")
             } else {
                 format!(
@@ -109,7 +109,8 @@ impl<'f> Compiler<'f> {
         } else if self.names().items.contains_key(text.as_str()) {
             // Every other named thing is a value.
             diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
-        } else if self.doing.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text)) {
+        } else if self.state_body.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text))
+        {
             diagnostic.hint(format!(
                 "transitions are tried before the state does anything: write `let {text} = \u{2026}` outside of the state"
             ))

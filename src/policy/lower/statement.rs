@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, Name, Statement, Steer, Turn};
-use crate::policy::hint::did_you_mean;
+use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{Mark, Op};
 
@@ -27,7 +27,7 @@ impl<'f> Compiler<'f> {
     fn statement(&mut self, scope: &mut Scope<'f>, statement: &'f Statement) -> Option<()> {
         match statement {
             Statement::Let { name, value } => {
-                let meaning = self.expression(scope, value).map(|value| self.kept(scope, value));
+                let meaning = self.expression(scope, value).map(|value| self.snapshot(scope, value));
                 self.bind(scope, 0, name, meaning);
             }
             Statement::Set { name, value } => self.set(scope, name, value)?,
@@ -59,7 +59,7 @@ impl<'f> Compiler<'f> {
     }
 
     /// A value that later assignments cannot change: a copy if it is memory, otherwise the value itself.
-    fn kept(&mut self, scope: &Scope<'f>, value: Value) -> Value {
+    fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
         let memory =
             |name: &&Name| scope.get(&name.text).flatten().is_some_and(|memory| memory.register == value.register);
         if !self.variables.iter().any(memory) {
@@ -71,7 +71,7 @@ impl<'f> Compiler<'f> {
     /// A copy of a value in its own registers.
     pub(super) fn copied(&mut self, value: Value) -> Value {
         let width = value.r#type.width();
-        let register = self.code.place(width);
+        let register = self.code.allocate(width);
         self.code.copy(register, value.register, width);
         Value { register, ..value }
     }
@@ -80,7 +80,7 @@ impl<'f> Compiler<'f> {
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
         if let Some(Commandless { place, hint }) = self.commandless {
             let message = format!("{place} gives no command");
-            let diagnostic = match (self.used, self.writing.first()) {
+            let diagnostic = match (self.outer_use, self.inlining.first()) {
                 // Other uses of the law may be valid, so the error is reported at this use.
                 (Some(used), Some(law)) => {
                     Diagnostic::error("P0407", message, used, format!("`{}` gives one", law.text))
@@ -98,10 +98,10 @@ impl<'f> Compiler<'f> {
         let meaning = scope.get(&name.text);
         let is_memory =
             scope.given(&name.text).is_some_and(|given| self.variables.iter().any(|known| known.span == given));
-        if !self.writing.is_empty() || !is_memory {
+        if !self.inlining.is_empty() || !is_memory {
             self.expression(scope, value);
             let message = format!("`{}` cannot be set", name.text);
-            self.report(if self.writing.is_empty() {
+            self.report(if self.inlining.is_empty() {
                 let diagnostic = Diagnostic::error("P0406", message, name.span, "not memory that is visible here");
                 // A hidden name has the same spelling, so it must not be suggested.
                 let others = self.variables.iter().map(|known| known.text.as_str()).filter(|known| *known != name.text);
@@ -139,11 +139,11 @@ impl<'f> Compiler<'f> {
             self.statements(scope, block);
             exits.push(self.code.here());
             self.code.push(Op::Jump { target: skip + 1 });
-            self.code.land(skip);
+            self.code.set_jump_target(skip);
         }
         self.statements(scope, otherwise);
         for exit in exits {
-            self.code.land(exit);
+            self.code.set_jump_target(exit);
         }
     }
 
@@ -156,15 +156,15 @@ impl<'f> Compiler<'f> {
             return None;
         };
         let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
-        self.writing.push(&law.name);
-        let used = self.used;
-        self.used = used.or(Some(span));
+        self.inlining.push(&law.name);
+        let used = self.outer_use;
+        self.outer_use = used.or(Some(span));
         let written = self.descend(span, |compiler| {
             compiler.within(file, |compiler| compiler.statements(&mut inner, &law.body));
             Some(())
         });
-        self.used = used;
-        self.writing.pop();
+        self.outer_use = used;
+        self.inlining.pop();
         written
     }
 

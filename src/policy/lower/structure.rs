@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
-use crate::policy::hint::did_you_mean;
 use crate::policy::load::Files;
+use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{self, Block, NESTING_LIMIT, Op, Program};
 use vibrissa_runtime::signal::MAX_WHISKERS;
@@ -17,7 +17,8 @@ use super::{Commandless, Compiler, StateEntry};
 /// The target that ends a run in failure. No state may have this name.
 pub(super) const FAILURE: &str = "Failure";
 /// Advice for a command in `entry` or `exit`, which cannot give commands.
-const ENTERED: &str = "put it among the statements of the state; the tick that enters the state executes them, too";
+const COMMAND_ADVICE: &str =
+    "put it among the statements of the state; the tick that enters the state executes them, too";
 
 /// Checks the items of a policy and its libraries, and all laws and derived values separately. Returns the parameters
 /// of the policy.
@@ -27,9 +28,9 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
     compiler.whiskers(&files.main);
     for (number, file) in files.libraries.iter().chain([&files.main]).enumerate() {
         // The policy has the number 0 and is checked last.
-        compiler.here = (number + 1) % (files.libraries.len() + 1);
+        compiler.current_file = (number + 1) % (files.libraries.len() + 1);
         // Tests ensure that the standard library has no errors.
-        if compiler.here > 0 && file.is_standard && compiler.types.is_none() {
+        if compiler.current_file > 0 && file.is_standard && compiler.types.is_none() {
             continue;
         }
         compiler.check_derived(file);
@@ -40,9 +41,9 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
 
 /// Reports a program that exceeds its limits, at the item where this happened. `last` is used if the last item exceeded
 /// them.
-pub(super) fn growth(compiler: &mut Compiler<'_>, last: Span) {
-    compiler.watch_growth(last);
-    if let Some(item) = compiler.outgrown {
+pub(super) fn report_size(compiler: &mut Compiler<'_>, last: Span) {
+    compiler.check_size(last);
+    if let Some(item) = compiler.oversized_item {
         compiler.report(
             Diagnostic::error("P0402", "the compiled policy is too large", item, "exceeds the limit here")
                 .hint("laws and derived values are inlined at every use; use them in fewer places"),
@@ -70,7 +71,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
 
-    growth(compiler, file.name.span);
+    report_size(compiler, file.name.span);
     Some(Program {
         name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
@@ -86,7 +87,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         always,
         failsafe,
         code: std::mem::take(&mut compiler.code.ops),
-        image: std::mem::take(&mut compiler.code.image),
+        image: std::mem::take(&mut compiler.code.initial),
         timers,
     })
 }
@@ -110,8 +111,8 @@ impl<'f> Compiler<'f> {
         let mut parameters = Vec::new();
         for parameter in &file.parameters {
             let meaning = self.parameter(parameter).map(|checked| {
-                let register = self.code.place(1);
-                self.code.image[usize::from(register)] = checked.default;
+                let register = self.code.allocate(1);
+                self.code.initial[usize::from(register)] = checked.default;
                 let r#type = Type::Scalar(checked.dimension);
                 parameters.push(checked);
                 Value { r#type, register }
@@ -177,22 +178,22 @@ impl<'f> Compiler<'f> {
     fn check(&mut self, name: &'f Name, arguments: &'f [Argument], write: impl FnOnce(&mut Self, &mut Scope<'f>)) {
         let (mark, faults) = (self.code.mark(), self.diagnostics.len());
         let mut scope = self.scope_of_arguments(arguments);
-        if !self.broken.contains(&name.span) {
-            self.writing.push(name);
+        if !self.erroneous.contains(&name.span) {
+            self.inlining.push(name);
             write(self, &mut scope);
-            self.writing.pop();
+            self.inlining.pop();
         }
-        self.watch_growth(name.span);
+        self.check_size(name.span);
         self.code.rewind(mark);
         if self.diagnostics.len() > faults {
-            self.broken.insert(name.span);
+            self.erroneous.insert(name.span);
         }
     }
 
     /// Records the item at `span` if the program has just exceeded its limits.
-    pub(super) fn watch_growth(&mut self, span: Span) {
+    pub(super) fn check_size(&mut self, span: Span) {
         if self.code.full || self.work > super::WORK_LIMIT {
-            self.outgrown.get_or_insert(span);
+            self.oversized_item.get_or_insert(span);
         }
     }
 
@@ -204,7 +205,7 @@ impl<'f> Compiler<'f> {
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
         self.commandless = None;
-        self.watch_growth(file.acts.unwrap_or(file.name.span));
+        self.check_size(file.acts.unwrap_or(file.name.span));
         body
     }
 
@@ -229,14 +230,14 @@ impl<'f> Compiler<'f> {
             let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
             self.states.insert(&state.name.text, StateEntry { index, arguments });
             // A state's own memory hides that of outer states in the whole state, also before its declaration.
-            self.begun = &state.memory;
+            self.declaring = &state.memory;
             let mut known = scope.without(&state.memory);
             for (name, value) in &state.memory {
                 let memory = self.remember(&known, value);
                 self.bind(&mut scope, start, name, memory);
                 known.insert(name, memory);
             }
-            self.begun = &[];
+            self.declaring = &[];
             ends.push(scope.len());
             declared.push(scope.since(start));
         }
@@ -272,29 +273,29 @@ impl<'f> Compiler<'f> {
 
     fn state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>, timers: &mut usize) -> machine::State {
         self.memories.clear();
-        self.doing = &state.body;
+        self.state_body = &state.body;
         let transitions = self.transitions(scope, Some(index), &state.transitions, timers);
         let failsafe = self.failsafe(scope, Some(index), &state.failsafes);
-        self.doing = &[];
+        self.state_body = &[];
         let start = self.code.here();
         self.statements(scope, &state.body);
         let body = self.code.since(start);
         let initial = self.inner_initial(scope, index, state);
 
-        self.commandless = Some(Commandless { place: "leaving a state", hint: ENTERED });
+        self.commandless = Some(Commandless { place: "leaving a state", hint: COMMAND_ADVICE });
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
         let entry = self.entry(scope, state);
         self.commandless = None;
-        self.watch_growth(state.name.span);
+        self.check_size(state.name.span);
         let name = Arc::from(state.name.text.as_str());
         machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, failsafe }
     }
 
     /// Lowers the entry of a state.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
-        self.commandless = Some(Commandless { place: "entering a state", hint: ENTERED });
+        self.commandless = Some(Commandless { place: "entering a state", hint: COMMAND_ADVICE });
         let start = self.code.here();
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {

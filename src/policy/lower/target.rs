@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, File, Name, State, Step, Target};
-use crate::policy::foreign::instead_of_target;
-use crate::policy::hint::did_you_mean;
+use crate::policy::foreign_syntax::target_advice;
+use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::Value;
 use vibrissa_runtime::machine::{self, Block};
 
@@ -15,7 +15,7 @@ use super::structure::FAILURE;
 use super::{Compiler, StateEntry};
 
 /// The values for a state, and its arguments.
-type Given<'f> = (&'f [Expression], Vec<(String, Meaning)>);
+type ArgumentValues<'f> = (&'f [Expression], Vec<(String, Meaning)>);
 
 impl<'f> Compiler<'f> {
     /// Lowers the target of a transition of the state `from`, or of a global one.
@@ -73,17 +73,17 @@ impl<'f> Compiler<'f> {
             );
             return None;
         }
-        let way = self.hierarchy.entered(from, state);
-        let mut given = self.outer_values(target, state, &way)?;
-        self.check_count(&target.name, target.span, &target.values, &arguments, &way)?;
+        let entered = self.hierarchy.entered(from, state);
+        let mut given = self.outer_values(target, state, &entered)?;
+        self.check_count(&target.name, target.span, &target.values, &arguments, &entered)?;
         given.push((&target.values, arguments));
-        let arguments = self.pass(scope, &given)?;
+        let arguments = self.pass_arguments(scope, &given)?;
         Some(machine::Target::State { state, arguments, resume: target.resume.is_some() })
     }
 
-    /// The values of the outer states that the transition enters. `way` lists the entered states.
-    fn outer_values(&mut self, target: &'f Target, state: usize, way: &[usize]) -> Option<Vec<Given<'f>>> {
-        let path = self.path(way);
+    /// The values of the outer states that the transition enters. `entered` lists the entered states.
+    fn outer_values(&mut self, target: &'f Target, state: usize, entered: &[usize]) -> Option<Vec<ArgumentValues<'f>>> {
+        let path = self.path(entered);
         let mut steps: Vec<(usize, &Step)> = Vec::with_capacity(target.outer.len());
         let mut behind = 0;
         for step in &target.outer {
@@ -92,8 +92,9 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic);
                 return None;
             };
-            let outer = &way[..way.len() - 1];
-            let Some(level) = outer.iter().position(|&on_way| on_way == index).filter(|&level| level >= behind) else {
+            let outer = &entered[..entered.len() - 1];
+            let Some(level) = outer.iter().position(|&on_path| on_path == index).filter(|&level| level >= behind)
+            else {
                 let (name, inner) = (&step.name.text, &target.name.text);
                 let is_outer = self.hierarchy.contains(index, state) && index != state && !outer.contains(&index);
                 self.report(if is_outer {
@@ -114,12 +115,12 @@ impl<'f> Compiler<'f> {
             behind = level + 1;
             steps.push((level, step));
         }
-        let mut given = Vec::with_capacity(way.len());
-        for (level, &index) in way[..way.len() - 1].iter().enumerate() {
+        let mut given = Vec::with_capacity(entered.len());
+        for (level, &index) in entered[..entered.len() - 1].iter().enumerate() {
             let outer = &self.hierarchy.states[index].name;
             let arguments = self.states.get(outer.text.as_str())?.arguments.clone();
             if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
-                self.check_count(&step.name, step.span, &step.values, &arguments, way)?;
+                self.check_count(&step.name, step.span, &step.values, &arguments, entered)?;
                 given.push((step.values.as_slice(), arguments));
             } else if !arguments.is_empty() {
                 let message = format!("`{}` is entered with `{}`, and takes values", outer.text, target.name.text);
@@ -135,12 +136,12 @@ impl<'f> Compiler<'f> {
         Some(given)
     }
 
-    /// The notation of the last state of `way`, with the outer states that take values.
-    fn path(&self, way: &[usize]) -> String {
-        let usages = way.iter().enumerate().filter_map(|(level, &index)| {
+    /// The notation of the last state of `entered`, with the outer states that take values.
+    fn path(&self, entered: &[usize]) -> String {
+        let usages = entered.iter().enumerate().filter_map(|(level, &index)| {
             let name = &self.hierarchy.states[index].name.text;
             let arguments = &self.states.get(name.as_str())?.arguments;
-            (level + 1 == way.len() || !arguments.is_empty()).then(|| usage(name, arguments))
+            (level + 1 == entered.len() || !arguments.is_empty()).then(|| usage(name, arguments))
         });
         usages.collect::<Vec<_>>().join(".")
     }
@@ -149,20 +150,20 @@ impl<'f> Compiler<'f> {
         let message = format!("there is no state `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
         let diagnostic = did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]));
-        match instead_of_target(&name.text) {
+        match target_advice(&name.text) {
             Some(advice) => diagnostic.hint(advice),
             None => diagnostic,
         }
     }
 
-    /// Checks the number of values for a state of `way`.
+    /// Checks the number of values for a state of `entered`.
     fn check_count(
         &mut self,
         name: &Name,
         span: Span,
         values: &[Expression],
         arguments: &[(String, Meaning)],
-        way: &[usize],
+        entered: &[usize],
     ) -> Option<()> {
         if values.len() == arguments.len() {
             return Some(());
@@ -173,13 +174,13 @@ impl<'f> Compiler<'f> {
         if let Some(&made) = self.names().items.get(name.text.as_str()) {
             diagnostic = diagnostic.note(made, "made here");
         }
-        self.report(diagnostic.hint(format!("write `{}`", self.path(way))));
+        self.report(diagnostic.hint(format!("write `{}`", self.path(entered))));
         None
     }
 
     /// Emits the values of the entered states' arguments. All are computed before the first is stored, because a state
     /// may pass its own arguments to itself in another order.
-    fn pass(&mut self, scope: &Scope<'f>, given: &[Given<'f>]) -> Option<Block> {
+    fn pass_arguments(&mut self, scope: &Scope<'f>, given: &[ArgumentValues<'f>]) -> Option<Block> {
         let start = self.code.here();
         let pairs = given.iter().flat_map(|(values, arguments)| values.iter().zip(arguments));
         let values: Vec<Option<(Value, Value)>> = pairs
@@ -193,7 +194,7 @@ impl<'f> Compiler<'f> {
             .collect();
         let mut copies = Vec::with_capacity(values.len());
         for (value, argument) in values.into_iter().collect::<Option<Vec<_>>>()? {
-            let between = self.code.place(value.r#type.width());
+            let between = self.code.allocate(value.r#type.width());
             self.code.copy(between, value.register, value.r#type.width());
             copies.push((argument.register, between, value.r#type.width()));
         }
@@ -286,7 +287,7 @@ impl<'f> Compiler<'f> {
             return None;
         }
         self.check_count(begin, *span, values, &arguments, &[child])?;
-        let values = self.pass(scope, &[(values, arguments)])?;
+        let values = self.pass_arguments(scope, &[(values, arguments)])?;
         Some((child, values))
     }
 }

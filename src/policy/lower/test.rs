@@ -2,8 +2,8 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test};
-use crate::policy::hint::did_you_mean;
-use crate::policy::test::{Expectation, FigurePlace, PolicyTest, RunFigure};
+use crate::policy::suggestion::did_you_mean;
+use crate::policy::test::{Expectation, FigureRegister, PolicyTest, RunFigure};
 use crate::policy::types::Type;
 use vibrissa_runtime::machine::{Op, Parameter, Register};
 
@@ -77,7 +77,7 @@ impl<'f> Compiler<'f> {
         let value = self.expect(&Scope::default(), truth, Type::Truth);
         let figures = self.figures.take().unwrap_or_default();
         let code = self.code.ops.get(start..).unwrap_or_default().to_vec();
-        let image = self.code.image.clone();
+        let initial = self.code.initial.clone();
         self.code.rewind(mark);
         self.memories.clear();
 
@@ -92,14 +92,14 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.hint("expect something of `run`, such as `run.error_mean < 0.5 mm`"));
             return None;
         }
-        Some(Expectation { span: truth.span, code, image, truth: value.register, figures })
+        Some(Expectation { span: truth.span, code, initial, result: value.register, figures })
     }
 
     /// A register for a figure of the run.
     pub(super) fn figure(&mut self, figure: RunFigure, span: Span) -> Register {
-        let register = self.code.place(1);
+        let register = self.code.allocate(1);
         if let Some(figures) = &mut self.figures {
-            figures.push(FigurePlace { register, figure, span });
+            figures.push(FigureRegister { register, figure, span });
         }
         register
     }

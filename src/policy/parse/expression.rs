@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Binary, Expression, Kind};
 use crate::policy::grammar::Rule;
-use crate::policy::pair::Pair;
+use crate::policy::parse_tree::Pair;
 
 use super::{Parsed, Reader, internal, named, quantity, values};
 
@@ -50,7 +50,7 @@ pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
 
 fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
     let pair = reader.next()?;
-    let span = pair.place();
+    let span = pair.span();
     match pair.as_rule() {
         Rule::minus => {
             let inner = climb(reader, PREFIX_POWER)?;
@@ -82,7 +82,7 @@ fn access(pair: Pair<'_>) -> Parsed<Expression> {
     let mut span = name.span;
     let values = if reader.has(Rule::values) {
         let pair = reader.next()?;
-        span = span.to(pair.place());
+        span = span.to(pair.span());
         Some(values(pair)?)
     } else {
         None

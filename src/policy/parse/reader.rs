@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::policy::ast::{Expression, Name};
 use crate::policy::grammar::Rule;
-use crate::policy::pair::{Pair, Pairs};
+use crate::policy::parse_tree::{Pair, Pairs};
 
 use super::{Parsed, climb, internal, named};
 
@@ -22,7 +22,7 @@ impl<'i> Reader<'i> {
 
     /// Span of the pair.
     pub(super) fn span(&self) -> Span {
-        self.whole.place()
+        self.whole.span()
     }
 
     pub(super) fn peek(&self) -> Option<Pair<'i>> {
@@ -44,7 +44,7 @@ impl<'i> Reader<'i> {
 
     pub(super) fn take(&mut self, rule: Rule) -> Parsed<Pair<'i>> {
         let pair = self.next()?;
-        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(pair.place())) }
+        if pair.as_rule() == rule { Ok(pair) } else { Err(internal(pair.span())) }
     }
 
     pub(super) fn name(&mut self) -> Parsed<Name> {

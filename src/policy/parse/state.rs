@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::policy::ast::{Expression, Name, State, Step, Target};
 use crate::policy::grammar::Rule;
-use crate::policy::pair::Pair;
+use crate::policy::parse_tree::Pair;
 
 use super::{Parsed, Reader, arguments, block, statement, text, transition, values};
 
@@ -39,7 +39,7 @@ pub(super) fn variable(reader: &mut Reader<'_>) -> Parsed<(Name, Expression)> {
 }
 
 fn step(pair: Pair<'_>) -> Parsed<Step> {
-    let span = pair.place();
+    let span = pair.span();
     let mut reader = Reader::new(pair);
     let name = reader.name()?;
     Ok(Step { span: Span::new(name.span.start, span.end), name, values: reader.values()?.unwrap_or_default() })
@@ -47,9 +47,9 @@ fn step(pair: Pair<'_>) -> Parsed<Step> {
 
 /// The target of a transition.
 pub(super) fn target(pair: Pair<'_>) -> Parsed<Target> {
-    let span = pair.place();
+    let span = pair.span();
     let mut reader = Reader::new(pair);
-    let resume = if reader.has(Rule::kw_resume) { Some(reader.next()?.place()) } else { None };
+    let resume = if reader.has(Rule::kw_resume) { Some(reader.next()?.span()) } else { None };
     let name = reader.name()?;
     if reader.has(Rule::text_argument) {
         let text = text(&mut Reader::new(reader.take(Rule::text_argument)?))?;
@@ -58,7 +58,7 @@ pub(super) fn target(pair: Pair<'_>) -> Parsed<Target> {
     let mut last = Step { span: name.span, name, values: Vec::new() };
     if reader.has(Rule::values) {
         let pair = reader.next()?;
-        last.span = last.span.to(pair.place());
+        last.span = last.span.to(pair.span());
         last.values = values(pair)?;
     }
     let mut outer = Vec::new();

@@ -82,13 +82,13 @@ fn names_of_other_files_lead_there_and_are_explained() {
     assert!(index.hover(at("blunt =")).unwrap().text.contains("an angle"));
     // The file that the used one uses.
     let signs = (1..source.count()).find(|&part| source.part_name(part) == "laws/signs.fsm").unwrap();
-    assert_eq!(index.way_to(signs).map(|way| source.slice(way).trim_matches('"')), Some("laws/corner.fsm"));
-    assert_eq!(index.way_to(0), None);
+    assert_eq!(index.use_leading_to(signs).map(|way| source.slice(way).trim_matches('"')), Some("laws/corner.fsm"));
+    assert_eq!(index.use_leading_to(0), None);
     // What another file gives can be renamed, and is the same there.
     let origin = index.origin(at("wait(r0")).unwrap();
     assert_eq!((origin.file.as_str(), index.rename(at("wait(r0"), "x").unwrap().len()), ("laws/corner.fsm", 2));
     let corner = Index::new(&Source::new("laws/corner.fsm", source.slice(source.part_span(corner))), None);
     assert_eq!(corner.references_to(&origin).len(), 1);
     assert_eq!(corner.origin(corner.references_to(&origin)[0].0.start), Some(origin));
-    assert!(matches!(index.rename(at("blunt ="), "is_near"), Err(RenameError::Brought { .. })));
+    assert!(matches!(index.rename(at("blunt ="), "is_near"), Err(RenameError::Imported { .. })));
 }

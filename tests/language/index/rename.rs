@@ -88,7 +88,7 @@ fn what_cannot_be_renamed_says_why() {
     let standard = RenameError::Standard { name: name.clone(), module: file.clone() };
     assert_eq!(rename("at_limit(r0", "x"), standard);
     assert_eq!(rename("at_limit, ", "x"), standard);
-    assert_eq!(rename("lost ", "at_limit"), RenameError::Brought { name, file });
+    assert_eq!(rename("lost ", "at_limit"), RenameError::Imported { name, file });
     assert_eq!(rename("lost ", "state"), RenameError::Reserved("state".to_owned()));
     assert_eq!(rename("lost ", "Failure"), RenameError::Reserved("Failure".to_owned()));
     for name in ["", "1a", "a b", "\u{e4}", "a-b"] {

@@ -5,7 +5,7 @@ use vibrissa_runtime::machine::{Effect, Op, Operands, Place, Register, Role};
 use super::draft::Draft;
 
 /// The maximum number of candidates that are compared. Repetitions are usually close, and each comparison takes time.
-const LOOKS: usize = 16;
+const CANDIDATE_LIMIT: usize = 16;
 
 /// A previous operation. Operations are numbered from 1, so 0 precedes all.
 struct Known {
@@ -18,7 +18,7 @@ struct Known {
 }
 
 /// The known values during a pass through one range of the code.
-struct Walk {
+struct KnownValues {
     known: Vec<Known>,
     /// For every register, the last known operation that reads it first, numbered from 1. The last entry is for
     /// operations that read none.
@@ -34,9 +34,9 @@ struct Walk {
 }
 
 /// Replaces repeated computations by copies, and reads of copies by reads of their sources.
-pub(super) fn reuse(draft: &mut Draft) {
+pub(super) fn eliminate(draft: &mut Draft) {
     let registers = draft.registers();
-    let mut walk = Walk {
+    let mut values = KnownValues {
         known: Vec::new(),
         last: vec![0; registers + 1],
         copied: Vec::new(),
@@ -52,19 +52,19 @@ pub(super) fn reuse(draft: &mut Draft) {
         }
     }
     for run in &draft.runs {
-        walk.forget_after(0);
+        values.forget_after(0);
         for index in run.clone() {
             // The jump may have skipped the operations after it.
             if jumps[index] != usize::MAX {
-                walk.forget_after(jumps[index] + 1);
+                values.forget_after(jumps[index] + 1);
             }
-            let op = walk.with_sources(draft.ops[index]);
-            draft.ops[index] = walk.step(index + 1, op);
+            let op = values.with_sources(draft.ops[index]);
+            draft.ops[index] = values.step(index + 1, op);
         }
     }
 }
 
-impl Walk {
+impl KnownValues {
     /// Forgets all operations after a number.
     fn forget_after(&mut self, number: usize) {
         while let Some(known) = self.known.pop_if(|known| known.number > number) {
@@ -107,8 +107,8 @@ impl Walk {
     fn step(&mut self, number: usize, op: Op) -> Op {
         let operands = op.operands();
         let result = operands.writes[0];
-        let placeless = placeless(op);
-        let op = match placeless.and_then(|placeless| self.again(placeless, &operands)) {
+        let canonical = canonical(op);
+        let op = match canonical.and_then(|canonical| self.known_result(canonical, &operands)) {
             Some(a) if result.width == 2 => Op::CopyVector { to: result.first, a },
             Some(a) => Op::Copy { to: result.first, a },
             None => op,
@@ -122,7 +122,7 @@ impl Walk {
             Op::CopyVector { to, a } => [0, 1].into_iter().for_each(|axis| self.copy(number, to + axis, a + axis)),
             Op::Record { .. } => self.recorded = number,
             _ => {
-                if let Some(op) = placeless {
+                if let Some(op) = canonical {
                     let first = self.first(&operands);
                     self.known.push(Known { number, op, operands, before: self.last[first] });
                     self.last[first] = self.known.len();
@@ -133,15 +133,15 @@ impl Walk {
     }
 
     /// The register that already has the result of an operation, if its inputs have not changed.
-    fn again(&self, placeless: Op, operands: &Operands) -> Option<Register> {
+    fn known_result(&self, canonical: Op, operands: &Operands) -> Option<Register> {
         let known = |at: usize| self.known.get(at.checked_sub(1)?);
         let alike = std::iter::successors(known(self.last[self.first(operands)]), |&alike| known(alike.before));
-        let same = alike.take(LOOKS).find(|known| known.op == placeless && self.holds(known))?;
+        let same = alike.take(CANDIDATE_LIMIT).find(|known| known.op == canonical && self.is_valid(known))?;
         Some(same.operands.writes[0].first)
     }
 
     /// True if an operation would give the same result again.
-    fn holds(&self, known: &Known) -> bool {
+    fn is_valid(&self, known: &Known) -> bool {
         let written = |place: &Place| self.written[place.registers()].iter();
         known.operands.writes.iter().flat_map(written).all(|&written| written == known.number)
             && known.operands.all_reads().iter().flat_map(written).all(|&written| written < known.number)
@@ -155,7 +155,7 @@ impl Walk {
 }
 
 /// The operation with its result register set to 0. `None` for a copy, and for operations with side effects.
-fn placeless(mut op: Op) -> Option<Op> {
+fn canonical(mut op: Op) -> Option<Op> {
     if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::Acts {
         return None;
     }

@@ -2,18 +2,18 @@
 
 use super::line::{INDENT, Kind, Line, Piece, WIDTH};
 use super::spacing::{is_apart, may_break};
-use super::structure::{Place, Structure};
+use super::structure::{Element, Structure};
 use super::token::Kind as TokenKind;
 
 /// Additional indentation of the second and further lines of a statement.
 const CONTINUATION: usize = 2 * INDENT;
 
 /// Divides a text into lines.
-pub(super) fn cut<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
+pub(super) fn break_lines<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
     let mut broken = broken_by_the_author(structure);
     loop {
         break_together(structure, &mut broken);
-        let lines = Cutter::new(structure, &broken).cut();
+        let lines = LineBreaker::new(structure, &broken).cut();
         if !break_too_long(structure, &lines, &mut broken) {
             return lines;
         }
@@ -24,10 +24,10 @@ pub(super) fn cut<'t>(structure: &Structure<'t>) -> Vec<Line<'t>> {
 fn broken_by_the_author(structure: &Structure<'_>) -> Vec<bool> {
     // For each token, the number of line breaks up to it.
     let ended: Vec<usize> = structure
-        .places
+        .elements
         .iter()
-        .scan(0, |ended, place| {
-            *ended += usize::from(place.token.line_ends > 0);
+        .scan(0, |ended, element| {
+            *ended += usize::from(element.token.line_ends > 0);
             Some(*ended)
         })
         .collect();
@@ -50,8 +50,8 @@ fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [b
     let mut any = false;
     for line in lines.iter().filter(|line| line.width() > WIDTH) {
         let mut behind = line.tokens.start;
-        for place in &structure.places[line.tokens.clone()] {
-            let Some(number) = place.block.filter(|&number| !broken[number]) else { continue };
+        for element in &structure.elements[line.tokens.clone()] {
+            let Some(number) = element.block.filter(|&number| !broken[number]) else { continue };
             let block = structure.blocks[number];
             if block.open >= behind && line.tokens.contains(&block.close) && !block.is_empty() {
                 behind = block.close;
@@ -64,7 +64,7 @@ fn break_too_long(structure: &Structure<'_>, lines: &[Line<'_>], broken: &mut [b
 }
 
 /// Divides a text whose broken blocks are known into lines.
-struct Cutter<'s, 't> {
+struct LineBreaker<'s, 't> {
     structure: &'s Structure<'t>,
     broken: &'s [bool],
     /// The open blocks, the innermost last.
@@ -74,44 +74,44 @@ struct Cutter<'s, 't> {
     lines: Vec<Line<'t>>,
 }
 
-impl<'s, 't> Cutter<'s, 't> {
+impl<'s, 't> LineBreaker<'s, 't> {
     fn new(structure: &'s Structure<'t>, broken: &'s [bool]) -> Self {
         Self { structure, broken, open: Vec::new(), parentheses: 0, lines: Vec::new() }
     }
 
     fn cut(mut self) -> Vec<Line<'t>> {
-        let places = &self.structure.places;
+        let elements = &self.structure.elements;
         // The previous token that is not a comment.
-        let mut before: Option<&Place<'t>> = None;
-        for (index, place) in places.iter().enumerate() {
-            if place.token.is("}") && place.block.is_some() {
+        let mut before: Option<&Element<'t>> = None;
+        for (index, element) in elements.iter().enumerate() {
+            if element.token.is("}") && element.block.is_some() {
                 self.open.pop();
             }
-            if place.begins {
+            if element.begins {
                 self.parentheses = 0;
             }
-            if place.token.is(")") {
+            if element.token.is(")") {
                 self.parentheses = self.parentheses.saturating_sub(1);
             }
-            let neighbour = index.checked_sub(1).map(|index| &places[index]);
-            let on_line = neighbour.filter(|neighbour| !self.ends_line(neighbour, place));
+            let neighbour = index.checked_sub(1).map(|index| &elements[index]);
+            let on_line = neighbour.filter(|neighbour| !self.ends_line(neighbour, element));
             if let Some((neighbour, line)) = on_line.zip(self.lines.last_mut()) {
                 line.tokens.end = index + 1;
-                line.has_comment = place.token.kind == TokenKind::Comment;
-                let blanks = if line.has_comment { 2 } else { usize::from(is_apart(neighbour, place)) };
-                line.pieces.push(Piece { blanks, text: place.token.text });
+                line.has_comment = element.token.kind == TokenKind::Comment;
+                let blanks = if line.has_comment { 2 } else { usize::from(is_apart(neighbour, element)) };
+                line.pieces.push(Piece { blanks, text: element.token.text });
             } else {
                 let line = self.line(index, before);
                 self.lines.push(line);
             }
-            if place.token.is("{") {
-                self.open.extend(place.block);
+            if element.token.is("{") {
+                self.open.extend(element.block);
             }
-            if place.token.is("(") {
+            if element.token.is("(") {
                 self.parentheses += 1;
             }
-            if place.token.kind != TokenKind::Comment {
-                before = Some(place);
+            if element.token.kind != TokenKind::Comment {
+                before = Some(element);
             }
         }
         self.lines
@@ -122,49 +122,49 @@ impl<'s, 't> Cutter<'s, 't> {
     }
 
     /// True if a line ends between two neighbours.
-    fn ends_line(&self, before: &Place<'_>, place: &Place<'_>) -> bool {
-        let ended = place.token.line_ends > 0;
+    fn ends_line(&self, before: &Element<'_>, element: &Element<'_>) -> bool {
+        let ended = element.token.line_ends > 0;
         if before.token.kind == TokenKind::Comment {
             true
-        } else if place.token.kind == TokenKind::Comment {
+        } else if element.token.kind == TokenKind::Comment {
             ended
-        } else if place.begins {
+        } else if element.begins {
             self.is_broken(self.open.last().copied())
-        } else if place.token.is("}") {
-            self.is_broken(place.block)
+        } else if element.token.is("}") {
+            self.is_broken(element.block)
         } else {
-            ended && may_break(before, place)
+            ended && may_break(before, element)
         }
     }
 
     /// The line that begins with the token `index`. `before` is the previous token that is not a comment.
-    fn line(&self, index: usize, before: Option<&Place<'_>>) -> Line<'t> {
-        let place = &self.structure.places[index];
+    fn line(&self, index: usize, before: Option<&Element<'_>>) -> Line<'t> {
+        let element = &self.structure.elements[index];
         let level = self.open.len();
-        let kind = if place.token.kind == TokenKind::Comment {
+        let kind = if element.token.kind == TokenKind::Comment {
             let mut behind =
-                self.structure.places[index..].iter().filter(|place| place.token.kind != TokenKind::Comment);
-            let between = behind.next().is_none_or(|place| place.begins || place.token.is("}"));
+                self.structure.elements[index..].iter().filter(|element| element.token.kind != TokenKind::Comment);
+            let between = behind.next().is_none_or(|element| element.begins || element.token.is("}"));
             if between { Kind::Comment } else { Kind::Continuation }
-        } else if place.begins {
+        } else if element.begins {
             Kind::Begin
-        } else if place.token.is("}") {
+        } else if element.token.is("}") {
             Kind::Close
         } else {
             Kind::Continuation
         };
         let at_level = kind != Kind::Continuation
-            || place.token.is("{")
+            || element.token.is("{")
             || before.is_some_and(|before| before.token.is("}"))
-            || (place.token.is(")") && self.parentheses == 0);
+            || (element.token.is(")") && self.parentheses == 0);
         Line {
             kind,
             level,
             indent: INDENT * level + if at_level { 0 } else { CONTINUATION },
-            pieces: vec![Piece { blanks: 0, text: place.token.text }],
+            pieces: vec![Piece { blanks: 0, text: element.token.text }],
             has_comment: false,
             blank_before: matches!(kind, Kind::Begin | Kind::Comment)
-                && place.token.line_ends > 1
+                && element.token.line_ends > 1
                 && self.lines.last().is_some_and(|last| last.level >= level),
             tokens: index..index + 1,
         }

@@ -3,7 +3,7 @@
 use vibrissa_runtime::machine::CHAIN_LIMIT;
 
 use super::model::{Edge, Model};
-use super::reach::reachable;
+use super::reachability::reachable;
 use super::region::Region;
 use super::search::{Goal, Search};
 
@@ -17,7 +17,7 @@ pub(super) type Step<'a> = (usize, &'a Edge<'a>);
 
 /// A path through states, and the region of inputs that permit it.
 #[derive(Clone)]
-struct Way<'a> {
+struct PartialPath<'a> {
     path: Vec<Step<'a>>,
     goals: Vec<Goal<'a>>,
     region: Region<'a>,
@@ -35,43 +35,43 @@ struct Graph<'a> {
 
 /// The cycles of immediate transitions between reachable innermost states, the shortest first. A path is abandoned when
 /// no input permits it, because there are too many paths to enumerate all.
-pub(super) fn walk<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
+pub(super) fn immediate_cycles<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
     let mut graph = Graph::new(model);
     let mut search = Search::new(model);
     let mut found = Vec::new();
-    'walk: for start in 0..model.states.len() {
+    'search: for start in 0..model.states.len() {
         // Each cycle begins at the first of its states, and visits none twice.
         let leads_back = graph.leading_to(start);
         // Paths that must still be extended, with their last states.
-        let whole = Way { path: Vec::new(), goals: Vec::new(), region: Region::whole(model) };
+        let whole = PartialPath { path: Vec::new(), goals: Vec::new(), region: Region::whole(model) };
         let mut open = vec![(start, whole)];
-        while let Some((state, way)) = open.pop() {
+        while let Some((state, partial)) = open.pop() {
             let is_new = |target: usize| {
                 leads_back[target]
-                    && way.path.len() + 1 < CHAIN_LIMIT
-                    && way.path.iter().all(|&(passed, _)| passed != target)
+                    && partial.path.len() + 1 < CHAIN_LIMIT
+                    && partial.path.iter().all(|&(passed, _)| passed != target)
             };
             for &(edge, ref targets) in &graph.steps[state] {
                 if graph.work > STEP_LIMIT || found.len() >= CYCLE_LIMIT || search.is_exhausted() {
-                    break 'walk;
+                    break 'search;
                 }
                 graph.work += 1 + targets.len();
                 let mut targets = targets.iter().filter(|&&target| target == start || is_new(target)).peekable();
                 if targets.peek().is_none() {
                     continue;
                 }
-                let mut way = way.clone();
-                way.path.push((state, edge));
-                way.goals.extend(goals(model, (state, edge)));
-                search.bounds.work += way.goals.len();
-                if !search.may_meet(&way.goals, &mut way.region) {
+                let mut partial = partial.clone();
+                partial.path.push((state, edge));
+                partial.goals.extend(goals(model, (state, edge)));
+                search.bounds.work += partial.goals.len();
+                if !search.may_meet(&partial.goals, &mut partial.region) {
                     continue;
                 }
                 for &target in targets {
                     if target == start {
-                        found.push(way.path.clone());
+                        found.push(partial.path.clone());
                     } else {
-                        open.push((target, way.clone()));
+                        open.push((target, partial.clone()));
                     }
                 }
             }
@@ -89,16 +89,16 @@ pub(super) fn goals<'a>(model: &Model<'a>, (state, edge): Step<'a>) -> Vec<Goal<
     let mut goals: Vec<Goal<'_>> = edge.condition().map(Goal::holds).into_iter().collect();
     let before = model.tried_before(edge, state);
     for of_source in before.chunk_by(|one, next| one.from == next.from) {
-        let mut have_led = Vec::new();
+        let mut settled = Vec::new();
         for before in of_source.iter().filter(|before| before.is_immediate()) {
             let Some(condition) = before.condition() else { continue };
-            let has_led = before.leads_to().is_some() && model.leads_to_one(before, state).is_none();
-            if before.from != edge.from && has_led {
-                have_led.push(condition);
+            let is_settled = before.leads_to().is_some() && model.leads_to_one(before, state).is_none();
+            if before.from != edge.from && is_settled {
+                settled.push(condition);
             } else if before.leads_to().is_none() {
                 goals.push(Goal::fails(condition));
             } else {
-                goals.push(Goal::fails(condition).or_any_holds(have_led.iter().copied()));
+                goals.push(Goal::fails(condition).or_any_holds(settled.iter().copied()));
             }
         }
     }

@@ -46,12 +46,12 @@ const WORDS: [(&[&str], &str); 17] = [
 ];
 
 /// Advice for a word of another language.
-pub(super) fn instead(word: &str) -> Option<&'static str> {
+pub(super) fn advice_for(word: &str) -> Option<&'static str> {
     WORDS.iter().find(|(words, _)| words.contains(&word)).map(|&(_, advice)| advice)
 }
 
 /// Advice for a target that other languages use for a successful end.
-pub(super) fn instead_of_target(state: &str) -> Option<&'static str> {
+pub(super) fn target_advice(state: &str) -> Option<&'static str> {
     ["success", "succeeded", "done", "end", "finish", "finished", "completed", "exit"].contains(&state.to_lowercase().as_str()).then_some(
         "a run is completed when what the scenario's `stop` names has come about; a policy ends it only by `Failure(\"reason\")`, and stands still \
          in a state that does: `state Done { stop }`",

@@ -5,7 +5,7 @@ use vibrissa_runtime::machine::Op;
 use super::draft::Draft;
 
 /// Redirects jumps to jumps to their final targets, and removes jumps to the next operation.
-pub(super) fn shorten(draft: &mut Draft) {
+pub(super) fn thread(draft: &mut Draft) {
     // For every operation, the next kept one from there on.
     let mut kept = vec![0; draft.ops.len() + 1];
     for run in &draft.runs {

@@ -9,7 +9,7 @@ use gen_lsp_types::{
 use serde_json::Value;
 
 use super::server::Server;
-use super::wire::error;
+use super::transport::error;
 
 impl Server<'_> {
     /// Answers a request about documents.

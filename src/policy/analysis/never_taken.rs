@@ -10,7 +10,7 @@ use super::search::{Goal, Search};
 
 /// Warns about a transition that is never taken because others of its state, or of the `outer` ones, always precede it.
 /// Returns true if it warned. `outer` are the transitions of outer states that can be due.
-pub(super) fn shadowed(
+pub(super) fn report_never_taken(
     search: &mut Search<'_>,
     outer: &[Edge<'_>],
     edges: &[Edge<'_>],

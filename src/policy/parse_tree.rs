@@ -8,7 +8,7 @@ use super::grammar::Rule;
 
 /// A matched rule. In a list, its inner matches follow it directly.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct Match {
     rule: Rule,
     /// Span in the text.
     span: Span,
@@ -20,9 +20,9 @@ pub(super) struct Found {
 ///
 /// Pest includes blanks and comments after the last part. Here the span ends with the last part, or with the closing
 /// quote of a string.
-pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
+pub(super) fn flatten(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Match> {
     let tokens = pairs.tokens();
-    let mut all: Vec<Found> = Vec::with_capacity(tokens.len() / 2);
+    let mut all: Vec<Match> = Vec::with_capacity(tokens.len() / 2);
     // The rules that have begun and not ended.
     let mut begun = Vec::new();
     let (mut end, mut has_parts) = (0, false);
@@ -30,7 +30,7 @@ pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
         match token {
             Token::Start { rule, pos } => {
                 begun.push(all.len());
-                all.push(Found { rule, span: Span::new(pos.pos(), pos.pos()), inner: 0 });
+                all.push(Match { rule, span: Span::new(pos.pos(), pos.pos()), inner: 0 });
                 has_parts = false;
             }
             Token::End { rule, pos } => {
@@ -43,7 +43,7 @@ pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
                     all.truncate(index);
                 } else {
                     let inner = all.len() - index - 1;
-                    all[index] = Found { rule, span: Span::new(all[index].span.start, end), inner };
+                    all[index] = Match { rule, span: Span::new(all[index].span.start, end), inner };
                 }
             }
         }
@@ -54,9 +54,9 @@ pub(super) fn all(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Found> {
 /// A matched rule in its text.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair<'i> {
-    found: &'i Found,
+    found: &'i Match,
     /// The inner matches.
-    inner: &'i [Found],
+    inner: &'i [Match],
     text: &'i str,
     /// First byte of the text in the whole source.
     start: usize,
@@ -72,7 +72,7 @@ impl<'i> Pair<'i> {
     }
 
     /// Span in the whole source.
-    pub(super) fn place(self) -> Span {
+    pub(super) fn span(self) -> Span {
         Span::new(self.start + self.found.span.start, self.start + self.found.span.end)
     }
 
@@ -85,14 +85,14 @@ impl<'i> Pair<'i> {
 #[derive(Debug, Clone)]
 pub(super) struct Pairs<'i> {
     /// The remaining matches with their inner ones.
-    rest: &'i [Found],
+    rest: &'i [Match],
     text: &'i str,
     start: usize,
 }
 
 impl<'i> Pairs<'i> {
     /// All matches in a text that begins at the byte `start` of the source.
-    pub(super) fn new(all: &'i [Found], text: &'i str, start: usize) -> Self {
+    pub(super) fn new(all: &'i [Match], text: &'i str, start: usize) -> Self {
         Self { rest: all, text, start }
     }
 

@@ -2,7 +2,7 @@
 
 /// A position in which a keyword is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Position {
     /// At the beginning of a file.
     File,
     /// Outside of all braces.
@@ -29,19 +29,19 @@ pub(super) enum Place {
 
 /// A keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Word {
+pub(super) struct Keyword {
     pub(super) text: &'static str,
-    pub(super) places: &'static [Place],
+    pub(super) positions: &'static [Position],
     /// The text to insert, with placeholders `${1:…}`.
     pub(super) snippet: &'static str,
     pub(super) meaning: &'static str,
 }
 
-impl Word {
+impl Keyword {
     /// True if a statement, a transition or an item begins with the keyword.
     pub(super) fn begins_statement(&self) -> bool {
-        use Place::{File, Item, State, Statement, Test};
-        self.places.iter().any(|place| [File, Item, State, Statement, Test].contains(place))
+        use Position::{File, Item, State, Statement, Test};
+        self.positions.iter().any(|position| [File, Item, State, Statement, Test].contains(position))
     }
 
     /// The notation: the snippet without its placeholders' marks.
@@ -60,25 +60,30 @@ impl Word {
     }
 }
 
-const fn entry(text: &'static str, places: &'static [Place], snippet: &'static str, meaning: &'static str) -> Word {
-    Word { text, places, snippet, meaning }
+const fn entry(
+    text: &'static str,
+    positions: &'static [Position],
+    snippet: &'static str,
+    meaning: &'static str,
+) -> Keyword {
+    Keyword { text, positions, snippet, meaning }
 }
 
-const FILE: &[Place] = &[Place::File];
-const ITEM: &[Place] = &[Place::Item];
-const STATE: &[Place] = &[Place::State];
-const ITEM_OR_STATE: &[Place] = &[Place::Item, Place::State];
-const COMMAND: &[Place] = &[Place::State, Place::Statement];
-const STATEMENT: &[Place] = &[Place::Item, Place::State, Place::Statement];
-const INSIDE: &[Place] = &[Place::Inside];
-const VALUE: &[Place] = &[Place::Value];
-const TRUTH: &[Place] = &[Place::Value, Place::Run];
-const TARGET: &[Place] = &[Place::Target];
-const MARK: &[Place] = &[Place::Mark];
-const TIP_MODEL: &[Place] = &[Place::TipModel];
+const FILE: &[Position] = &[Position::File];
+const ITEM: &[Position] = &[Position::Item];
+const STATE: &[Position] = &[Position::State];
+const ITEM_OR_STATE: &[Position] = &[Position::Item, Position::State];
+const COMMAND: &[Position] = &[Position::State, Position::Statement];
+const STATEMENT: &[Position] = &[Position::Item, Position::State, Position::Statement];
+const INSIDE: &[Position] = &[Position::Inside];
+const VALUE: &[Position] = &[Position::Value];
+const TRUTH: &[Position] = &[Position::Value, Position::Run];
+const TARGET: &[Position] = &[Position::Target];
+const MARK: &[Position] = &[Position::Mark];
+const TIP_MODEL: &[Position] = &[Position::TipModel];
 
 /// Every keyword that is not a function.
-pub(super) const WORDS: [Word; 53] = [
+pub(super) const KEYWORDS: [Keyword; 53] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -175,11 +180,16 @@ pub(super) const WORDS: [Word; 53] = [
     entry("exit", STATE, "exit {\n  ${0}\n}", "Statements that are executed when the state is left."),
     entry(
         "set",
-        &[Place::Item, Place::State, Place::Statement, Place::Test],
+        &[Position::Item, Position::State, Position::Statement, Position::Test],
         "set ${1:name} = ${2:value}",
         "Changes memory. In a test, sets a parameter for the run.",
     ),
-    entry("expect", &[Place::Test], "expect ${1:run.completed}", "A condition that must hold at the end of the run."),
+    entry(
+        "expect",
+        &[Position::Test],
+        "expect ${1:run.completed}",
+        "A condition that must hold at the end of the run.",
+    ),
     entry("if", STATEMENT, "if ${1:condition} {\n  ${0}\n}", "Executes the first block whose condition holds."),
     entry("do", STATEMENT, "do ${1:law}(${2:w})", "Executes the statements of a law."),
     entry(
@@ -218,7 +228,7 @@ pub(super) const WORDS: [Word; 53] = [
     entry("false", TRUTH, "false", "False."),
     entry("body", VALUE, "body", "The platform."),
     entry("time", VALUE, "time", "The time since the start of the run."),
-    entry("run", &[Place::Run], "run", "The whole run, in the expectations of a test."),
+    entry("run", &[Position::Run], "run", "The whole run, in the expectations of a test."),
     entry(
         "resume",
         TARGET,
@@ -255,13 +265,13 @@ pub(super) const WORDS: [Word; 53] = [
 ];
 
 /// The keyword with this text.
-pub(super) fn word(text: &str) -> Option<&'static Word> {
-    WORDS.iter().find(|word| word.text == text)
+pub(super) fn keyword(text: &str) -> Option<&'static Keyword> {
+    KEYWORDS.iter().find(|word| word.text == text)
 }
 
 /// The keywords that are allowed in a position.
-pub(super) fn words_of(place: Place) -> impl Iterator<Item = &'static Word> {
-    WORDS.iter().filter(move |word| word.places.contains(&place))
+pub(super) fn keywords_at(position: Position) -> impl Iterator<Item = &'static Keyword> {
+    KEYWORDS.iter().filter(move |word| word.positions.contains(&position))
 }
 
 #[cfg(test)]
@@ -276,14 +286,14 @@ mod tests {
         let keywords: Vec<&str> = rules.filter_map(|line| line.split('"').nth(1)).collect();
         assert!(keywords.len() >= 30);
         for keyword in keywords {
-            assert!(word(keyword).is_some_and(|word| !word.meaning.is_empty()), "{keyword}");
+            assert!(super::keyword(keyword).is_some_and(|word| !word.meaning.is_empty()), "{keyword}");
             assert!(is_keyword(keyword), "{keyword}");
         }
     }
 
     #[test]
     fn the_usage_of_a_word_is_its_snippet_in_plain_text() {
-        let usage = |text| word(text).map(Word::usage);
+        let usage = |text| keyword(text).map(Keyword::usage);
         assert_eq!(usage("do").as_deref(), Some("do law(w)"));
         assert_eq!(usage("hold").as_deref(), Some("hold"));
         assert_eq!(usage("if").as_deref(), Some("if condition {\n  \u{2026}\n}"));

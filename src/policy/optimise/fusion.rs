@@ -5,7 +5,7 @@ use vibrissa_runtime::machine::{Op, Register};
 use super::draft::Draft;
 
 /// The maximum number of operations that one can replace.
-const MOST: usize = 3;
+const MAX_REPLACED: usize = 3;
 
 /// Replaces consecutive operations by fused ones. `reads` has the number of reads of each register.
 pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
@@ -16,7 +16,8 @@ pub(super) fn fuse(draft: &mut Draft, reads: &[u32]) {
         let mut next = 0;
         while next < kept.len() {
             let reached = |last: usize| is_target[kept[next] + 1..=last].contains(&true);
-            let together = 1 + kept[next + 1..].iter().take(MOST - 1).take_while(|&&last| !reached(last)).count();
+            let together =
+                1 + kept[next + 1..].iter().take(MAX_REPLACED - 1).take_while(|&&last| !reached(last)).count();
             let (count, op) = fused(&ops[next..next + together], reads).unwrap_or((1, ops[next]));
             for &index in &kept[next..next + count - 1] {
                 draft.is_kept[index] = false;

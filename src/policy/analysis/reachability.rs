@@ -22,7 +22,7 @@ pub(super) fn reachable(model: &Model<'_>) -> Vec<bool> {
         open.extend(program.states[target].initial.iter().map(|&(inner, _)| inner));
         for state in program.outward(target) {
             if !std::mem::replace(&mut reached[state], true) {
-                open.extend(model.states[state].ways_out().flatten());
+                open.extend(model.states[state].exits().flatten());
             }
         }
     }
@@ -38,7 +38,7 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
         let mut others = model.states.iter().enumerate().filter(|&(other, _)| !program.contains(index, other));
         let is_target = others.any(|(other, node)| {
             let begins_here = program.states[other].initial.as_ref().is_some_and(|&(inner, _)| inner == index);
-            begins_here || node.ways_out().flatten().any(|target| program.contains(index, target))
+            begins_here || node.exits().flatten().any(|target| program.contains(index, target))
         });
         let label = if is_target { "only states that cannot be reached lead here" } else { "no transition leads here" };
         let message = format!("the state `{}` cannot be reached", state.name.text);
@@ -50,7 +50,7 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
 }
 
 /// Warns about states that a run cannot leave, and about those from which it cannot fail.
-pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
+pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     let fails = |edge: &&Edge<'_>| edge.leads_to().is_none();
     if model.always.iter().any(|edge| fails(&edge)) {
         return;
@@ -67,7 +67,7 @@ pub(super) fn without_a_way_out(model: &Model<'_>, warnings: &mut Vec<Diagnostic
     let (mut is_left, mut open) = (vec![false; model.states.len()], Vec::new());
     for (index, node) in model.innermost() {
         let edges = model.active_edges(index);
-        let can_fail = edges.iter().any(fails) || node.ways_out().any(|target| target.is_none());
+        let can_fail = edges.iter().any(fails) || node.exits().any(|target| target.is_none());
         open.extend(can_fail.then_some(index));
         program.outward(index).for_each(|state| is_left[state] |= can_fail);
         let failsafe = node.failsafe.and_then(|target| model.begins_in(target));

@@ -14,7 +14,7 @@ use super::server::Server;
 
 impl Server<'_> {
     pub(super) fn hover(&self, asked: &HoverParams) -> Result<Option<Hover>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let (document, at) = self.position(&asked.text_document_position_params)?;
         Ok(document.index.hover(at).map(|hover| Hover {
             contents: MarkupContent { kind: MarkupKind::Markdown, value: hover.text }.into(),
             range: Some(document.range(hover.span)),
@@ -22,14 +22,14 @@ impl Server<'_> {
     }
 
     pub(super) fn definition(&self, asked: &DefinitionParams) -> Result<Option<DefinitionResponse>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let (document, at) = self.position(&asked.text_document_position_params)?;
         let found = document.index.definition(at).and_then(|place| document.location(place));
         Ok(found.map(|found| DefinitionResponse::Definition(Definition::Location(found))))
     }
 
     pub(super) fn references(&self, asked: &ReferenceParams) -> Result<Option<Vec<Location>>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
-        let known = self.known(document);
+        let (document, at) = self.position(&asked.text_document_position_params)?;
+        let known = self.known_documents(document);
         let asked_in = known.first().map(|document| &document.index);
         let Some(origin) = asked_in.and_then(|index| index.origin(at)) else { return Ok(Some(Vec::new())) };
         let declared = known.first().filter(|_| asked.context.include_declaration);
@@ -42,7 +42,7 @@ impl Server<'_> {
     }
 
     pub(super) fn highlights(&self, asked: &DocumentHighlightParams) -> Result<Option<Vec<DocumentHighlight>>, Error> {
-        let (document, at) = self.place(&asked.text_document_position_params)?;
+        let (document, at) = self.position(&asked.text_document_position_params)?;
         let highlight = |(span, role)| DocumentHighlight {
             range: document.range(span),
             kind: Some(match role {
