@@ -43,7 +43,7 @@ pub struct RecordLabel {
 /// The diagnostics of a source as records, in the order given.
 #[must_use]
 pub fn records(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Record> {
-    let place = |label: &Label| {
+    let position = |label: &Label| {
         let range = source.clamp(label.span);
         let Position { line, column } = source.line_column(range.start);
         let end = source.line_column(range.end);
@@ -60,8 +60,8 @@ pub fn records(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Record> {
         severity: diagnostic.severity,
         code: diagnostic.code,
         message: diagnostic.message.clone(),
-        primary: place(&diagnostic.primary),
-        secondary: diagnostic.secondary.iter().map(place).collect(),
+        primary: position(&diagnostic.primary),
+        secondary: diagnostic.secondary.iter().map(position).collect(),
         hints: diagnostic.hints.clone(),
     };
     diagnostics.iter().map(record).collect()

@@ -47,8 +47,8 @@ fn render(source: &Source, diagnostic: &Diagnostic, renderer: &Renderer) -> Stri
         let within = source.part_span(index);
         let of_part = labels.iter().filter(|(_, label)| part(label) == index);
         let annotations = of_part.map(|(kind, label)| {
-            let place = source.clamp(label.span);
-            kind.span(place.start - within.start..place.end - within.start).label(printable(&label.text).into_owned())
+            let span = source.clamp(label.span);
+            kind.span(span.start - within.start..span.end - within.start).label(printable(&label.text).into_owned())
         });
         Snippet::source(same_length(source.slice(within)))
             .path(printable(source.part_name(index)))

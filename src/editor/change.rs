@@ -25,8 +25,8 @@ impl Server<'_> {
     }
 
     pub(super) fn rename(&self, asked: &RenameParams) -> Result<Option<WorkspaceEdit>, Error> {
-        let place = &asked.text_document_position_params;
-        let (document, at) = self.position(place)?;
+        let position = &asked.text_document_position_params;
+        let (document, at) = self.position(position)?;
         let known = self.known_documents(document);
         let asked_in = known.first().map_or(&document.index, |document| &document.index);
         // A refusal has its reason in the file of the request, so this file is asked before the others.
@@ -34,11 +34,11 @@ impl Server<'_> {
         let Some(origin) = asked_in.origin(at) else { return Ok(None) };
         let mut changes = HashMap::new();
         for document in &known {
-            let places = document.index.rename_to(&origin, &asked.new_name);
-            let places = places.map_err(|refusal| refused(&format_args!("in {}: {refusal}", document.source.name)))?;
+            let spans = document.index.rename_to(&origin, &asked.new_name);
+            let spans = spans.map_err(|refusal| refused(&format_args!("in {}: {refusal}", document.source.name)))?;
             let edit = |span| TextEdit { range: document.range(span), new_text: asked.new_name.clone() };
-            if !places.is_empty() {
-                changes.insert(document.uri.clone(), places.into_iter().map(edit).collect());
+            if !spans.is_empty() {
+                changes.insert(document.uri.clone(), spans.into_iter().map(edit).collect());
             }
         }
         Ok(Some(WorkspaceEdit { changes: Some(changes), ..Default::default() }))

@@ -26,7 +26,7 @@ pub(super) fn diagnostics(uri: &Uri, document: &Document, client: Client) -> Pub
 pub(super) fn diagnostic(document: &Document, fault: &diagnostic::Diagnostic, client: Client) -> Option<Diagnostic> {
     let source = document.index.source();
     let part = source.part_at(fault.primary.span.start);
-    let place = if part == 0 { fault.primary.span } else { document.index.use_leading_to(part)? };
+    let span = if part == 0 { fault.primary.span } else { document.index.use_leading_to(part)? };
     let mut message = fault.message.clone();
     // Writing to a string cannot fail.
     if !fault.primary.text.is_empty() {
@@ -53,7 +53,7 @@ pub(super) fn diagnostic(document: &Document, fault: &diagnostic::Diagnostic, cl
         let _ = write!(message, "\nhelp: {hint}");
     }
     Some(Diagnostic {
-        range: document.range(place),
+        range: document.range(span),
         severity: Some(match fault.severity {
             Severity::Error => DiagnosticSeverity::Error,
             Severity::Warning => DiagnosticSeverity::Warning,

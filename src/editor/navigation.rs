@@ -23,7 +23,7 @@ impl Server<'_> {
 
     pub(super) fn definition(&self, asked: &DefinitionParams) -> Result<Option<DefinitionResponse>, Error> {
         let (document, at) = self.position(&asked.text_document_position_params)?;
-        let found = document.index.definition(at).and_then(|place| document.location(place));
+        let found = document.index.definition(at).and_then(|span| document.location(span));
         Ok(found.map(|found| DefinitionResponse::Definition(Definition::Location(found))))
     }
 
@@ -35,8 +35,8 @@ impl Server<'_> {
         let declared = known.first().filter(|_| asked.context.include_declaration);
         let declared = declared.and_then(|document| document.location(document.index.definition(at)?));
         let used = known.iter().flat_map(|document| {
-            let places = document.index.references_to(&origin).into_iter();
-            places.filter(|&(_, role)| role != Role::Declares).filter_map(|(span, _)| document.location(span))
+            let uses = document.index.references_to(&origin).into_iter();
+            uses.filter(|&(_, role)| role != Role::Declares).filter_map(|(span, _)| document.location(span))
         });
         Ok(Some(declared.into_iter().chain(used).collect()))
     }

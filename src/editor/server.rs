@@ -235,9 +235,9 @@ impl Server<'_> {
     }
 
     /// The document, and the byte of a position in it.
-    pub(super) fn position(&self, place: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
-        let document = self.document(&place.text_document.uri)?;
-        Ok((document, document.byte(place.position)))
+    pub(super) fn position(&self, asked: &TextDocumentPositionParams) -> Result<(&Document, usize), Error> {
+        let document = self.document(&asked.text_document.uri)?;
+        Ok((document, document.byte(asked.position)))
     }
 }
 

@@ -60,16 +60,15 @@ pub(super) fn matches(source: &Source) -> Result<Cow<'static, [Match]>, Box<Diag
 pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
     if source.text.len() > LENGTH_LIMIT {
         let label = format!("the text goes on for {} bytes", source.text.len());
-        let place = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
+        let span = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
         return Err(Box::new(
-            Diagnostic::error("P0102", "the policy is too long", place, label)
-                .hint("a policy may have 256 KiB of text"),
+            Diagnostic::error("P0102", "the policy is too long", span, label).hint("a policy may have 256 KiB of text"),
         ));
     }
-    if let Some(place) = too_deep(&source.text) {
+    if let Some(span) = too_deep(&source.text) {
         let message = format!("brackets nest more than {NESTING_LIMIT} deep");
         return Err(Box::new(
-            Diagnostic::error("P0103", message, place, "this one is too deep").hint("name parts of it with `let`"),
+            Diagnostic::error("P0103", message, span, "this one is too deep").hint("name parts of it with `let`"),
         ));
     }
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))

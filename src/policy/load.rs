@@ -109,13 +109,13 @@ impl Loaded {
         let uses = self.files.first().into_iter().flatten().flat_map(|file| &file.uses);
         let links = self.links.first().into_iter().flatten().copied().zip(uses.map(|used| used.span));
         // A breadth-first search, so that direct uses precede indirect ones.
-        let mut found: Vec<(usize, Span)> = links.filter_map(|(link, way)| Some((link?, way))).collect();
+        let mut found: Vec<(usize, Span)> = links.filter_map(|(link, root_use)| Some((link?, root_use))).collect();
         let mut next = 0;
-        while let Some(&(file, way)) = found.get(next) {
+        while let Some(&(file, root_use)) = found.get(next) {
             next += 1;
             if file > 0 && root_uses.get(file) == Some(&None) {
-                root_uses[file] = Some(way);
-                found.extend(self.links.get(file).into_iter().flatten().flatten().map(|&link| (link, way)));
+                root_uses[file] = Some(root_use);
+                found.extend(self.links.get(file).into_iter().flatten().flatten().map(|&link| (link, root_use)));
             }
         }
         root_uses
@@ -171,28 +171,28 @@ impl Loaded {
     fn cycle(&self, uses: &[Vec<Use>]) -> Option<Diagnostic> {
         let mut is_done = vec![false; self.files.len()];
         // The path from the first file to the current one: files, each with the number of its uses that were followed.
-        let mut way = vec![(0, 0)];
-        while let Some((file, followed)) = way.last_mut() {
+        let mut path = vec![(0, 0)];
+        while let Some((file, followed)) = path.last_mut() {
             let (file, next) = (*file, *followed);
             *followed += 1;
             let Some(link) = self.links.get(file)?.get(next) else {
                 is_done[file] = true;
-                way.pop();
+                path.pop();
                 continue;
             };
             let Some(used) = *link else { continue };
-            if let Some(first) = way.iter().position(|&(file, _)| file == used) {
-                let names = way[first..].iter().map(|&(file, _)| file).chain([used]);
+            if let Some(first) = path.iter().position(|&(file, _)| file == used) {
+                let names = path[first..].iter().map(|&(file, _)| file).chain([used]);
                 let names: Vec<String> = names.map(|file| format!("`{}`", self.source.part_name(file))).collect();
                 let message = format!("a file uses itself: {}", names.join(" uses "));
-                let place = uses.get(file)?.get(next)?.span;
+                let span = uses.get(file)?.get(next)?.span;
                 return Some(
-                    Diagnostic::error("P0604", message, place, "leads back")
+                    Diagnostic::error("P0604", message, span, "leads back")
                         .hint("put what both need into a third file, and use that in both"),
                 );
             }
             if !is_done[used] {
-                way.push((used, 0));
+                path.push((used, 0));
             }
         }
         None

@@ -51,7 +51,7 @@ pub(super) fn faults(source: &Source) -> Vec<Diagnostic> {
 /// Parses the valid parts of a text whose first byte has the position `start`. `None` if nothing can be parsed.
 pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) -> Option<File> {
     let mut rest = Cow::Borrowed(source);
-    let mut ways = Vec::new();
+    let mut candidates = Vec::new();
     let mut last = None;
     for _ in 0..ATTEMPTS {
         match parse(&rest, start) {
@@ -63,14 +63,14 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
                 let at = fault.primary.span.start.saturating_sub(start);
                 // The same position again: the omitted part was too small.
                 if last != Some(at) {
-                    ways = if is_local(&fault) { regions(&rest.text, at) } else { Vec::new() };
+                    candidates = if is_local(&fault) { regions(&rest.text, at) } else { Vec::new() };
                     recovery.report(*fault);
                     last = Some(at);
                 }
                 // Omitting the same part again does not help.
                 let is_new = |region: &Span| !rest.slice(*region).trim().is_empty();
-                let index = ways.iter().position(is_new)?;
-                let region = ways.remove(index);
+                let index = candidates.iter().position(is_new)?;
+                let region = candidates.remove(index);
                 recovery.lost_use |= Tokens::new(rest.slice(region)).any(|token| token.of(rest.slice(region)) == "use");
                 recovery.lost.extend(names(rest.slice(region)));
                 rest = Cow::Owned(Source::new(rest.name.clone(), blanked(&rest.text, region)));

@@ -74,13 +74,13 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
 
 /// The diagnostic for a text that ends too early.
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
-    let place = Span::new(at, at);
+    let span = Span::new(at, at);
     if rules.contains(&Rule::file) || rules.contains(&Rule::kw_machine) {
-        return Diagnostic::error("P0101", "the file holds no policy", place, "expected `machine` and its name")
+        return Diagnostic::error("P0101", "the file holds no policy", span, "expected `machine` and its name")
             .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
     }
     let Some(opened) = opened else {
-        return Diagnostic::error("P0101", "the policy ends too early", place, expected(rules).unwrap_or_default());
+        return Diagnostic::error("P0101", "the policy ends too early", span, expected(rules).unwrap_or_default());
     };
     let bracket = &source.text[opened..=opened];
     let close = match bracket {
@@ -88,7 +88,7 @@ fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>)
         "{" => "}",
         _ => bracket,
     };
-    Diagnostic::error("P0101", "the policy ends too early", place, format!("expected `{close}`"))
+    Diagnostic::error("P0101", "the policy ends too early", span, format!("expected `{close}`"))
         .note(Span::new(opened, opened + 1), format!("this `{bracket}` is never closed"))
 }
 

@@ -115,8 +115,8 @@ impl Expectation {
         let mut registers = self.initial.clone();
         let parameters = program.parameters.len();
         registers[..parameters].copy_from_slice(&program.image[..parameters]);
-        for place in &self.figures {
-            registers[usize::from(place.register)] = figure(place.figure);
+        for read in &self.figures {
+            registers[usize::from(read.register)] = figure(read.figure);
         }
         // The code of a test has far fewer operations than this.
         let everything = 0..u32::try_from(self.code.len()).unwrap_or(u32::MAX);
@@ -125,9 +125,9 @@ impl Expectation {
             return None;
         }
         let diagnostic = Diagnostic::error("P0701", "the run is not as expected", self.span, "does not hold");
-        Some(self.figures.iter().fold(diagnostic, |diagnostic, place| {
-            let value = place.figure.show(figure(place.figure));
-            diagnostic.note(place.span, format!("is {value}"))
+        Some(self.figures.iter().fold(diagnostic, |diagnostic, read| {
+            let value = read.figure.show(figure(read.figure));
+            diagnostic.note(read.span, format!("is {value}"))
         }))
     }
 }

@@ -20,10 +20,10 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
     }
     let program = Arc::new(model.program.clone());
     let mut search = Search::new(model);
-    let mut told = vec![false; model.states.len()];
+    let mut reported = vec![false; model.states.len()];
     for path in &found {
         // A cycle of states that were already reported adds little.
-        if path.iter().all(|&(state, _)| told[state]) {
+        if path.iter().all(|&(state, _)| reported[state]) {
             continue;
         }
         let start = path[0].0;
@@ -40,7 +40,7 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         if let Some(point) = search.witness(&goals, Some(&fails)) {
             let witness = search.describe_such(&goals, point, Some(&fails));
             for &(state, _) in path {
-                told[state] = true;
+                reported[state] = true;
             }
             faults.push(fault(model, path, &witness));
         }
@@ -51,8 +51,8 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
 fn fault(model: &Model<'_>, path: &[Step<'_>], witness: &str) -> Diagnostic {
     let name = |state: usize| model.states[state].name.text.as_str();
     let (start, first) = path[0];
-    let way: Vec<String> = path.iter().map(|&(state, _)| format!("`{}`", name(state))).collect();
-    let message = format!("one tick can cycle from {} to `{}` without end", way.join(" to "), name(start));
+    let names: Vec<String> = path.iter().map(|&(state, _)| format!("`{}`", name(state))).collect();
+    let message = format!("one tick can cycle from {} to `{}` without end", names.join(" to "), name(start));
     let fault = Diagnostic::error("P0405", message, first.span(), format!("leaves `{}`", name(start)));
     path[1..]
         .iter()

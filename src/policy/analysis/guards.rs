@@ -19,10 +19,8 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
     if let Some(condition) = edge.condition() {
         if search.excludes(&[Goal::holds(condition)]) {
             warnings.push(
-                Diagnostic::warning("P0508", "this guard never holds", edge.guard_span(), "never holds").hint(
-                    "it fails for all that can be felt; a parameter counts with its range, or with its value if it \
-                     has none",
-                ),
+                Diagnostic::warning("P0508", "this guard never holds", edge.guard_span(), "never holds")
+                    .hint("it is false for all possible inputs and for all values that parameters may have"),
             );
             return false;
         }

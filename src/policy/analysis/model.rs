@@ -152,9 +152,9 @@ impl<'a> Model<'a> {
 
     /// A state and its ancestors, the outermost first.
     pub(super) fn inward(&self, state: usize) -> Vec<usize> {
-        let mut way: Vec<usize> = self.program.outward(state).collect();
-        way.reverse();
-        way
+        let mut ancestors: Vec<usize> = self.program.outward(state).collect();
+        ancestors.reverse();
+        ancestors
     }
 
     /// The innermost state that a transition enters while `innermost` is the innermost active state, or the state that

@@ -90,18 +90,18 @@ pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
         }
     }
     // A warning about a state also covers its inner states.
-    let mut told = vec![false; model.states.len()];
+    let mut reported = vec![false; model.states.len()];
     for (index, state) in model.states.iter().enumerate() {
         let name = &state.name.text;
-        told[index] = program.states[index].parent.is_some_and(|parent| told[parent]);
+        reported[index] = program.states[index].parent.is_some_and(|parent| reported[parent]);
         if !is_left[index] {
-            told[index] = true;
+            reported[index] = true;
             let message = format!("the state `{name}` cannot be left");
             warnings.push(Diagnostic::warning("P0502", message, state.name.span, "nothing leads out of it").hint(
                 "write a transition, such as `after 60 s -> Failure(\"nothing more to do\")`, or an `always` rule",
             ));
-        } else if has_failure && !fallible[index] && !told[index] {
-            told[index] = true;
+        } else if has_failure && !fallible[index] && !reported[index] {
+            reported[index] = true;
             let message = format!("the state `{name}` cannot reach `Failure`");
             warnings.push(no_failure(message, state.name.span));
         }

@@ -189,9 +189,9 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
         WhiskerScalar::Deflection => {
             let free = source.range(Unknown::Deflection(whisker));
             let size = free.absolute();
-            let bent = Interval::new(size.low.max(MIN_CONTACT_ANGLE), size.high.max(MIN_CONTACT_ANGLE));
+            let angle = Interval::new(size.low.max(MIN_CONTACT_ANGLE), size.high.max(MIN_CONTACT_ANGLE));
             contacts(source, whisker)
-                .map(|(side, sense)| if sense == 0.0 { free } else { bent.multiply(Interval::point(side * sense)) })
+                .map(|(side, sense)| if sense == 0.0 { free } else { angle.multiply(Interval::point(side * sense)) })
                 .reduce(Interval::join)
                 .unwrap_or(Interval::ANYTHING)
         }

@@ -33,8 +33,8 @@ impl Search<'_> {
             }
         }
         let named = named_values(model, &point);
-        let felt = senses.readings().into_iter().filter_map(|reading| reading_text(program, &senses, reading));
-        let words: Vec<String> = named.into_iter().chain(felt).collect();
+        let readings = senses.readings().into_iter().filter_map(|reading| reading_text(program, &senses, reading));
+        let words: Vec<String> = named.into_iter().chain(readings).collect();
         if words.is_empty() { "any time".to_owned() } else { words.join(", ") }
     }
 

@@ -166,7 +166,7 @@ impl Index {
 
     /// Keywords that begin a statement or an item at this level of braces.
     fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
-        let place = match level {
+        let position = match level {
             Level::Outside => Position::Item,
             Level::State => Position::State,
             Level::Test => Position::Test,
@@ -175,7 +175,7 @@ impl Index {
         let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
         let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
         let fits = move |word: &&Keyword| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
-        keywords_at(place).filter(fits).map(of_keyword)
+        keywords_at(position).filter(fits).map(of_keyword)
     }
 
     pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {

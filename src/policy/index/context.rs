@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind, tokens};
 
-use super::declare::{declare, is_balanced, place};
+use super::declare::{declare, is_balanced, span_of};
 
 /// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +100,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     }
     known.retain(|token| token.kind != TokenKind::Comment);
     let is_word = |token: &&Token<'_>| matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit);
-    let typed = known.last().filter(is_word).map(|token| place(*token)).filter(|span| span.end == at);
+    let typed = known.last().filter(is_word).map(|token| span_of(*token)).filter(|span| span.end == at);
     if typed.is_some() {
         known.pop();
     }

@@ -142,7 +142,7 @@ impl<'t> Declared<'t> {
 
     fn declare(&mut self, tokens: &[Token<'t>], name: usize, start: usize, kind: SymbolKind) -> usize {
         let token = tokens[name];
-        let span = place(token);
+        let span = span_of(token);
         let is_whisker = kind == SymbolKind::Whisker;
         let index = self.symbols.len();
         let owner = self.frames.iter().rev().find_map(|frame| frame.owner);
@@ -172,14 +172,14 @@ impl<'t> Declared<'t> {
         }
         let mut at = open + 1;
         while let Some(name) = tokens.get(at).filter(|token| token.kind == TokenKind::Name) {
-            let span = place(*name);
+            let span = span_of(*name);
             let (mut end, mut r#type) = (at, None);
             if tokens.get(at + 1).is_some_and(|token| token.is(":"))
                 && let Some((name, last)) = type_name(tokens, at + 2)
             {
                 (end, r#type) = (last, Type::named(&name));
             }
-            let whole = span.to(place(tokens[end]));
+            let whole = span.to(span_of(tokens[end]));
             self.symbols[owner].arguments.push(name.text.to_owned());
             let index = self.symbols.len();
             self.symbols.push(Symbol {
@@ -246,7 +246,7 @@ impl<'t> Declared<'t> {
     }
 }
 
-pub(super) fn place(token: Token<'_>) -> Span {
+pub(super) fn span_of(token: Token<'_>) -> Span {
     Span::new(token.start, token.start + token.text.len())
 }
 

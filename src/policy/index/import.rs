@@ -10,7 +10,7 @@ use crate::policy::format::{Token, TokenKind};
 use crate::policy::path;
 
 use super::code_tokens;
-use super::declare::{declare, place};
+use super::declare::{declare, span_of};
 use super::symbol::{Symbol, SymbolKind};
 
 /// A `use`, complete or not.
@@ -60,14 +60,14 @@ fn import(using: &str, tokens: &[Token<'_>], word: usize) -> Option<Import> {
         }
         _ => return None,
     };
-    let span = place(*first).to(place(tokens[next - 1]));
+    let span = span_of(*first).to(span_of(tokens[next - 1]));
     let mut names = None;
     if tokens.get(next).is_some_and(|token| token.is("(")) {
         let listed = tokens[next + 1..].iter().take_while(|token| token.kind == TokenKind::Name || token.is(","));
         let listed: Vec<Token<'_>> = listed.copied().collect();
         next += 1 + listed.len();
         next += usize::from(tokens.get(next).is_some_and(|token| token.is(")")));
-        names = Some(listed.into_iter().filter(|token| token.kind == TokenKind::Name).map(place).collect());
+        names = Some(listed.into_iter().filter(|token| token.kind == TokenKind::Name).map(span_of).collect());
     }
     let used = Use { from, span, names: None };
     let file = path::resolve(using, &used).ok();
@@ -75,7 +75,7 @@ fn import(using: &str, tokens: &[Token<'_>], word: usize) -> Option<Import> {
 }
 
 fn named(token: Token<'_>) -> Name {
-    Name { text: token.text.to_owned(), span: place(token) }
+    Name { text: token.text.to_owned(), span: span_of(token) }
 }
 
 /// Appends the symbols that a `use` imports. The first `own` symbols are those of the text itself.
@@ -97,7 +97,7 @@ pub(super) fn exports(source: &Source, part: usize) -> Vec<Symbol> {
     let text = source.slice(span);
     let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();
     let own = symbols.filter(|symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived));
-    let moved = |place: Span| Span::new(span.start + place.start, span.start + place.end);
+    let moved = |inner: Span| Span::new(span.start + inner.start, span.start + inner.end);
     own.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
 }
 

@@ -157,7 +157,7 @@ impl Index {
     /// All uses of the name at a byte, in order. Empty if no file declares it.
     #[must_use]
     pub fn references(&self, at: usize) -> Vec<(Span, Role)> {
-        self.symbol_at(at).map_or_else(Vec::new, |(_, wanted)| self.places(wanted))
+        self.symbol_at(at).map_or_else(Vec::new, |(_, wanted)| self.uses_of(wanted))
     }
 
     /// The declaration of a symbol on one line, without its braces: `law swipe(w: whisker)`.

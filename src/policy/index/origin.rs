@@ -24,7 +24,7 @@ impl Index {
     /// All uses of the symbol of `origin` in the text, in order.
     #[must_use]
     pub fn references_to(&self, origin: &Origin) -> Vec<(Span, Role)> {
-        self.given_at(origin).map_or_else(Vec::new, |index| self.places(index))
+        self.given_at(origin).map_or_else(Vec::new, |index| self.uses_of(index))
     }
 
     /// The spans in this text to replace with `name` when the symbol of `origin` is renamed.
@@ -36,12 +36,12 @@ impl Index {
     }
 
     /// All uses of a symbol in the text, in order.
-    pub(super) fn places(&self, wanted: usize) -> Vec<(Span, Role)> {
-        let places = self.resolved.uses.iter().filter_map(|known| match known.meaning {
+    pub(super) fn uses_of(&self, wanted: usize) -> Vec<(Span, Role)> {
+        let uses = self.resolved.uses.iter().filter_map(|known| match known.meaning {
             Meaning::Symbol(index, role) if index == wanted => Some((known.span, role)),
             _ => None,
         });
-        places.collect()
+        uses.collect()
     }
 
     fn given_at(&self, origin: &Origin) -> Option<usize> {

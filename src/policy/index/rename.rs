@@ -96,7 +96,7 @@ impl Index {
             let line = self.source.line_column(other.span.start).line;
             return Err(RenameError::Taken { name: name.to_owned(), line });
         }
-        Ok(self.places(index).into_iter().map(|(span, _)| span).collect())
+        Ok(self.uses_of(index).into_iter().map(|(span, _)| span).collect())
     }
 
     fn to_rename(&self, at: usize) -> Result<(Span, usize), RenameError> {

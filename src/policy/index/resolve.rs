@@ -8,7 +8,7 @@ use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::{Type, dimension};
 use vibrissa_runtime::units::parse_unit;
 
-use super::declare::place;
+use super::declare::span_of;
 use super::import::Import;
 use super::keyword::{Keyword, Position, keyword};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
@@ -75,7 +75,7 @@ pub(super) fn resolve(
             }),
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
-                names.meaning(place(*token), token.text, role)
+                names.meaning(span_of(*token), token.text, role)
             }
             TokenKind::Keyword => keyword(token.text).map(|word| Meaning::Keyword(word.text)),
             TokenKind::Unit => {
@@ -104,7 +104,7 @@ pub(super) fn resolve(
             _ => None,
         };
         if is_word || token.kind == TokenKind::Unit {
-            resolved.uses.push(Use { span: place(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
+            resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
     }
     resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, own, import)));

@@ -51,11 +51,11 @@ impl Index {
         let stays = |outer: usize| {
             outer != target && around.is_some_and(|around| self.outward(around).any(|active| active == outer))
         };
-        let mut way: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
-        way.reverse();
-        way.retain(|&state| state == target || !self.symbols[state].arguments.is_empty());
+        let mut entered: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
+        entered.reverse();
+        entered.retain(|&state| state == target || !self.symbols[state].arguments.is_empty());
         let mut fields = 0;
-        let steps = way.into_iter().map(|state| {
+        let steps = entered.into_iter().map(|state| {
             let state = &self.symbols[state];
             let values = state.arguments.iter().map(|argument| {
                 fields += 1;

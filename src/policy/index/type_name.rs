@@ -3,14 +3,14 @@
 use crate::policy::ast::{Binary, Name, TypeName};
 use crate::policy::format::{Token, TokenKind};
 
-use super::declare::place;
+use super::declare::span_of;
 
 /// The type that is named from the token `at` on, and the index of its last token: `length`, `vector of length`,
 /// `angular_speed / length`.
 pub(super) fn type_name(tokens: &[Token<'_>], at: usize) -> Option<(TypeName, usize)> {
     let name = |at: usize| {
         let token = tokens.get(at).filter(|token| matches!(token.kind, TokenKind::Name | TokenKind::Keyword))?;
-        Some(Name { text: token.text.to_owned(), span: place(*token) })
+        Some(Name { text: token.text.to_owned(), span: span_of(*token) })
     };
     let (base, mut last) = (name(at)?, at);
     let is = |at: usize, text: &str| tokens.get(at).is_some_and(|token| token.text == text);

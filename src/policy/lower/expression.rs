@@ -95,9 +95,9 @@ impl<'f> Compiler<'f> {
                 Err(error) => {
                     let message = format!("`{}` is not a unit", unit.text);
                     let range = error.range();
-                    let place = Span::new(unit.span.start + range.start, unit.span.start + range.end);
+                    let span = Span::new(unit.span.start + range.start, unit.span.start + range.end);
                     let diagnostic =
-                        Diagnostic::error("P0302", message, place, error.to_string()).hint(unit_hint(&error));
+                        Diagnostic::error("P0302", message, span, error.to_string()).hint(unit_hint(&error));
                     // The grammar accepts `50 mm/t` as a number with a unit.
                     self.report(match unit.text.find(['/', '*']) {
                         Some(at) if at < range.start => {
@@ -158,8 +158,8 @@ impl<'f> Compiler<'f> {
     }
 
     /// Reports parentheses after a name that takes no values.
-    fn report_call(&mut self, message: String, place: Span) {
-        let diagnostic = Diagnostic::error("P0304", message, place, "called like a function");
+    fn report_call(&mut self, message: String, span: Span) {
+        let diagnostic = Diagnostic::error("P0304", message, span, "called like a function");
         self.report(diagnostic.hint("leave out the parentheses"));
     }
 

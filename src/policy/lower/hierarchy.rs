@@ -42,8 +42,8 @@ impl<'f> Hierarchy<'f> {
     /// not stay active to `target`.
     pub(super) fn entered(&self, from: Option<usize>, target: usize) -> Vec<usize> {
         let stays = |outer: usize| outer != target && from.is_some_and(|from| self.contains(outer, from));
-        let mut way: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
-        way.reverse();
-        way
+        let mut entered: Vec<usize> = self.outward(target).take_while(|&outer| !stays(outer)).collect();
+        entered.reverse();
+        entered
     }
 }

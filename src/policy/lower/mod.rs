@@ -106,7 +106,7 @@ struct StateEntry {
 /// A construct that gives no command, with advice where to put the command.
 #[derive(Clone, Copy)]
 struct Commandless {
-    place: &'static str,
+    construct: &'static str,
     hint: &'static str,
 }
 

@@ -94,11 +94,11 @@ impl<'f> Compiler<'f> {
             None => own().map(|name| (name, used.span)).collect(),
             Some(names) => names.iter().filter_map(|name| self.choose(name, other, own())).collect(),
         };
-        for (name, place) in chosen {
+        for (name, span) in chosen {
             match self.names().items.get(name.text.as_str()) {
                 Some(&before) if before != name.span => {
                     let message = format!("the name `{}` is given twice", name.text);
-                    let fault = Diagnostic::error("P0202", message, place, format!("imports `{}`", name.text))
+                    let fault = Diagnostic::error("P0202", message, span, format!("imports `{}`", name.text))
                         .note(before, "given here")
                         .note(name.span, "and here");
                     let hint = match &used.names {

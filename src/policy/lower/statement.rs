@@ -78,8 +78,8 @@ impl<'f> Compiler<'f> {
 
     /// Emits a command, unless commands are not allowed here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
-        if let Some(Commandless { place, hint }) = self.commandless {
-            let message = format!("{place} gives no command");
+        if let Some(Commandless { construct, hint }) = self.commandless {
+            let message = format!("{construct} gives no command");
             let diagnostic = match (self.outer_use, self.inlining.first()) {
                 // Other uses of the law may be valid, so the error is reported at this use.
                 (Some(used), Some(law)) => {

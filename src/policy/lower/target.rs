@@ -35,9 +35,9 @@ impl<'f> Compiler<'f> {
             };
             if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
                 let at = reason.span.start + at;
-                let place = Span::new(at, at + letter.len_utf8());
+                let span = Span::new(at, at + letter.len_utf8());
                 let message = "a reason must be one line of plain text";
-                let diagnostic = Diagnostic::error("P0413", message, place, format!("{letter:?} cannot be shown"));
+                let diagnostic = Diagnostic::error("P0413", message, span, format!("{letter:?} cannot be shown"));
                 self.report(diagnostic.hint("write a space instead, or leave it out"));
                 return None;
             }

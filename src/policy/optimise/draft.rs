@@ -52,14 +52,14 @@ impl Draft {
     /// The program without the removed operations.
     pub(super) fn finish(mut self) -> Program {
         // The new index of each operation. A removed operation has that of the next kept one.
-        let mut places = Vec::with_capacity(self.ops.len() + 1);
-        let mut place = 0;
+        let mut indices = Vec::with_capacity(self.ops.len() + 1);
+        let mut index = 0;
         for &is_kept in &self.is_kept {
-            places.push(place);
-            place += u32::from(is_kept);
+            indices.push(index);
+            index += u32::from(is_kept);
         }
-        places.push(place);
-        let moved = |place: u32| places[place as usize];
+        indices.push(index);
+        let moved = |index: u32| indices[index as usize];
         let kept = self.ops.into_iter().zip(self.is_kept).filter(|(_, is_kept)| *is_kept);
         self.program.code = kept
             .map(|(mut op, _)| {
@@ -73,7 +73,7 @@ impl Draft {
             *block = moved(block.start)..moved(block.end);
         }
         self.program.code.append(&mut self.start);
-        self.program.start = place..u32::try_from(self.program.code.len()).unwrap_or(place);
+        self.program.start = index..u32::try_from(self.program.code.len()).unwrap_or(index);
         self.program
     }
 }
