@@ -25,7 +25,7 @@ const QUIET_TIME: Duration = Duration::from_millis(10);
 
 /// The manner in which a server ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
+pub(crate) enum Ended {
     /// Shutdown and then exit, as the protocol requires.
     Orderly,
     /// Exit without shutdown, or end of the input.
@@ -41,7 +41,7 @@ enum Phase {
 }
 
 /// Returns the text of a file that is not open in the editor, or the reason for which there is none.
-pub type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
+pub(super) type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
 
 /// The language server.
 pub(super) struct Server<'l> {
@@ -58,7 +58,7 @@ pub(super) struct Server<'l> {
 ///
 /// # Errors
 /// Reading or writing failed, because the editor has gone.
-pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
+pub(crate) fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
     let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
     let mut queue = Queue::read_from(input)?;
