@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput};
 use stage::Stage;
-use vibrissa_runtime::machine::{Senses, TipModelKind};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Senses};
 use vibrissa_runtime::percept::Perception;
 
 /// Ticks after which the platform goes along the middle of the tunnel.
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("perception");
     group.throughput(Throughput::Elements(ticks.len() as u64));
-    for kind in TipModelKind::ALL {
+    for kind in ContactEstimatorKind::ALL {
         let mut perception = Perception::new(&tunnel.scene.rig, &[Some(0), Some(1)], &[kind; 2])?;
         for samples in before {
             perception.update(samples);

@@ -38,7 +38,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let parameter = |name: &str| {
         let index = disk.program.parameters.iter().position(|parameter| parameter.name == name);
-        index.map(|index| disk.program.image[index]).ok_or_else(|| format!("the policy has no parameter `{name}`"))
+        index
+            .map(|index| disk.program.initial_registers[index])
+            .ok_or_else(|| format!("the policy has no parameter `{name}`"))
     };
     let mut by_hand = thesis::Swiping {
         speed: parameter("speed")?,

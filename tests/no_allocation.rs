@@ -72,7 +72,7 @@ fn a_tick_by_any_tip_model_allocates_nothing() {
             let before = allocations();
             control.tick(&samples);
             assert_eq!(allocations() - before, 0, "{model}, tick {tick}");
-            told += usize::from(control.perception().touch(0).is_some());
+            told += usize::from(control.perception().contact(0).is_some());
         }
         assert!(told > 20, "{model} tells {told}");
     }

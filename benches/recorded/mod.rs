@@ -6,7 +6,7 @@ use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar
 
 /// All that can be asked of a whisker, each in the place that its own number names, as in [`Recorded`].
 const SCALARS: [WhiskerScalar; 8] = [
-    WhiskerScalar::Deflection,
+    WhiskerScalar::BaseAngle,
     WhiskerScalar::Touching,
     WhiskerScalar::Yaw,
     WhiskerScalar::Side,

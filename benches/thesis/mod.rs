@@ -61,8 +61,8 @@ impl Swiping {
     pub(crate) fn tick<S: Senses>(&mut self, senses: &mut S) -> Option<Action> {
         let [whisker, other] = self.whiskers;
         let now = senses.time();
-        let deflection = senses.whisker(whisker, WhiskerScalar::Deflection);
-        if deflection.abs() > self.limit || senses.whisker(other, WhiskerScalar::Deflection).abs() > self.limit {
+        let deflection = senses.whisker(whisker, WhiskerScalar::BaseAngle);
+        if deflection.abs() > self.limit || senses.whisker(other, WhiskerScalar::BaseAngle).abs() > self.limit {
             return None;
         }
         let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;

@@ -70,7 +70,7 @@ pub enum StageError {
 /// # Panics
 /// If the rig has no whisker with that index.
 pub fn simulated_sets(rig: &Rig, physics: &Physics, whisker: usize, seed: u64) -> Result<Vec<ContactSet>, StageError> {
-    let (bend, length) = (rig.whiskers[whisker].usual_bend(), rig.whiskers[whisker].shaft.length);
+    let (bend, length) = (rig.whiskers[whisker].usual_bend_sign(), rig.whiskers[whisker].shaft.length);
     let scale = length / LENGTH;
     let mut stage = Stage::new(rig, physics, whisker, scale, seed)?;
     let mut sets = Vec::new();

@@ -207,7 +207,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
 }
 
 fn summary(artifact: &Artifact) -> Summary {
-    let Artifact { program, places, .. } = artifact;
+    let Artifact { program, positions: places, .. } = artifact;
     let parameter = |(parameter, &value): (&vibrissa_runtime::machine::Parameter, &f64)| ParameterSummary {
         name: parameter.name.clone(),
         value: format_si(value, parameter.dimension),
@@ -223,15 +223,15 @@ fn summary(artifact: &Artifact) -> Summary {
             Some(parent) => program.states[parent].initial.as_ref().is_some_and(|&(inner, _)| inner == index),
         },
         transitions: state.transitions.len(),
-        failsafe: state.failsafe.as_ref().map(|target| name(program, target)),
+        failsafe: state.fallback.as_ref().map(|target| name(program, target)),
         operations: program.operations(index),
         depth: program.outward(index).skip(1).count(),
     };
     Summary {
-        failsafe: program.failsafe.as_ref().map(|target| name(program, target)),
+        failsafe: program.fallback.as_ref().map(|target| name(program, target)),
         name: program.name.clone(),
         whiskers: program.whiskers.clone(),
-        parameters: program.parameters.iter().zip(&program.image).map(parameter).collect(),
+        parameters: program.parameters.iter().zip(&program.initial_registers).map(parameter).collect(),
         states: program.states.iter().enumerate().map(state).collect(),
         memory_bytes: program.memory_bytes(),
         most_operations: program.most_operations(),

@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{Position, Source};
-use vibrissa_runtime::machine::{Artifact, Origin, Program, SourceMap, StatePlace};
+use vibrissa_runtime::machine::{Artifact, Origin, Program, SourceMap, StatePosition};
 
 use super::ast::{File, Guard, Transition};
 
@@ -16,7 +16,7 @@ pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifa
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };
-    Artifact { origin, program, places: places(source, file) }
+    Artifact { origin, program, positions: places(source, file) }
 }
 
 fn places(source: &Source, file: &File) -> SourceMap {
@@ -24,7 +24,7 @@ fn places(source: &Source, file: &File) -> SourceMap {
         let (Guard::When { condition: expression, .. } | Guard::After(expression)) = &transition.guard;
         source.line_column(expression.span.start)
     };
-    let states = file.states.iter().map(|state| StatePlace {
+    let states = file.states.iter().map(|state| StatePosition {
         name: source.line_column(state.name.span.start),
         transitions: state.transitions.iter().map(position).collect(),
     });

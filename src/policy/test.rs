@@ -26,7 +26,7 @@ impl PolicyTest {
     /// Sets the parameters of the policy's own `program` to the values of the test.
     pub fn set(&self, program: &mut Program) {
         for &(parameter, value) in &self.settings {
-            program.image[parameter] = value;
+            program.initial_registers[parameter] = value;
         }
     }
 }
@@ -114,9 +114,9 @@ impl Expectation {
     pub fn violation(&self, program: &Program, figure: impl Fn(RunFigure) -> f64) -> Option<Diagnostic> {
         let mut registers = self.initial.clone();
         let parameters = program.parameters.len();
-        registers[..parameters].copy_from_slice(&program.image[..parameters]);
-        for read in &self.figures {
-            registers[usize::from(read.register)] = figure(read.figure);
+        registers[..parameters].copy_from_slice(&program.initial_registers[..parameters]);
+        for place in &self.figures {
+            registers[usize::from(place.register)] = figure(place.figure);
         }
         // The code of a test has far fewer operations than this.
         let everything = 0..u32::try_from(self.code.len()).unwrap_or(u32::MAX);

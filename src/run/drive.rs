@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::geometry::{Point2, Vector2};
 use crate::scene::{Outcome, Reached, Stop};
 use crate::world::{Fault, World};
-use vibrissa_runtime::machine::{Failsafe, Senses, Status, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{Fallback, Senses, Status, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
@@ -81,7 +81,7 @@ pub fn drive(
         }
         command = next;
 
-        let tick = record(&control, command, ticked.failsafe, world);
+        let tick = record(&control, command, ticked.fallback, world);
         trace.marks.extend(marks(&control, trace.ticks.len()));
         trace.ticks.push(tick);
         if progress(&trace).is_break() {
@@ -131,7 +131,7 @@ fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
     })
 }
 
-fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world: &dyn World) -> TickRecord {
+fn record(control: &Control, command: Command, failsafe: Option<Fallback>, world: &dyn World) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
     let mut tick = TickRecord {
         time: perception.time(),
@@ -150,10 +150,10 @@ fn record(control: &Control, command: Command, failsafe: Option<Failsafe>, world
     for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
         tick.springs[whisker] = world.springs(in_rig);
         tick.tip_ends[whisker] = Some(world.tip(in_rig));
-        tick.deflections[whisker] = perception.deflection(bound);
+        tick.deflections[whisker] = perception.base_angle(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);
         tick.touches[whisker] = touch(perception, bound);
-        tick.tip_spreads[whisker] = perception.recorded_spread(bound);
+        tick.tip_spreads[whisker] = perception.recorded_deviation(bound);
     }
     tick
 }

@@ -1,7 +1,7 @@
 //! What happened in a run, tick by tick.
 
 use crate::geometry::{Point2, Pose, Vector2};
-use vibrissa_runtime::machine::{Failsafe, Mark};
+use vibrissa_runtime::machine::{Fallback, Mark};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// What happened in a run, tick by tick.
@@ -56,7 +56,7 @@ pub struct TickRecord {
     /// The command that the tick gave.
     pub command: Command,
     /// The state that the machine left by its failsafe, if it left one.
-    pub failsafe: Option<Failsafe>,
+    pub failsafe: Option<Fallback>,
     /// Where the axis of each whisker ends (m, world frame), as the world knows it; no policy sees this. `None` of a whisker that the
     /// trace does not have.
     pub tip_ends: [Option<Point2>; MAX_WHISKERS],
@@ -79,7 +79,7 @@ pub struct Touch {
 
 impl Trace {
     /// The ticks in which the machine left a state by its failsafe, with what it did so for.
-    pub fn failsafes(&self) -> impl Iterator<Item = (&TickRecord, Failsafe)> {
+    pub fn failsafes(&self) -> impl Iterator<Item = (&TickRecord, Fallback)> {
         self.ticks.iter().filter_map(|tick| Some((tick, tick.failsafe?)))
     }
 

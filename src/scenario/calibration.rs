@@ -84,7 +84,9 @@ pub fn write_calibration(calibration: &Calibration) -> String {
         let _ =
             write!(text, "one_channel:\n  range: {range:?}\n  x: {x:?}\n  y: {y:?}\n  covariance: {covariance:?}\n");
     }
-    if let Some(AngleSurface { centre, scale, coefficients, spread, reach, places }) = &calibration.recursive {
+    if let Some(AngleSurface { centre, scale, coefficients, deviation: spread, reach, positions: places }) =
+        &calibration.recursive
+    {
         let _ = write!(
             text,
             "recursive:\n  centre: {centre:?}\n  scale: {scale:?}\n  coefficients: {coefficients:?}\n  \

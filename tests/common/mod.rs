@@ -77,7 +77,7 @@ impl Senses for Script {
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
         let feel = self.feel(whisker);
         match quantity {
-            WhiskerScalar::Deflection => feel.deflection,
+            WhiskerScalar::BaseAngle => feel.deflection,
             WhiskerScalar::Touching => f64::from(u8::from(feel.touching)),
             WhiskerScalar::Side => feel.side,
             WhiskerScalar::Sense => feel.sense,
@@ -85,7 +85,7 @@ impl Senses for Script {
             WhiskerScalar::Yaw => 0.25,
             WhiskerScalar::Length => 0.1,
             WhiskerScalar::ContourCurvature => 3.0,
-            WhiskerScalar::TipSpread => 0.002,
+            WhiskerScalar::TipDeviation => 0.002,
             WhiskerScalar::Fitted => 1.0,
         }
     }

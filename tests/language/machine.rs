@@ -4,7 +4,8 @@
 use crate::common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
 use vibrissa_runtime::machine::{
-    Action, ActionPart, CHAIN_LIMIT, Cause, Failsafe, Failure, Flaw, Machine, Mark, Mover, SetError, Status, Turn,
+    Action, ActionPart, Cause, Failure, Fallback, MICROSTEP_LIMIT, Machine, Mark, Mover, NonFinite, SetError, Status,
+    Turn,
 };
 use vibrissa_runtime::units::Dimension;
 
@@ -143,10 +144,10 @@ fn a_tick_takes_eight_transitions_and_not_nine() {
         let states: Vec<String> = (0..length).map(link).collect();
         format!("machine m initial S0 {} state S{length} {{ stop }}", states.join(" "))
     };
-    assert_eq!(states(&chain(CHAIN_LIMIT), &mut Script::touches(".")), [format!("S{CHAIN_LIMIT}")]);
-    let (machine, ticks) = run(&chain(CHAIN_LIMIT + 1), &mut Script::touches(".."));
+    assert_eq!(states(&chain(MICROSTEP_LIMIT), &mut Script::touches(".")), [format!("S{MICROSTEP_LIMIT}")]);
+    let (machine, ticks) = run(&chain(MICROSTEP_LIMIT + 1), &mut Script::touches(".."));
     assert_eq!(ticks, vec![("Failure".to_owned(), Action::Stop); 2]);
-    assert_eq!(machine.failure(), Some(&Failure::Chain { state: "S8".into() }));
+    assert_eq!(machine.failure(), Some(&Failure::MicrostepLimit { state: "S8".into() }));
 }
 
 #[test]
@@ -172,7 +173,7 @@ fn a_command_that_is_not_finite_fails_with_the_states_name_and_the_number() {
         let (machine, ticks) = run(&text, &mut Script::touches(".."));
         assert_eq!(ticks, vec![("Failure".to_owned(), Action::Stop); 2], "and stands still for good");
         let failure = machine.failure().unwrap();
-        assert_eq!(failure, &Failure::NotFinite { state: "Bad".into(), flaw: Flaw { part, is_nan } });
+        assert_eq!(failure, &Failure::NotFinite { state: "Bad".into(), non_finite: NonFinite { part, is_nan } });
         assert_eq!(failure.to_string(), format!("state Bad gave a command that is not finite: {told}"));
     }
 }
@@ -225,25 +226,26 @@ fn a_tick_says_which_state_was_left_by_its_failsafe_and_why() {
     );
     let mut machine = Machine::new(program(&text).into());
     let tick = machine.tick(&mut Script::touches("."));
-    let flaw = Flaw { part: ActionPart::Speed, is_nan: false };
-    assert_eq!(tick.failsafe, Some(Failsafe { left: 1, cause: Cause::NotFinite(flaw) }));
+    let flaw = NonFinite { part: ActionPart::Speed, is_nan: false };
+    assert_eq!(tick.fallback, Some(Fallback { left: 1, cause: Cause::NotFinite(flaw) }));
     // The state that a failsafe leads to is the last that is tried.
     assert_eq!((tick.action, tick.status), (Action::Stop, Status::Failed));
-    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into(), flaw }));
-    assert_eq!(machine.tick(&mut Script::touches(".")).failsafe, None);
+    assert_eq!(machine.failure(), Some(&Failure::NotFinite { state: "C".into(), non_finite: flaw }));
+    assert_eq!(machine.tick(&mut Script::touches(".")).fallback, None);
 }
 
 #[test]
 fn a_ninth_transition_takes_the_failsafe_of_the_state_that_wants_it() {
     let link =
         |index: usize| format!("state S{index} {{ when true -> S{} failsafe -> Failure(\"S{index}\") }}", index + 1);
-    let states: Vec<String> = (0..CHAIN_LIMIT).map(link).collect();
-    let last =
-        format!("state S{CHAIN_LIMIT} {{ when true -> Last failsafe -> Safe }} state Last {{ }} state Safe {{ stop }}");
+    let states: Vec<String> = (0..MICROSTEP_LIMIT).map(link).collect();
+    let last = format!(
+        "state S{MICROSTEP_LIMIT} {{ when true -> Last failsafe -> Safe }} state Last {{ }} state Safe {{ stop }}"
+    );
     let mut machine = Machine::new(program(&format!("machine m initial S0 {} {last}", states.join(" "))).into());
     let tick = machine.tick(&mut Script::touches("."));
     assert_eq!(machine.state_name(), "Safe");
-    assert_eq!(tick.failsafe, Some(Failsafe { left: CHAIN_LIMIT, cause: Cause::Chain }));
+    assert_eq!(tick.fallback, Some(Fallback { left: MICROSTEP_LIMIT, cause: Cause::MicrostepLimit }));
     assert_eq!((tick.action, tick.status), (Action::Stop, Status::Running));
 }
 

@@ -3,7 +3,7 @@
 
 use vibrissa::diagnostic::{Diagnostic, Source};
 use vibrissa::policy::{chart, compile_with_warnings};
-use vibrissa_runtime::machine::{Action, Cause, Failsafe, Failure};
+use vibrissa_runtime::machine::{Action, Cause, Failure, Fallback};
 
 use crate::common::{Script, program, run, states};
 
@@ -84,7 +84,7 @@ fn a_failsafe_lets_the_machine_act_once_in_the_tick() {
     );
     let mut machine = vibrissa_runtime::machine::Machine::new(std::sync::Arc::new(program(&text)));
     let tick = machine.tick(&mut Script::touches("."));
-    assert_eq!(tick.failsafe, Some(Failsafe { left: 0, cause: Cause::Chain }));
+    assert_eq!(tick.fallback, Some(Fallback { left: 0, cause: Cause::MicrostepLimit }));
     assert!(matches!(tick.action, Action::Steer { speed: 1.0, .. }), "{tick:?}");
 }
 
@@ -126,7 +126,7 @@ fn it_is_no_state_and_shows_as_none() {
     let (own, inner) = (text("", memory), text(memory, ""));
     let [own, inner] = [own, inner].map(|text| Source::new("m.fsm", text));
     let [compiled, other] = [&own, &inner].map(|source| compile_with_warnings(source).unwrap());
-    assert_eq!(compiled.artifact.places, other.artifact.places);
+    assert_eq!(compiled.artifact.positions, other.artifact.positions);
     assert_eq!(compiled.warnings, []);
     assert_eq!(compiled.artifact.program.states.len(), 1);
     assert_eq!(chart(&own).unwrap(), chart(&inner).unwrap());

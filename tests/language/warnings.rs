@@ -176,7 +176,7 @@ impl Senses for Told {
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
         let name = match quantity {
-            WhiskerScalar::Deflection => "deflection",
+            WhiskerScalar::BaseAngle => "deflection",
             WhiskerScalar::Touching => "touching",
             WhiskerScalar::Side => "side",
             WhiskerScalar::Sense => "sense",
@@ -184,7 +184,7 @@ impl Senses for Told {
             WhiskerScalar::ContourReady => "contour.ready",
             WhiskerScalar::ContourCurvature => "contour.curvature",
             WhiskerScalar::Yaw => "yaw",
-            WhiskerScalar::TipSpread => "tip_spread",
+            WhiskerScalar::TipDeviation => "tip_spread",
             WhiskerScalar::Fitted => "fitted",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))

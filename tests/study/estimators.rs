@@ -7,8 +7,8 @@ use vibrissa::policy::compile;
 use vibrissa::report::estimators_tables;
 use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
-use vibrissa::study::estimators::{EstimatorRow, evaluate_all};
-use vibrissa_runtime::machine::TipModelKind;
+use vibrissa::study::estimators::{EstimatorRow, estimators_tables, judge_all};
+use vibrissa_runtime::machine::ContactEstimatorKind;
 
 /// Goes up, and nearer to the wall on the right.
 const POLICY: &str = "machine a  whisker r0  initial Up
@@ -65,10 +65,10 @@ fn all_models_meet_the_same_touches_in_the_world_that_is_asked_for_whatever_the_
     let program = Arc::new(compile(&Source::new("a.fsm", POLICY)).unwrap());
     let judged = |noise: &str| evaluate_all(&scene(noise), Arc::clone(&program), WorldKind::QuasiStatic).unwrap();
     let rows = judged("0 urad");
-    assert_eq!(rows.len(), 3 * TipModelKind::ALL.len());
+    assert_eq!(rows.len(), 3 * ContactEstimatorKind::ALL.len());
     let of = |model: &str, is: fn(f64) -> bool| rows.iter().find(|row| row.model == model && is(row.noise)).unwrap();
     // The surface is parallel to the heading, as models take it to be that do not know; but the bend grows, and the filter is late.
-    for model in TipModelKind::ALL.map(TipModelKind::name) {
+    for model in ContactEstimatorKind::ALL.map(ContactEstimatorKind::name) {
         let (clean, loud) = (of(model, |noise| noise <= 0.0), of(model, |noise| noise > 1.0));
         assert!(clean.told > 0.9 && clean.mean_mm.unwrap() < 0.5, "{clean:?}");
         assert!(loud.mean_mm.unwrap() > clean.mean_mm.unwrap(), "{loud:?}");

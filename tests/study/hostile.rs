@@ -164,7 +164,7 @@ proptest! {
         let mut program = program(policy);
         for (index, (parameter, end)) in program.parameters.iter().zip(&ends).enumerate() {
             if let (Some((low, high)), Some(end)) = (parameter.range, end) {
-                program.image[index] = low + end.round() * (high - low);
+                program.initial_registers[index] = low + end.round() * (high - low);
             }
         }
         let world = QuasiStaticWorld::new(&scene.rig, &scene.physics, &scene.solids, scene.start, 1);

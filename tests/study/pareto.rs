@@ -9,8 +9,10 @@ use vibrissa::report::{pareto_picture, pareto_table};
 use vibrissa::results::Ending;
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind};
-use vibrissa::study::pareto::{Change, Pareto, Setting, measure};
-use vibrissa_runtime::machine::{Program, TipModelKind};
+use vibrissa::study::Ending;
+use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS};
+use vibrissa::study::pareto::{Change, Pareto, Setting, measure, pareto_picture, pareto_table};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Program};
 
 fn disk() -> Scene {
     scenario::read(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap()
@@ -62,7 +64,7 @@ fn the_default_is_on_the_front() {
 fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
     let changes: [&[Change]; 3] = [
         &[Change::Links(8)],
-        &[Change::TipModel(TipModelKind::Sliding)],
+        &[Change::TipModel(ContactEstimatorKind::Sliding)],
         &[Change::Links(40), Change::Step(1.0 / 150.0)],
     ];
     let pareto = measured(WorldKind::QuasiStatic, &changes);

@@ -15,7 +15,7 @@ use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa_runtime::machine::{ActionPart, Cause, Failsafe, Flaw, Mark};
+use vibrissa_runtime::machine::{ActionPart, Cause, Fallback, Mark, NonFinite};
 use vibrissa_runtime::rig::Rig;
 
 fn disk() -> Contour {
@@ -70,9 +70,9 @@ fn a_result_has_the_keys_of_the_command_line() {
 #[test]
 fn a_result_tells_of_failsafes() {
     let mut run = half_round();
-    let flaw = Flaw { part: ActionPart::Speed, is_nan: true };
+    let flaw = NonFinite { part: ActionPart::Speed, is_nan: true };
     for tick in [7, 300] {
-        run.trace.ticks[tick].failsafe = Some(Failsafe { left: 1, cause: Cause::NotFinite(flaw) });
+        run.trace.ticks[tick].failsafe = Some(Fallback { left: 1, cause: Cause::NotFinite(flaw) });
     }
     let failsafes = result(&run).failsafes;
     assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));

@@ -8,7 +8,7 @@ use vibrissa::physics::Physics;
 use vibrissa::quasi_static::QuasiStaticWorld;
 use vibrissa::solid::Solid;
 use vibrissa::world::World;
-use vibrissa_runtime::machine::{BodyScalar, Senses, TipModelKind};
+use vibrissa_runtime::machine::{BodyScalar, ContactEstimatorKind, Senses};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample};
@@ -52,7 +52,7 @@ struct Felt {
 impl Loop {
     fn new(rig: &Rig, world: Box<dyn World>) -> Self {
         let whiskers: Vec<_> = (0..rig.whiskers.len()).map(Some).collect();
-        let kinds = vec![TipModelKind::OneChannel; whiskers.len()];
+        let kinds = vec![ContactEstimatorKind::OneChannel; whiskers.len()];
         Self {
             world,
             perception: Perception::new(rig, &whiskers, &kinds).unwrap(),

@@ -10,7 +10,7 @@ use vibrissa::physics::Physics;
 use vibrissa::physics::Preset;
 use vibrissa::solid::Solid;
 use vibrissa::world::World;
-use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample};
 
@@ -64,7 +64,7 @@ fn off_the_elastica(links: usize) -> (f64, f64) {
     let centre = to_base(CENTRE - base);
     let normal = to_base(touched - CENTRE);
     let elastica = Elastica::new(whisker);
-    let shape = |angle: f64, direction: f64| -> Bend {
+    let shape = |angle: f64, direction: f64| -> ShaftShape {
         let mut bend = elastica.straight();
         for share in 1..=10 {
             bend = elastica.solve_tip(angle * f64::from(share) / 10.0, wrap(direction), &bend).unwrap();

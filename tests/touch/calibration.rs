@@ -9,7 +9,7 @@ use vibrissa::geometry::{Point2, Pose, Vector2, rotate, unit};
 use vibrissa::scenario;
 use vibrissa::scenario::{read_calibration, write_calibration};
 use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactSet};
-use vibrissa_runtime::machine::{Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::percept::{Perception, TipTable};
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
@@ -100,7 +100,7 @@ proptest! {
         let place = sets[index % sets.len()].contact_base;
         prop_assert!(surface.contains(place));
         let place = place + off * unit(angle);
-        let off_places = surface.places.iter().map(|known| (Vector2::from(*known) - place).norm());
+        let off_places = surface.positions.iter().map(|known| (Vector2::from(*known) - place).norm());
         let nearest = off_places.fold(f64::INFINITY, f64::min);
         prop_assert!(nearest > 0.17 * surface.reach || surface.contains(place));
         prop_assert!(nearest <= surface.reach || !surface.contains(place));
@@ -280,7 +280,12 @@ fn a_line_that_cannot_be_read_is_told() {
 }
 
 /// What a left whisker that is bent by `base_angle` (rad) is perceived as, by a rig with a calibration.
-fn perceived(kind: TipModelKind, calibration: Option<Calibration>, stiffness: f64, base_angle: f64) -> Perception {
+fn perceived(
+    kind: ContactEstimatorKind,
+    calibration: Option<Calibration>,
+    stiffness: f64,
+    base_angle: f64,
+) -> Perception {
     let mut rig = Rig::default();
     rig.whiskers[1].hinge.stiffness = stiffness;
     rig.whiskers[1].calibration = calibration;
@@ -303,10 +308,10 @@ fn perceived(kind: TipModelKind, calibration: Option<Calibration>, stiffness: f6
 fn a_calibrated_hinge_is_perceived_as_if_the_rig_had_it() {
     let mut calibration = Calibration::new("stiffer than it was made".to_owned());
     calibration.hinge_stiffness = Some(1.4);
-    for kind in [TipModelKind::OneChannel, TipModelKind::Sliding, TipModelKind::Recursive] {
+    for kind in [ContactEstimatorKind::OneChannel, ContactEstimatorKind::Sliding, ContactEstimatorKind::Recursive] {
         let calibrated = perceived(kind, Some(calibration.clone()), 1.0, 3e-4);
         let (by_rig, made) = (perceived(kind, None, 1.4, 3e-4), perceived(kind, None, 1.0, 3e-4));
-        let tip = |perception: &Perception| perception.touch(0).unwrap().point_world;
+        let tip = |perception: &Perception| perception.contact(0).unwrap().point_world;
         // The delay of the hinge is its damping over its stiffness, and the angle does not change any more.
         assert!((tip(&calibrated) - tip(&by_rig)).norm() < 1e-12, "{kind:?}");
         assert!((tip(&calibrated) - tip(&made)).norm() > 1e-3, "{kind:?}");
@@ -317,16 +322,17 @@ fn a_calibrated_hinge_is_perceived_as_if_the_rig_had_it() {
 fn what_was_measured_is_what_one_channel_tells_and_beyond_its_range_it_tells_nothing() {
     let calibration = fitted(1.0, |set| set).calibration;
     let curve = calibration.one_channel.clone().unwrap();
-    let told = |base_angle: f64| perceived(TipModelKind::OneChannel, Some(calibration.clone()), 1.0, base_angle);
+    let told =
+        |base_angle: f64| perceived(ContactEstimatorKind::OneChannel, Some(calibration.clone()), 1.0, base_angle);
     let found = told(3e-4);
     let tip_base = found.whisker_vector(0, WhiskerVector::TipBase);
     assert!((tip_base - curve.at(3e-4)).norm() < 2e-6, "{tip_base} {}", curve.at(3e-4));
     let [xx, _, yy] = curve.covariance;
-    assert!((found.whisker(0, WhiskerScalar::TipSpread) / (xx + yy).sqrt() - 1.0).abs() < 1e-9);
+    assert!((found.whisker(0, WhiskerScalar::TipDeviation) / (xx + yy).sqrt() - 1.0).abs() < 1e-9);
     for base_angle in [1.01 * curve.range[1], 0.99 * curve.range[0]] {
         let beyond = told(base_angle);
-        assert_eq!((beyond.touch(0), beyond.recorded_tip(0)), (None, None));
-        assert!(beyond.whisker(0, WhiskerScalar::TipSpread).is_infinite());
+        assert_eq!((beyond.contact(0), beyond.recorded_tip(0)), (None, None));
+        assert!(beyond.whisker(0, WhiskerScalar::TipDeviation).is_infinite());
         // Something to steer by there is all the same: the end of what was measured.
         let end = curve.at(base_angle.clamp(curve.range[0], curve.range[1]));
         assert!((beyond.whisker_vector(0, WhiskerVector::TipBase) - end).norm() < 2e-4);

@@ -9,7 +9,7 @@ use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
 use vibrissa::trial::Trial;
 use vibrissa_runtime::control::{BindError, Control};
-use vibrissa_runtime::machine::{Action, Mover, Senses, TipModelKind, Turn, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{Action, ContactEstimatorKind, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::motion::Steering;
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
@@ -104,7 +104,7 @@ proptest! {
 
 #[test]
 fn a_whisker_that_is_not_there_is_at_rest_on_the_body_along_its_heading() {
-    let kinds = [TipModelKind::Sliding, TipModelKind::MomentAndShear];
+    let kinds = [ContactEstimatorKind::Sliding, ContactEstimatorKind::MomentAndShear];
     let mut perception = Perception::new(&Rig::default(), &[Some(0), None], &kinds).unwrap();
     for tick in 0..3 {
         // Its place among the readings belongs to another.
@@ -112,7 +112,7 @@ fn a_whisker_that_is_not_there_is_at_rest_on_the_body_along_its_heading() {
         perception.record(1);
         let pose = perception.pose();
         for quantity in [
-            WhiskerScalar::Deflection,
+            WhiskerScalar::BaseAngle,
             WhiskerScalar::Touching,
             WhiskerScalar::Sense,
             WhiskerScalar::ContourReady,

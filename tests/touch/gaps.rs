@@ -7,7 +7,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::{BodyScalar, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{BodyScalar, ContactEstimatorKind, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::percept::{LowPass, Perception};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
@@ -35,7 +35,7 @@ fn samples(base_angles: &[f64]) -> Vec<Sample> {
 }
 
 fn perception() -> Perception {
-    Perception::new(&Rig::default(), &[Some(0), Some(1)], &[TipModelKind::OneChannel; 2]).unwrap()
+    Perception::new(&Rig::default(), &[Some(0), Some(1)], &[ContactEstimatorKind::OneChannel; 2]).unwrap()
 }
 
 fn filter() -> LowPass {
@@ -96,7 +96,7 @@ proptest! {
         let mut perception = perception();
         for (tick, due) in samples(&readings).chunks(PER_TICK).zip(due(&readings)) {
             perception.update(tick);
-            let deflection = perception.deflection(0);
+            let deflection = perception.base_angle(0);
             if let Some(due) = due {
                 prop_assert!((deflection - due).abs() < 1e-12, "{deflection} {due}");
             } else {
@@ -112,7 +112,7 @@ proptest! {
         let mut perception = perception();
         let readings = [vec![before; 300], vec![f64::NAN; gap * PER_TICK], vec![after; PER_TICK]].concat();
         samples(&readings).chunks(PER_TICK).for_each(|tick| perception.update(tick));
-        prop_assert!((perception.deflection(0) - after).abs() < 1e-15);
+        prop_assert!((perception.base_angle(0) - after).abs() < 1e-15);
     }
 }
 
@@ -260,11 +260,11 @@ proptest! {
             prop_assert!(command.is_finite(), "{command:?}");
             // Bursts end long before the last second: by then nothing of them is left.
             if index + 30 >= ticks {
-                prop_assert!(given.failsafe.is_none() && control.machine().failure().is_none(), "tick {index}");
+                prop_assert!(given.fallback.is_none() && control.machine().failure().is_none(), "tick {index}");
                 moving += usize::from(command.velocity_world.norm() > 1e-3);
             }
         }
         prop_assert!(moving > 0);
-        prop_assert!((control.perception().deflection(0) + 3e-4).abs() < 1e-9);
+        prop_assert!((control.perception().base_angle(0) + 3e-4).abs() < 1e-9);
     }
 }

@@ -8,6 +8,7 @@ mod cable;
 mod calibration;
 #[path = "../common/mod.rs"]
 mod common;
+mod contact_estimators;
 mod elastica;
 mod fitted;
 #[cfg(feature = "sim")]
@@ -21,7 +22,6 @@ mod sliding;
 #[cfg(feature = "sim")]
 mod stability;
 mod steering;
-mod tip_model;
-mod tip_models;
+mod tip_curve;
 #[cfg(feature = "sim")]
 mod world;

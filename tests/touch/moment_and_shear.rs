@@ -7,9 +7,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use vibrissa::geometry::{Pose, Vector2, rotate, unit};
-use vibrissa_runtime::machine::{Senses, TipModelKind};
-use vibrissa_runtime::mechanics::{Bend, Elastica};
-use vibrissa_runtime::percept::{Perception, PerceptionError, Touch};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Senses};
+use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
+use vibrissa_runtime::percept::{Contact, Perception, PerceptionError};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
@@ -20,8 +20,8 @@ fn rig() -> Rig {
 }
 
 /// What is told of a whisker that rests in a bend, with noise by standard normal numbers.
-fn told(rig: &Rig, bend: &Bend, mut normal: impl FnMut() -> f64) -> (Perception, Option<Touch>) {
-    let kinds = [TipModelKind::MomentAndShear];
+fn told(rig: &Rig, bend: &ShaftShape, mut normal: impl FnMut() -> f64) -> (Perception, Option<Contact>) {
+    let kinds = [ContactEstimatorKind::MomentAndShear];
     let mut perception = Perception::new(rig, &[Some(1)], &kinds).unwrap();
     let sensing = &rig.sensing;
     for tick in 0..9 {
@@ -35,19 +35,19 @@ fn told(rig: &Rig, bend: &Bend, mut normal: impl FnMut() -> f64) -> (Perception,
         perception.update(&samples);
         perception.record(0);
     }
-    let touch = perception.touch(0).copied();
+    let touch = perception.contact(0).copied();
     (perception, touch)
 }
 
 /// Where a bend of the left whisker is touched (m), with the platform at the origin.
-fn place(rig: &Rig, bend: &Bend) -> Vector2 {
+fn place(rig: &Rig, bend: &ShaftShape) -> Vector2 {
     let whisker = &rig.whiskers[1];
     let surface = bend.contact_base - whisker.shaft.radius * unit(bend.force_direction);
     whisker.base_body.coords + rotate(surface, whisker.direction_body)
 }
 
 /// Bends by touches without friction: on the shaft, or at the tip; to the left or to the right.
-fn bends() -> impl Strategy<Value = Bend> {
+fn bends() -> impl Strategy<Value = ShaftShape> {
     let elastica = Elastica::new(&Rig::default().whiskers[1]);
     let on_shaft = (0.4..0.97_f64, Just(FRAC_PI_2));
     let at_tip = (Just(1.0), FRAC_PI_2 + 0.05..FRAC_PI_2 + 0.7);
@@ -117,7 +117,7 @@ proptest! {
 
 #[test]
 fn a_rig_that_measures_no_forces_cannot_be_perceived_so_and_the_error_says_what_to_do() {
-    let error = Perception::new(&Rig::default(), &[Some(0)], &[TipModelKind::MomentAndShear]).unwrap_err();
+    let error = Perception::new(&Rig::default(), &[Some(0)], &[ContactEstimatorKind::MomentAndShear]).unwrap_err();
     assert!(matches!(error, PerceptionError::NoForces { .. }));
     let text = error.to_string();
     assert!(text.contains("`r0`") && text.contains("sensing: {forces: true}"), "{text}");
@@ -130,7 +130,7 @@ fn without_a_shear_or_with_one_that_no_touch_has_nothing_is_told() {
     let bend = elastica.under(0.1, FRAC_PI_2, 5e-3).unwrap();
     assert!(told(&rig, &bend, || 0.0).1.is_some());
     for shear in [f64::NAN, -1.0] {
-        let (perception, touch) = told(&rig, &Bend { shear, ..bend }, || 0.0);
+        let (perception, touch) = told(&rig, &ShaftShape { shear, ..bend }, || 0.0);
         assert_eq!((touch, perception.recorded_tip(0)), (None, None));
     }
 }

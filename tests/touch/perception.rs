@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa_runtime::machine::{ContourVector, Senses, TipModelKind, WhiskerVector};
+use vibrissa_runtime::machine::{ContactEstimatorKind, ContourVector, Senses, WhiskerVector};
 use vibrissa_runtime::percept::{LocalContour, LowPass, Perception};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
@@ -211,7 +211,7 @@ proptest! {
 /// heading, forwards or backwards, and have then been lifted off it and moved by `gone`.
 fn after_swiping(whisker: usize, body: Pose, forwards: f64, gone: Vector2) -> Perception {
     let rig = Rig::default();
-    let mut perception = Perception::new(&rig, &[Some(0), Some(1)], &[TipModelKind::OneChannel; 2]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(0), Some(1)], &[ContactEstimatorKind::OneChannel; 2]).unwrap();
     let bent = 3e-4 * rig.whiskers[whisker].side() * forwards;
     let feel = |perception: &mut Perception, position, angle: f64| {
         let mut whiskers = [Reading::default(); MAX_WHISKERS];

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
-use vibrissa_runtime::machine::{Senses, TipModelKind, WhiskerScalar};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Senses, WhiskerScalar};
 use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain};
 use vibrissa_runtime::percept::{Perception, TipTable};
 use vibrissa_runtime::rig::{Rig, Whisker};
@@ -167,7 +167,7 @@ fn errors(way: &Way, length: f64, noise: f64, change: impl Fn(usize, &mut Sample
     let mut rig = rig();
     rig.sensing.angle_noise = noise;
     let table = TipTable::new(&rig.whiskers[0]);
-    let mut perception = Perception::new(&rig, &[Some(way.whisker)], &[TipModelKind::Sliding]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(way.whisker)], &[ContactEstimatorKind::Sliding]).unwrap();
     let mut errors = Vec::new();
     let mut index = 0;
     while way.speed * index as f64 / RATE < length {
@@ -190,7 +190,7 @@ fn errors(way: &Way, length: f64, noise: f64, change: impl Fn(usize, &mut Sample
             errors.push((
                 way.speed * index as f64 / RATE,
                 error.abs(),
-                perception.whisker(0, WhiskerScalar::TipSpread),
+                perception.whisker(0, WhiskerScalar::TipDeviation),
             ));
         }
     }
@@ -269,7 +269,7 @@ fn a_surface_that_ends_in_an_edge_is_found_again_behind_it() {
     // After 0.05 m and half a second of swinging the tip is on a surface turned by 40°, 15 mm behind the edge; the body is as before.
     let rig = rig();
     let table = TipTable::new(&rig.whiskers[0]);
-    let mut perception = Perception::new(&rig, &[Some(0)], &[TipModelKind::Sliding]).unwrap();
+    let mut perception = Perception::new(&rig, &[Some(0)], &[ContactEstimatorKind::Sliding]).unwrap();
     let turn: f64 = -40.0_f64.to_radians();
     let edge = before.surface(1.0).0;
     let mut index = 0;

@@ -35,7 +35,7 @@ impl Control {
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
         Ok(Self {
-            perception: Perception::new(rig, &whiskers, &program.tip_models)?,
+            perception: Perception::new(rig, &whiskers, &program.contact_estimators)?,
             steering: Steering::new(rig, &whiskers),
             machine: Machine::new(program),
         })

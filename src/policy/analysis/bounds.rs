@@ -19,7 +19,12 @@ pub(super) struct Bounds<'m> {
 
 impl<'m> Bounds<'m> {
     pub(super) fn new(model: &'m Model<'m>) -> Self {
-        Self { model, cells: vec![(0, Interval::ANYTHING); model.program.image.len()], evaluation: 0, work: 0 }
+        Self {
+            model,
+            cells: vec![(0, Interval::ANYTHING); model.program.initial_registers.len()],
+            evaluation: 0,
+            work: 0,
+        }
     }
 
     /// The interval of `register` after `code` in a region. `None` if the code has side effects.

@@ -30,10 +30,10 @@ pub(super) fn cycles(model: &Model<'_>) -> Vec<Diagnostic> {
         let fails = |point: &Point, registers: Vec<f64>| {
             has_independent_inputs(model, point) && {
                 let mut machine = Machine::entering(Arc::clone(&program), start, registers);
-                let left = machine.tick(&mut point.clone()).failsafe;
-                // A fallback transition is for unexpected failures, so it does not excuse a cycle.
-                matches!(machine.failure(), Some(Failure::Chain { .. }))
-                    || left.is_some_and(|failsafe| failsafe.cause == Cause::Chain)
+                let left = machine.tick(&mut point.clone()).fallback;
+                // A failsafe is for what nobody foresaw, and so excuses no cycle.
+                matches!(machine.failure(), Some(Failure::MicrostepLimit { .. }))
+                    || left.is_some_and(|failsafe| failsafe.cause == Cause::MicrostepLimit)
             }
         };
         let goals: Vec<Goal<'_>> = path.iter().flat_map(|&step| goals(model, step)).collect();

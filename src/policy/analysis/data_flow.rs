@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use vibrissa_runtime::machine::{Op, Place, Program, Register};
+use vibrissa_runtime::machine::{Op, Program, Register, RegisterSpan};
 
 /// The maximum number of values per register. More are treated as unknown.
 const VALUE_LIMIT: usize = 16;
@@ -27,7 +27,7 @@ pub(super) struct Flow(Vec<Origin>);
 
 impl Flow {
     pub(super) fn new(program: &Program) -> Self {
-        let mut origins = vec![Origin::Start; program.image.len()];
+        let mut origins = vec![Origin::Start; program.initial_registers.len()];
         for op in &program.code {
             match *op {
                 Op::Copy { to, a } => {
@@ -40,7 +40,7 @@ impl Flow {
                     }
                 }
                 _ => {
-                    for register in op.operands().writes.into_iter().flat_map(Place::registers) {
+                    for register in op.operands().writes.into_iter().flat_map(RegisterSpan::registers) {
                         if let Some(origin) = origins.get_mut(register) {
                             *origin = Origin::Computed;
                         }
@@ -64,7 +64,7 @@ impl Flow {
                 Origin::Computed => return None,
                 // A run may set parameters.
                 Origin::Start if usize::from(register) < program.parameters.len() => return None,
-                Origin::Start => values.push(*program.image.get(usize::from(register))?),
+                Origin::Start => values.push(*program.initial_registers.get(usize::from(register))?),
                 Origin::Copies(sources) => open.extend(sources.iter().filter(|&&source| seen.insert(source))),
             }
             if values.len() > VALUE_LIMIT || seen.len() > REACH_LIMIT {

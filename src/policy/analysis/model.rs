@@ -116,7 +116,7 @@ impl<'a> Model<'a> {
         let states = states.enumerate().map(|(index, ((written, state), arguments))| Node {
             name: &written.name,
             edges: edges(Some(index), &state.transitions, &written.transitions),
-            failsafe: program.failsafe_of(index).map(|(_, target)| target),
+            failsafe: program.fallback_of(index).map(|(_, target)| target),
             arguments,
         });
         Self {
@@ -160,7 +160,7 @@ impl<'a> Model<'a> {
     /// The innermost state that a transition enters while `innermost` is the innermost active state, or the state that
     /// it resumes. `None` for a failure, and if the target is already active.
     pub(super) fn leads_to_one(&self, edge: &Edge<'_>, innermost: usize) -> Option<usize> {
-        if edge.leads_to().is_some_and(|state| self.program.is_settled(edge.from, state, innermost)) {
+        if edge.leads_to().is_some_and(|state| self.program.is_target_active(edge.from, state, innermost)) {
             return None;
         }
         self.begins_in(edge.target)

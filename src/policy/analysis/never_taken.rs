@@ -71,7 +71,7 @@ pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>)
 
 /// True if a transition leaves its state, so that the durations of the others begin again.
 fn leaves(program: &Program, edge: &Edge<'_>) -> bool {
-    edge.leads_to().is_none_or(|target| !program.is_settled(edge.from, target, target))
+    edge.leads_to().is_none_or(|target| !program.is_target_active(edge.from, target, target))
 }
 
 /// True if one transition is always due no later than another, and is then taken instead of it.

@@ -80,7 +80,7 @@ impl<'m> Region<'m> {
             return self.parts[index].domain.hull();
         }
         let Some(domain) = self.model.domain(register) else {
-            let image = &self.model.program.image;
+            let image = &self.model.program.initial_registers;
             return image.get(usize::from(register)).map_or(Interval::ANYTHING, |&value| Interval::point(value));
         };
         // An unnamed value could not be shown in a message.
@@ -135,8 +135,8 @@ impl<'m> Region<'m> {
             WhiskerScalar::Touching | WhiskerScalar::Side | WhiskerScalar::Sense => {
                 self.keep(Unknown::Contact(whisker), |domain| domain.keep_contacts(quantity, to))
             }
-            WhiskerScalar::Deflection => {
-                // For a whisker in contact only the magnitude matters, and it is at least the contact threshold.
+            WhiskerScalar::BaseAngle => {
+                // Of a whisker that touches only the magnitude counts here, and is at least that of a touch.
                 let free = self.range(Unknown::Deflection(whisker));
                 let size = to.absolute();
                 let size = Interval {
@@ -154,7 +154,7 @@ impl<'m> Region<'m> {
                 self.narrow(Unknown::Deflection(whisker), side)
             }
             WhiskerScalar::ContourReady => self.keep(Unknown::Contour(whisker), |domain| domain.keep_ready(to)),
-            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
+            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipDeviation | WhiskerScalar::Fitted => {
                 self.narrow(Unknown::Whisker(whisker, quantity), to)
             }
             WhiskerScalar::ContourCurvature => {

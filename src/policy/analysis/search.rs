@@ -78,7 +78,7 @@ pub(super) struct Search<'m> {
 
 impl<'m> Search<'m> {
     pub(super) fn new(model: &'m Model<'m>) -> Self {
-        Self { model, bounds: Bounds::new(model), registers: model.program.image.clone() }
+        Self { model, bounds: Bounds::new(model), registers: model.program.initial_registers.clone() }
     }
 
     /// True if the budget of operations is used up.
@@ -193,7 +193,7 @@ impl<'m> Search<'m> {
     }
 
     fn leave(&mut self, point: &Point) {
-        let image = &self.model.program.image;
+        let image = &self.model.program.initial_registers;
         self.put(point, |register, _| image[usize::from(register)]);
     }
 

@@ -69,12 +69,10 @@ impl Domain {
             Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
             Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
-            Unknown::Tangent(_) | Unknown::Normal(_) => range(-PI, PI),
-            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
-            Unknown::Whisker(_, WhiskerScalar::TipSpread) => range(0.0, f64::INFINITY),
-            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => {
-                range(-DISTANCE_LIMIT, DISTANCE_LIMIT)
-            }
+            Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
+            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
+            Unknown::Whisker(_, WhiskerScalar::TipDeviation) => range(0.0, f64::INFINITY),
+            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => range(-FAR, FAR),
         }
     }
 
@@ -186,7 +184,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
             let values = contacts(source, whisker).map(|contact| Interval::point(reading(quantity, contact)));
             values.reduce(Interval::join).unwrap_or(Interval::ANYTHING)
         }
-        WhiskerScalar::Deflection => {
+        WhiskerScalar::BaseAngle => {
             let free = source.range(Unknown::Deflection(whisker));
             let size = free.absolute();
             let angle = Interval::new(size.low.max(MIN_CONTACT_ANGLE), size.high.max(MIN_CONTACT_ANGLE));
@@ -202,7 +200,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
             let curvature = source.range(Unknown::Whisker(whisker, quantity));
             once_readable(source, whisker, curvature)
         }
-        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipSpread | WhiskerScalar::Fitted => {
+        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipDeviation | WhiskerScalar::Fitted => {
             source.range(Unknown::Whisker(whisker, quantity))
         }
     }

@@ -67,7 +67,12 @@ const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static
 }
 
 const WHISKER: [Member; 13] = [
-    scalar("deflection", Type::ANGLE, WhiskerScalar::Deflection, "the filtered base angle, counter-clockwise positive"),
+    scalar(
+        "deflection",
+        Type::ANGLE,
+        WhiskerScalar::BaseAngle,
+        "the filtered angle of its base, counter-clockwise positive",
+    ),
     scalar(
         "touching",
         Type::Truth,
@@ -97,8 +102,8 @@ const WHISKER: [Member; 13] = [
     scalar(
         "tip_spread",
         Type::LENGTH,
-        WhiskerScalar::TipSpread,
-        "the standard deviation of `tip` that the contact estimator reports. It is infinite outside of the estimator's range",
+        WhiskerScalar::TipDeviation,
+        "how far off `tip` may be by its tip model, as a standard deviation; infinite beyond the model's range",
     ),
     position("base", WhiskerVector::Base, "the position of the base"),
     scalar(

@@ -75,7 +75,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     Some(Program {
         name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
-        tip_models,
+        contact_estimators: tip_models,
         optional: file.optional.clone(),
         parameters,
         states,
@@ -85,9 +85,9 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         entry,
         body,
         always,
-        failsafe,
+        fallback: failsafe,
         code: std::mem::take(&mut compiler.code.ops),
-        image: std::mem::take(&mut compiler.code.initial),
+        initial_registers: std::mem::take(&mut compiler.code.image),
         timers,
     })
 }
@@ -134,20 +134,20 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The contact estimator of every whisker.
-    fn tip_models(&mut self, file: &'f File) -> Vec<machine::TipModelKind> {
+    /// The tip model of every whisker.
+    fn tip_models(&mut self, file: &'f File) -> Vec<machine::ContactEstimatorKind> {
         let mut kinds = Vec::with_capacity(file.whiskers.len());
         let mut faulty = None;
         for model in &file.tip_models {
-            let kind = model
-                .as_ref()
-                .map_or(Some(machine::TipModelKind::default()), |name| machine::TipModelKind::named(&name.text));
+            let kind = model.as_ref().map_or(Some(machine::ContactEstimatorKind::default()), |name| {
+                machine::ContactEstimatorKind::named(&name.text)
+            });
             if let (None, Some(name)) = (kind, model)
                 && faulty != Some(name.span)
             {
                 faulty = Some(name.span);
-                let message = format!("there is no contact estimator `{}`", name.text);
-                let known = machine::TipModelKind::ALL.map(machine::TipModelKind::name);
+                let message = format!("there is no tip model `{}`", name.text);
+                let known = machine::ContactEstimatorKind::ALL.map(machine::ContactEstimatorKind::name);
                 let list = known.map(|name| format!("`{name}`")).join(", ");
                 let diagnostic = Diagnostic::error("P0414", message, name.span, "is none");
                 self.report(did_you_mean(diagnostic, &name.text, known).hint(format!("contact estimators are {list}")));
@@ -290,7 +290,7 @@ impl<'f> Compiler<'f> {
         self.commandless = None;
         self.check_size(state.name.span);
         let name = Arc::from(state.name.text.as_str());
-        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, failsafe }
+        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, fallback: failsafe }
     }
 
     /// Lowers the entry of a state.

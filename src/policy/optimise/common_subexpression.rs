@@ -1,6 +1,6 @@
 //! Elimination of common subexpressions, and copy propagation.
 
-use vibrissa_runtime::machine::{Effect, Op, Operands, Place, Register, Role};
+use vibrissa_runtime::machine::{Effect, Op, Operands, Register, RegisterSpan, Role};
 
 use super::draft::Draft;
 
@@ -140,12 +140,12 @@ impl KnownValues {
         Some(same.operands.writes[0].first)
     }
 
-    /// True if an operation would give the same result again.
-    fn is_valid(&self, known: &Known) -> bool {
-        let written = |place: &Place| self.written[place.registers()].iter();
+    /// Whether an operation would give again what it gave.
+    fn holds(&self, known: &Known) -> bool {
+        let written = |place: &RegisterSpan| self.written[place.registers()].iter();
         known.operands.writes.iter().flat_map(written).all(|&written| written == known.number)
             && known.operands.all_reads().iter().flat_map(written).all(|&written| written < known.number)
-            && (known.op.effect() != Effect::Feels || self.recorded < known.number)
+            && (known.op.effect() != Effect::Sensing || self.recorded < known.number)
     }
 
     fn copy(&mut self, number: usize, to: Register, from: Register) {
@@ -154,9 +154,9 @@ impl KnownValues {
     }
 }
 
-/// The operation with its result register set to 0. `None` for a copy, and for operations with side effects.
-fn canonical(mut op: Op) -> Option<Op> {
-    if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::Acts {
+/// An operation with its result in register 0; `None` for a copy, and for one that does more than to give a result.
+fn placeless(mut op: Op) -> Option<Op> {
+    if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::SideEffect {
         return None;
     }
     op.visit(|role, register| {

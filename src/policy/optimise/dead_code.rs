@@ -17,7 +17,7 @@ pub(super) fn remove(draft: &mut Draft, operands: &[Operands]) -> Vec<u32> {
     // Backwards, so that inputs of removed operations also become dead.
     for ((op, operands), is_kept) in draft.ops.iter().zip(operands).zip(&mut draft.is_kept).rev() {
         let is_unread = || operands.writes.iter().all(|place| reads[place.registers()].iter().all(|&count| count == 0));
-        if op.effect() != Effect::Acts && is_unread() {
+        if op.effect() != Effect::SideEffect && is_unread() {
             *is_kept = false;
             for place in operands.all_reads() {
                 reads[place.registers()].iter_mut().for_each(|count| *count -= 1);

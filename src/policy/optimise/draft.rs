@@ -23,7 +23,7 @@ impl Draft {
 
     /// Number of registers.
     pub(super) fn registers(&self) -> usize {
-        self.program.image.len()
+        self.program.initial_registers.len()
     }
 
     /// Registers that transitions read.
@@ -91,13 +91,13 @@ fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
         guards.into_iter().chain(list.iter().map(|one| of_target(&one.target))).collect::<Vec<Block>>()
     };
     let mut blocks = of_list(&program.always);
-    blocks.extend(program.failsafe.iter().map(of_target));
+    blocks.extend(program.fallback.iter().map(of_target));
     blocks.extend([&program.entry, &program.body].map(Block::clone));
     for state in &program.states {
         blocks.extend(of_list(&state.transitions));
         blocks.extend([&state.entry, &state.body, &state.exit].map(Block::clone));
         blocks.extend(state.initial.iter().map(|(_, values)| values.clone()));
-        blocks.extend(state.failsafe.iter().map(of_target));
+        blocks.extend(state.fallback.iter().map(of_target));
     }
     blocks.retain(|block| !block.is_empty());
     blocks.sort_by_key(|block| block.start);
@@ -119,13 +119,13 @@ fn blocks(program: &mut Program) -> Vec<&mut Block> {
         })
     }
     let mut blocks: Vec<&mut Block> = of_list(&mut program.always).collect();
-    blocks.extend(program.failsafe.as_mut().and_then(of_target));
+    blocks.extend(program.fallback.as_mut().and_then(of_target));
     blocks.extend([&mut program.entry, &mut program.body]);
     for state in &mut program.states {
         blocks.extend(of_list(&mut state.transitions));
         blocks.extend([&mut state.entry, &mut state.body, &mut state.exit]);
         blocks.extend(state.initial.as_mut().map(|(_, values)| values));
-        blocks.extend(state.failsafe.as_mut().and_then(of_target));
+        blocks.extend(state.fallback.as_mut().and_then(of_target));
     }
     blocks
 }

@@ -1,6 +1,6 @@
 //! Loop-invariant code motion: the computation of run invariants at the start of the run.
 
-use vibrissa_runtime::machine::{Effect, Operands, Place};
+use vibrissa_runtime::machine::{Effect, Operands, RegisterSpan};
 
 use super::draft::Draft;
 
@@ -13,10 +13,10 @@ pub(super) fn hoist(draft: &mut Draft, operands: &[Operands]) {
         writers[place.registers()].iter_mut().for_each(|count| *count += 1);
     }
     for ((op, operands), is_kept) in draft.ops.iter().zip(operands).zip(&mut draft.is_kept) {
-        let are = |count: u32, places: &[Place]| {
+        let are = |count: u32, places: &[RegisterSpan]| {
             places.iter().all(|place| writers[place.registers()].iter().all(|&writers| writers == count))
         };
-        if *is_kept && op.effect() == Effect::Computes && are(0, &operands.reads) && are(1, &operands.writes) {
+        if *is_kept && op.effect() == Effect::Pure && are(0, &operands.reads) && are(1, &operands.writes) {
             *is_kept = false;
             draft.start.push(*op);
             // The results are invariant from now on.

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use crate::geometry::{Point2, rotate, unit};
 use crate::run::{TickRecord, Trace};
-use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
 /// The force's directions (degrees, frame of the base) among which the one is sought that brings the tip to where it was perceived.
@@ -20,14 +20,14 @@ pub(super) fn shaft_body(whisker: &Whisker, trace: &Trace, tick: &TickRecord) ->
 }
 
 /// The same in the frame of the base. A cubic is just what a uniform shaft bends to under a small force at its tip.
-fn curve_base(whisker: &Whisker, bend: &Bend) -> [Vector2<f64>; 4] {
+fn curve_base(whisker: &Whisker, bend: &ShaftShape) -> [Vector2<f64>; 4] {
     let third = whisker.shaft.length / 3.0;
     let tip = bend.tip_base;
     [Vector2::zeros(), third * unit(bend.base_angle), tip - third * unit(bend.tip_angle), tip]
 }
 
 /// The elastica with the base angle that was sensed whose tip is nearest to where it was perceived. `None` if it touches nothing.
-fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<Bend> {
+fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<ShaftShape> {
     let index = trace.whiskers.iter().position(|name| *name == whisker.name)?;
     let (base_angle, touch) = (tick.deflections[index], tick.touches[index]);
     if !touch.is_touching || base_angle == 0.0 || !base_angle.is_finite() {
@@ -41,18 +41,18 @@ fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<Bend> {
 
 /// The same for a base angle (rad) and a place of the touch (m, frame of the base). Without one the surface is taken to be parallel to the
 /// heading.
-fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>) -> Option<Bend> {
+fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>) -> Option<ShaftShape> {
     if base_angle < 0.0 {
         let mirrored = touch_base.map(|place| Vector2::new(place.x, -place.y));
         return bend_to(whisker, -base_angle, mirrored).map(|bend| bend.mirrored());
     }
     let elastica = Elastica::new(whisker);
-    let solve = |direction: f64, guess: &Bend| elastica.solve_tip(base_angle, direction, guess);
+    let solve = |direction: f64, guess: &ShaftShape| elastica.solve_tip(base_angle, direction, guess);
     let Some(touch_base) = touch_base else {
         return solve(whisker.usual_normal(), &elastica.straight());
     };
     let tip_radius = whisker.shaft.radius_at(1.0);
-    let miss = |bend: &Bend| (bend.tip_base - tip_radius * unit(bend.force_direction) - touch_base).norm();
+    let miss = |bend: &ShaftShape| (bend.tip_base - tip_radius * unit(bend.force_direction) - touch_base).norm();
     let (mut nearest, mut between) = (None, DIRECTIONS);
     for step in STEPS {
         let mut guess = nearest.unwrap_or_else(|| elastica.straight());
@@ -79,7 +79,7 @@ mod tests {
     use vibrissa_runtime::rig::Rig;
 
     /// Where the ends of a chain's links are when it has the base angle of `bend` under a force in the same direction.
-    fn chain(whisker: &Whisker, bend: &Bend) -> Vec<Vector2<f64>> {
+    fn chain(whisker: &Whisker, bend: &ShaftShape) -> Vec<Vector2<f64>> {
         let shaft = &whisker.shaft;
         let stiffnesses: Vec<f64> = shaft.joint_stiffnesses().collect();
         let solved = ShaftChain::new(whisker);

@@ -7,7 +7,7 @@ use crate::score::{ErrorFigures, Tip};
 use crate::trial::{ExecuteError, Recording, Trial, processor_time};
 use crate::world::Sensors;
 use vibrissa_runtime::control::BindError;
-use vibrissa_runtime::machine::{Program, Senses, TipModelKind};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Program, Senses};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::{Rig, Sensing};
 use vibrissa_runtime::signal::Sample;
@@ -27,16 +27,14 @@ pub fn evaluate_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> R
     scene.rig.sensing.forces = true;
     make_noisy(&mut scene.rig.sensing, 0.0);
     let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
-    let mut trial = Trial::new(scene.clone(), program);
-    trial.world = world.into();
-    let mut recording = trial.record()?;
-    let mut rows = Vec::with_capacity(NOISES.len() * TipModelKind::ALL.len());
+    let mut tape = Tape::record(&scene, &scene.rig, program, world)?;
+    let mut rows = Vec::with_capacity(NOISES.len() * ContactEstimatorKind::ALL.len());
     for factor in NOISES {
         let mut rig = scene.rig.clone();
         make_noisy(&mut rig.sensing, factor);
-        let clean = std::mem::take(&mut recording.ticks);
-        recording.ticks = noisy(&clean, &rig, scene.seed);
-        for kind in TipModelKind::ALL {
+        let clean = std::mem::take(&mut tape.ticks);
+        tape.ticks = noisy(&clean, &rig, scene.seed);
+        for kind in ContactEstimatorKind::ALL {
             let kinds = vec![kind; whiskers.len()];
             rows.push(evaluate(&scene, &rig, (&whiskers, &kinds), &recording, factor)?);
         }
@@ -73,8 +71,8 @@ fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
 pub(in crate::study) fn evaluate(
     scene: &Scene,
     rig: &Rig,
-    (whiskers, kinds): (&[Option<usize>], &[TipModelKind]),
-    recording: &Recording,
+    (whiskers, kinds): (&[Option<usize>], &[ContactEstimatorKind]),
+    tape: &Tape,
     noise: f64,
 ) -> Result<EstimatorRow, ExecuteError> {
     let mut perception = Perception::new(rig, whiskers, kinds).map_err(BindError::from)?;
@@ -94,9 +92,9 @@ pub(in crate::study) fn evaluate(
             perception.record(bound);
             let Some(tip_world) = perception.recorded_tip(bound) else { continue };
             let length = rig.whiskers[in_rig].shaft.length;
-            on_shaft += usize::from(perception.touch(bound).is_some_and(|touch| touch.contact_length < length));
+            on_shaft += usize::from(perception.contact(bound).is_some_and(|touch| touch.contact_length < length));
             let error = scene.truth.surfaces.nearest(tip_world).distance;
-            let spread = perception.recorded_spread(bound);
+            let spread = perception.recorded_deviation(bound);
             tips.push(Tip { tick: index, whisker, tip_world, error, spread, offset: None });
         }
     }

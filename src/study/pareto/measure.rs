@@ -73,7 +73,7 @@ pub fn measure(
         scenario: scene.name.clone(),
         policy: program.name.clone(),
         repeats,
-        tip_models: program.tip_models.iter().map(|kind| kind.name()).collect(),
+        tip_models: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
         floor_mm,
         settings: rows,
     })
@@ -139,11 +139,12 @@ fn re_estimated(trial: &Trial, kind: TipModelKind) -> Result<Measured, ExecuteEr
     let start = processor_time();
     let recording = trial.record()?;
     let seconds = processor_time() - start;
-    let kinds = vec![kind; whiskers.len()];
-    let own = evaluate(scene, assumed_rig, (&whiskers, &program.tip_models), &recording, 0.0)?;
-    let other = evaluate(scene, assumed_rig, (&whiskers, &kinds), &recording, 0.0)?;
-    let more = 1e-6 * (other.tick_us - own.tick_us) * recording.result.run.trace.ticks.len() as f64;
-    let run = Measured::new(&recording.result, seconds + more);
+    let kinds =
+        setting.tip_model().map_or_else(|| program.contact_estimators.clone(), |kind| vec![kind; whiskers.len()]);
+    let own = judge(scene, perceived, (&whiskers, &program.contact_estimators), &tape, 0.0)?;
+    let other = judge(scene, perceived, (&whiskers, &kinds), &tape, 0.0)?;
+    let more = 1e-6 * (other.tick_us - own.tick_us) * tape.run.trace.ticks.len() as f64;
+    let run = Measured::new(&tape.run, scene, seconds + more);
     Ok(Measured { error_mm: other.mean_mm, coverage: None, estimate: None, ..run })
 }
 

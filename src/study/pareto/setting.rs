@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::physics::{Integrator, Physics, Solver};
 use crate::scene::{Scene, WorldKind};
-use vibrissa_runtime::machine::TipModelKind;
+use vibrissa_runtime::machine::ContactEstimatorKind;
 use vibrissa_runtime::rig::Rig;
 
 /// What a setting has that the scenario has not.
@@ -28,7 +28,7 @@ pub enum Change {
     /// How MuJoCo finds the forces of contacts.
     Solver(Solver),
     /// The tip model of every whisker.
-    TipModel(TipModelKind),
+    TipModel(ContactEstimatorKind),
 }
 
 /// A setting: the scenario with some changes, one after the other; the default has none.
@@ -100,11 +100,11 @@ impl Setting {
             seen.push(about);
             is_new
         };
-        all.filter(is_new).chain(TipModelKind::ALL.map(|kind| Self(vec![TipModel(kind)]))).collect()
+        all.filter(is_new).chain(ContactEstimatorKind::ALL.map(|kind| Self(vec![TipModel(kind)]))).collect()
     }
 
     /// The tip model that takes the place of the policy's own.
-    pub(super) fn tip_model(&self) -> Option<TipModelKind> {
+    pub(super) fn tip_model(&self) -> Option<ContactEstimatorKind> {
         self.0.iter().find_map(|change| if let Change::TipModel(kind) = change { Some(*kind) } else { None })
     }
 
@@ -122,7 +122,7 @@ impl Setting {
                 Change::BendInAir => physics.rigid_in_air = false,
                 Change::Integrator(integrator) => physics.integrator = integrator,
                 Change::Solver(solver) => physics.solver = solver,
-                Change::TipModel(kind) => rig.sensing.forces |= kind == TipModelKind::MomentAndShear,
+                Change::TipModel(kind) => rig.sensing.forces |= kind == ContactEstimatorKind::MomentAndShear,
             }
         }
         (scene, world)

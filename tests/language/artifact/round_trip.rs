@@ -36,7 +36,7 @@ fn a_parameter_that_was_set_stays_set() {
     let mut artifact = policies::everything();
     artifact.program.set("fast", 0.1, Dimension::SPEED).unwrap();
     let back = Artifact::from_bytes(&artifact.to_bytes().unwrap()).unwrap();
-    assert_eq!(back.program.image.first(), Some(&0.1));
+    assert_eq!(back.program.initial_registers.first(), Some(&0.1));
     assert_ne!(back, policies::everything());
 }
 
@@ -46,10 +46,13 @@ fn the_source_map_leads_to_names_and_conditions() {
                 always when time > 9 s -> B";
     let artifact = policies::artifact("m.fsm", text);
     let place = |position: vibrissa::diagnostic::Position| (position.line, position.column);
-    let states: Vec<_> = artifact.places.states.iter().map(|state| place(state.name)).collect();
+    let states: Vec<_> = artifact.positions.states.iter().map(|state| place(state.name)).collect();
     assert_eq!(states, [(3, 9), (5, 7)]);
-    assert_eq!(artifact.places.states[0].transitions.iter().copied().map(place).collect::<Vec<_>>(), [(4, 7), (4, 30)]);
-    assert_eq!(artifact.places.always.iter().copied().map(place).collect::<Vec<_>>(), [(6, 13)]);
+    assert_eq!(
+        artifact.positions.states[0].transitions.iter().copied().map(place).collect::<Vec<_>>(),
+        [(4, 7), (4, 30)]
+    );
+    assert_eq!(artifact.positions.always.iter().copied().map(place).collect::<Vec<_>>(), [(6, 13)]);
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn whisker_argument(program: &Program) -> u16 {
 
 #[test]
 fn registers_are_bounded() {
-    let last = |program: &Program| u16::try_from(program.image.len() - 1).unwrap();
+    let last = |program: &Program| u16::try_from(program.initial_registers.len() - 1).unwrap();
     let changes: [fn(&mut Op, u16); 14] = [
         |op, end| *op = Op::Copy { to: end + 1, a: 3 },
         |op, end| *op = Op::Copy { to: 5, a: end + 1 },
@@ -89,9 +89,9 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
     });
-    told(|program| program.failsafe = Some(Target::State { state: 0, arguments: 1..u32::MAX, resume: false }));
+    told(|program| program.fallback = Some(Target::State { state: 0, arguments: 1..u32::MAX, resume: false }));
     told(|program| {
-        program.states[1].failsafe = Some(Target::State { state: 0, arguments: u32::MAX..u32::MAX, resume: false });
+        program.states[1].fallback = Some(Target::State { state: 0, arguments: u32::MAX..u32::MAX, resume: false });
     });
 }
 
@@ -134,8 +134,8 @@ fn states_and_timers_are_bounded_and_timers_keep_to_their_kind() {
     });
     assert!(told.contains("names state 9 of 2"), "{told}");
     let stray = || Some(Target::State { state: 7, arguments: 0..0, resume: false });
-    assert!(refusal(|program| program.failsafe = stray()).contains("names state 7 of 2"));
-    assert!(refusal(|program| program.states[1].failsafe = stray()).contains("names state 7 of 2"));
+    assert!(refusal(|program| program.fallback = stray()).contains("names state 7 of 2"));
+    assert!(refusal(|program| program.states[1].fallback = stray()).contains("names state 7 of 2"));
     assert!(refusal(|program| program.timers = usize::MAX).contains("timers"));
     assert!(refusal(|program| program.timers = 0).contains("timers"));
     let told = refusal(|program| {
@@ -211,7 +211,7 @@ fn what_is_read_as_a_whisker_only_ever_holds_one() {
         program.code[plain] = op;
     };
     for index in [2.0, -1.0, 0.5, 1e300] {
-        told(&|program, whisker| program.image[usize::from(whisker)] = index);
+        told(&|program, whisker| program.initial_registers[usize::from(whisker)] = index);
     }
     told(&|program, whisker| replace(program, Op::Time { to: whisker }));
     told(&|program, whisker| replace(program, Op::BodyPosition { to: whisker - 1 }));
@@ -251,7 +251,7 @@ fn parameters_stay_what_they_are() {
         assert!(told.contains("changes the parameter `free`"), "{told}");
     }
     let changes: [fn(&mut Program); 5] = [
-        |program| program.image[0] = 0.3,
+        |program| program.initial_registers[0] = 0.3,
         |program| program.parameters[0].default = -1.0,
         |program| program.parameters[0].range = Some((1.0, 0.0)),
         |program| program.parameters[0].range = Some((f64::NEG_INFINITY, f64::INFINITY)),
@@ -266,7 +266,7 @@ fn parameters_stay_what_they_are() {
 #[test]
 fn the_image_is_finite() {
     for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        assert!(refusal(|program| *program.image.last_mut().unwrap() = number).contains("not finite"));
+        assert!(refusal(|program| *program.initial_registers.last_mut().unwrap() = number).contains("not finite"));
     }
 }
 
@@ -281,7 +281,7 @@ fn names_and_reasons_are_plain() {
     assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` is given twice"));
     let told = refusal(|program| program.always[0].target = Target::Failure("\u{1b}[2J".into()));
     assert!(told.contains(r"\u{1b}"), "{told}");
-    let told = refusal(|program| program.states[0].failsafe = Some(Target::Failure("\n".into())));
+    let told = refusal(|program| program.states[0].fallback = Some(Target::Failure("\n".into())));
     assert!(told.contains(r"\n"), "{told}");
     for text in ["a\nb".to_owned(), "long".repeat(100)] {
         let mut artifact = policies::everything();
@@ -295,10 +295,10 @@ fn counts_are_bounded() {
     let told = |change: fn(&mut Program)| assert!(refusal(change).contains("at most are allowed"));
     told(|program| program.whiskers = (0..9).map(|index| format!("w{index}")).collect());
     told(|program| program.code.resize(50_001, Op::Stop));
-    told(|program| program.image.resize(60_001, 0.0));
+    told(|program| program.initial_registers.resize(60_001, 0.0));
     told(|program| program.states.resize(50_001, program.states[0].clone()));
     told(|program| program.always.resize(50_001, program.always[0].clone()));
-    told(|program| program.image.truncate(1));
+    told(|program| program.initial_registers.truncate(1));
 }
 
 #[test]
@@ -310,16 +310,17 @@ fn whiskers_are_read_only_where_one_is_bound() {
 #[test]
 fn a_source_map_fits_its_program() {
     let mut artifact = policies::everything();
-    artifact.places.states[1].transitions.pop();
-    assert_eq!(artifact.to_bytes(), Err(ArtifactError::Places));
+    artifact.positions.states[1].transitions.pop();
+    assert_eq!(artifact.to_bytes(), Err(ArtifactError::Positions));
 }
 
 #[test]
 fn the_largest_machine_fits_into_an_artifact_and_runs() {
     let mut artifact = policies::everything();
     let program = &mut artifact.program;
-    let (from, free) = (u32::try_from(program.code.len()).unwrap(), u16::try_from(program.image.len()).unwrap());
-    program.image.resize(60_000, -1.0 / 3.0);
+    let (from, free) =
+        (u32::try_from(program.code.len()).unwrap(), u16::try_from(program.initial_registers.len()).unwrap());
+    program.initial_registers.resize(60_000, -1.0 / 3.0);
     program.code.resize(50_000, Op::Rotate { to: 59_998, a: free, b: 59_000 });
     program.states[0].body = from..50_000;
     let bytes = artifact.to_bytes().unwrap();

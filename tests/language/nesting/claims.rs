@@ -1,6 +1,6 @@
 //! What states in states mean, by example.
 
-use vibrissa_runtime::machine::{Action, ActionPart, Failure, Flaw, Guard};
+use vibrissa_runtime::machine::{Action, ActionPart, Failure, Guard, NonFinite};
 
 use crate::common::{Feel, Script, program, run, states};
 
@@ -53,7 +53,10 @@ fn a_command_that_is_not_finite_fails_with_the_name_of_the_state_that_gave_it() 
     let (machine, _) = run(text, &mut Script::touches("."));
     assert_eq!(
         machine.failure(),
-        Some(&Failure::NotFinite { state: "O".into(), flaw: Flaw { part: ActionPart::Speed, is_nan: false } })
+        Some(&Failure::NotFinite {
+            state: "O".into(),
+            non_finite: NonFinite { part: ActionPart::Speed, is_nan: false }
+        })
     );
 }
 

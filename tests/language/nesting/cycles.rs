@@ -18,7 +18,7 @@ fn goes_round_in_no_tick(tree: &Tree, touches: &[[bool; 8]]) -> Result<(), TestC
         return Err(TestCaseError::reject("goes round"));
     };
     let (machine, ..) = run_both(tree, program, touches)?;
-    let goes_round = matches!(machine.failure(), Some(Failure::Chain { .. }));
+    let goes_round = matches!(machine.failure(), Some(Failure::MicrostepLimit { .. }));
     prop_assert!(!goes_round, "{}", tree.text());
     Ok(())
 }

@@ -83,7 +83,7 @@ proptest! {
     ) {
         let source = Source::new("tree.fsm", tree.text());
         let Ok(compiled) = compile_with_warnings(&source) else { return Err(TestCaseError::reject("goes round")) };
-        let places = &compiled.artifact.places;
+        let places = &compiled.artifact.positions;
         let said = |code: &str| -> Vec<usize> {
             let warnings = compiled.warnings.iter().filter(|warning| warning.code == code);
             warnings.map(|warning| source.line_column(warning.primary.span.start).line).collect()

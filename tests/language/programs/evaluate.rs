@@ -138,13 +138,13 @@ impl Interpreter<'_> {
         let vector = |quantity| Value::Vector(self.senses.whisker_vector(whisker, quantity));
         let behind = |quantity| Value::Vector(self.senses.contour_at(whisker, value.unwrap(), quantity));
         match member {
-            "deflection" => scalar(WhiskerScalar::Deflection),
+            "deflection" => scalar(WhiskerScalar::BaseAngle),
             "touching" => truth(WhiskerScalar::Touching),
             "yaw" => scalar(WhiskerScalar::Yaw),
             "side" => scalar(WhiskerScalar::Side),
             "sense" => scalar(WhiskerScalar::Sense),
             "length" => scalar(WhiskerScalar::Length),
-            "tip_spread" => scalar(WhiskerScalar::TipSpread),
+            "tip_spread" => scalar(WhiskerScalar::TipDeviation),
             "ready" => truth(WhiskerScalar::ContourReady),
             "tip" => vector(WhiskerVector::Tip),
             "tip_base" => vector(WhiskerVector::TipBase),

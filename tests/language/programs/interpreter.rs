@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, Flaw, Senses, Turn};
+use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, NonFinite, Senses, Turn};
 
 use super::evaluate::{Place, Value};
 use super::filter::Filter;
@@ -96,7 +96,7 @@ impl<'p> Interpreter<'p> {
             due = due.or_else(|| active.iter().find_map(|&state| self.due(Some(state))));
             let Some((from, target)) = due.take() else { break };
             if taken == 8 && matches!(target, Target::State { .. }) {
-                return self.leave(self.innermost(), Cause::Chain, failsafe);
+                return self.leave(self.innermost(), Cause::MicrostepLimit, failsafe);
             }
             self.seen("a chain", (taken == 1).then_some("a tick"));
             self.seen("a transition", Some(if from.is_some() { "a state" } else { "the machine" }));
@@ -234,7 +234,7 @@ impl<'p> Interpreter<'p> {
 
     /// Runs the active states' statements, but for the `done` outermost ones; the last command that they give. If it is not
     /// finite, the state that gave it, and which of its numbers is not.
-    fn act(&mut self, done: usize) -> Result<Option<Action>, (usize, Flaw)> {
+    fn act(&mut self, done: usize) -> Result<Option<Action>, (usize, NonFinite)> {
         let mut given = None;
         for state in self.active.clone().split_off(done) {
             let command = self.run(&self.program.states[state].body, &mut Place::new(Some(state), "a body"));
@@ -256,8 +256,8 @@ impl<'p> Interpreter<'p> {
         let Some((from, target)) = found else {
             self.seen("a failure", Some("a command"));
             return Err(match cause {
-                Cause::NotFinite(flaw) => Failure::NotFinite { state: name(stuck), flaw },
-                Cause::Chain => Failure::Chain { state: name(stuck) },
+                Cause::NotFinite(flaw) => Failure::NotFinite { state: name(stuck), non_finite: flaw },
+                Cause::MicrostepLimit => Failure::MicrostepLimit { state: name(stuck) },
             });
         };
         let whose = ["the machine", "a state around", "the state"];
@@ -271,7 +271,8 @@ impl<'p> Interpreter<'p> {
             self.run_own();
             0
         };
-        let action = self.act(done).map_err(|(state, flaw)| Failure::NotFinite { state: name(state), flaw })?;
+        let action =
+            self.act(done).map_err(|(state, flaw)| Failure::NotFinite { state: name(state), non_finite: flaw })?;
         Ok(action.unwrap_or(Action::Hold))
     }
 }
@@ -281,10 +282,10 @@ fn name(state: usize) -> String {
 }
 
 /// The first of a command's numbers that is not finite: along, at, facing or turning.
-fn flaw(action: Action) -> Option<Flaw> {
+fn flaw(action: Action) -> Option<NonFinite> {
     let of = |part, numbers: &[f64]| {
         let bad = numbers.iter().find(|number| !number.is_finite());
-        bad.map(|bad| Flaw { part, is_nan: bad.is_nan() })
+        bad.map(|bad| NonFinite { part, is_nan: bad.is_nan() })
     };
     let Action::Steer { along_world, speed, turn, .. } = action else { return None };
     of(ActionPart::Along, &[along_world.x, along_world.y]).or(of(ActionPart::Speed, &[speed])).or(match turn {

@@ -60,7 +60,7 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
         action: Some(tick.action),
         state: machine.state_name().to_owned(),
         failure: machine.failure().cloned(),
-        failsafe: tick.failsafe.map(|failsafe| (name(failsafe.left), failsafe.cause)),
+        failsafe: tick.fallback.map(|failsafe| (name(failsafe.left), failsafe.cause)),
     }
 }
 

@@ -81,7 +81,7 @@ impl Senses for Felt {
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
         let Whisker { deflection, ready, .. } = self.whiskers[whisker];
         match quantity {
-            WhiskerScalar::Deflection => deflection,
+            WhiskerScalar::BaseAngle => deflection,
             WhiskerScalar::Touching => f64::from(u8::from(self.is_touching(whisker))),
             WhiskerScalar::Yaw => self.yaw(whisker),
             WhiskerScalar::Side => Self::side(whisker),
@@ -89,7 +89,7 @@ impl Senses for Felt {
             WhiskerScalar::Length => LENGTH,
             WhiskerScalar::Fitted => 1.0,
             WhiskerScalar::ContourReady => f64::from(u8::from(ready)),
-            WhiskerScalar::Sense | WhiskerScalar::ContourCurvature | WhiskerScalar::TipSpread => 0.0,
+            WhiskerScalar::Sense | WhiskerScalar::ContourCurvature | WhiskerScalar::TipDeviation => 0.0,
         }
     }
 

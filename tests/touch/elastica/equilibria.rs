@@ -5,14 +5,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector4;
 use proptest::prelude::*;
 use vibrissa::geometry::unit;
-use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any_tapered, cut, moment_unit, tip_moment};
 
 /// Whiskers with a force that bends them: at a share of the length, at an angle from the shaft there, a force in units of
 /// `EI / c²` for the length `c` to where it is, of as much less as the shaft tapers.
-fn any_bend() -> impl Strategy<Value = (Whisker, Bend)> {
+fn any_bend() -> impl Strategy<Value = (Whisker, ShaftShape)> {
     (any_tapered(), prop_oneof![Just(1.0), 0.05..1.0_f64], FRAC_PI_2..2.9_f64, 0.01..5.0_f64).prop_filter_map(
         "not to one side, or twisted at the base",
         |(whisker, share, angle, force)| {
@@ -26,7 +26,7 @@ fn any_bend() -> impl Strategy<Value = (Whisker, Bend)> {
 
 /// The base and the shaft up to the force, integrated from the base by the classical Runge-Kutta method: direction, place
 /// and energy (rad, m, m, J) where the force is.
-fn integrated(whisker: &Whisker, bend: &Bend) -> Vector4<f64> {
+fn integrated(whisker: &Whisker, bend: &ShaftShape) -> Vector4<f64> {
     let force = bend.force * unit(bend.force_direction);
     let slope = |s: f64, state: Vector4<f64>| {
         let thickness = whisker.shaft.radius_at(s / whisker.shaft.length) / whisker.shaft.radius;

@@ -2,14 +2,14 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use vibrissa_runtime::mechanics::{Bend, Equilibrium, ShaftChain};
+use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any_tapered, bent, with_ratio};
 
 /// The tip (m) of the whisker's chain with so many links, at the base angle and the direction of a bend. Of several equilibria it is
 /// the one near that bend, if there is one.
-fn chain_tip(whisker: &Whisker, links: usize, bend: &Bend) -> Option<Vector2<f64>> {
+fn chain_tip(whisker: &Whisker, links: usize, bend: &ShaftShape) -> Option<Vector2<f64>> {
     let mut whisker = whisker.clone();
     whisker.shaft.links = links;
     let chain = ShaftChain::new(&whisker);

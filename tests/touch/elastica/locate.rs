@@ -4,14 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, unit};
-use vibrissa_runtime::mechanics::{Bend, Elastica, Equilibrium, LocateError, ShaftChain};
+use vibrissa_runtime::mechanics::{Elastica, Equilibrium, LocateError, ShaftChain, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
 use crate::elastica::whisker::{any, any_tapered, cut, tip_moment};
 
 /// A bend under a force at a share of the length, at an angle from the shaft there, in units of `EI / c²` for the length
 /// `c`, of as much less as the shaft tapers.
-fn touched(whisker: &Whisker, share: f64, angle: f64, force: f64) -> Option<Bend> {
+fn touched(whisker: &Whisker, share: f64, angle: f64, force: f64) -> Option<ShaftShape> {
     let shaft = cut(whisker, share).shaft;
     let force = force * shaft.tip_stiffness() / shaft.length.powi(2);
     let bend = Elastica::new(whisker).under(share * whisker.shaft.length, angle, force)?;
@@ -20,7 +20,7 @@ fn touched(whisker: &Whisker, share: f64, angle: f64, force: f64) -> Option<Bend
 
 /// Whether a bend stays if what touches stays where it is: at the tip a straight surface, which has a direction and a distance, on the
 /// shaft a point. Where touch and force could change without moving that, the shaft springs over.
-fn stays(whisker: &Whisker, bend: &Bend) -> bool {
+fn stays(whisker: &Whisker, bend: &ShaftShape) -> bool {
     let elastica = Elastica::new(whisker);
     let (length, angle) = (bend.contact_length, bend.force_direction - bend.tip_angle);
     let is_at_tip = length >= whisker.shaft.length;
@@ -40,7 +40,7 @@ fn stays(whisker: &Whisker, bend: &Bend) -> bool {
 }
 
 /// Touches with a base angle that stay, on the shaft and at the tip.
-fn with_base_angle(whisker: &Whisker, base_angle: f64) -> Vec<Bend> {
+fn with_base_angle(whisker: &Whisker, base_angle: f64) -> Vec<ShaftShape> {
     let on_shaft = (1..=6).map(|step| (f64::from(step) / 6.0, FRAC_PI_2));
     let at_tip = (1..=9).map(|step| (1.0, FRAC_PI_2 + f64::from(step) * 0.15));
     let mut found = Vec::new();
@@ -63,11 +63,11 @@ fn with_base_angle(whisker: &Whisker, base_angle: f64) -> Vec<Bend> {
     found
 }
 
-fn locate(elastica: &Elastica, base_angle: f64, shear: f64) -> Result<Bend, LocateError> {
+fn locate(elastica: &Elastica, base_angle: f64, shear: f64) -> Result<ShaftShape, LocateError> {
     elastica.locate(base_angle, shear, &elastica.straight())
 }
 
-fn is_found(whisker: &Whisker, bend: &Bend) -> Result<(), TestCaseError> {
+fn is_found(whisker: &Whisker, bend: &ShaftShape) -> Result<(), TestCaseError> {
     let length = whisker.shaft.length;
     let found = locate(&Elastica::new(whisker), bend.base_angle, bend.shear);
     prop_assert!(found.is_ok(), "{bend:?} {found:?}");

@@ -1,7 +1,7 @@
 //! Whiskers to be bent.
 
 use proptest::prelude::*;
-use vibrissa_runtime::mechanics::{Bend, Elastica};
+use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::{Rig, Whisker};
 
 /// A whisker whose hinge is `ratio` times as stiff as its shaft, `EI / L`.
@@ -50,7 +50,7 @@ pub(crate) fn cut(whisker: &Whisker, share: f64) -> Whisker {
 }
 
 /// The bend with a base moment as in [`tip_moment`] under a force in a direction (rad) at a length (m).
-pub(crate) fn bent(whisker: &Whisker, contact_length: f64, moment: f64, direction: f64) -> Option<Bend> {
+pub(crate) fn bent(whisker: &Whisker, contact_length: f64, moment: f64, direction: f64) -> Option<ShaftShape> {
     let elastica = Elastica::new(whisker);
     let base_angle = tip_moment(whisker, moment) / whisker.hinge.stiffness;
     elastica.solve_at(contact_length, base_angle, direction, &elastica.straight())

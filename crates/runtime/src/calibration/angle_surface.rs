@@ -31,43 +31,46 @@ pub struct AngleSurface {
     /// Coefficients (rad) of 1, v, v², …, u, u v, …, u⁵ for the place (u, v) from the centre.
     pub coefficients: [f64; COUNT],
     /// Standard deviation of the sets' base angles about it (rad).
-    pub spread: f64,
+    #[serde(rename = "spread")]
+    pub deviation: f64,
     /// How far off (m) the places are that one between them needs: the diagonal of the widest mesh of their net.
     pub reach: f64,
     /// The places (m, frame of the base), but for those that are nearer to another than a quarter of a mesh.
-    pub places: Vec<[f64; 2]>,
+    #[serde(rename = "places")]
+    pub positions: Vec<[f64; 2]>,
 }
 
 impl AngleSurface {
     /// The polynomial that comes nearest to sets of touches by the tip. `None` if they are too few, or all near one line.
     #[must_use]
     pub fn fit(sets: &[ContactSet]) -> Option<Self> {
-        let places: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
-        let least = APART * widest_mesh(&places);
+        let positions: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
+        let least = APART * widest_mesh(&positions);
         let mut kept: Vec<Vector2> = Vec::new();
-        for place in &places {
-            if kept.iter().all(|other| (place - other).norm() >= least) {
-                kept.push(*place);
+        for position in &positions {
+            if kept.iter().all(|other| (position - other).norm() >= least) {
+                kept.push(*position);
             }
         }
         let reach = SQRT_2 * widest_mesh(&kept);
-        let centre = places.iter().sum::<Vector2>() / places.len() as f64;
-        let scale = places.iter().map(|place| (place - centre).norm()).fold(0.0, f64::max);
-        let places = kept.into_iter().map(Into::into).collect();
-        let mut surface = Self { centre: centre.into(), scale, coefficients: [0.0; COUNT], spread: 0.0, reach, places };
+        let centre = positions.iter().sum::<Vector2>() / positions.len() as f64;
+        let scale = positions.iter().map(|position| (position - centre).norm()).fold(0.0, f64::max);
+        let positions = kept.into_iter().map(Into::into).collect();
+        let mut surface =
+            Self { centre: centre.into(), scale, coefficients: [0.0; COUNT], deviation: 0.0, reach, positions };
         let rows: Vec<_> =
             sets.iter().map(|set| (surface.basis(set.contact_base).map(|term| term[0]), set.base_angle, 1.0)).collect();
         surface.coefficients = least_squares::fit(&rows)?;
         let square = |set: &ContactSet| (surface.at(set.contact_base).0 - set.base_angle).powi(2);
-        surface.spread = (sets.iter().map(square).sum::<f64>() / sets.len() as f64).sqrt();
+        surface.deviation = (sets.iter().map(square).sum::<f64>() / sets.len() as f64).sqrt();
         Some(surface)
     }
 
     /// The base angle (rad) of a touch at a place (m, frame of the base), and its change with the place (rad/m).
     #[must_use]
-    pub fn at(&self, place: Vector2) -> (f64, Vector2) {
+    pub fn at(&self, position: Vector2) -> (f64, Vector2) {
         let mut sums = [0.0; 3];
-        for (coefficient, term) in self.coefficients.iter().zip(self.basis(place)) {
+        for (coefficient, term) in self.coefficients.iter().zip(self.basis(position)) {
             for (sum, part) in sums.iter_mut().zip(term) {
                 *sum += coefficient * part;
             }
@@ -77,13 +80,13 @@ impl AngleSurface {
 
     /// Whether it holds at a place (m, frame of the base): between places within reach of it, or as near to one as those that were left out.
     #[must_use]
-    pub fn contains(&self, place: Vector2) -> bool {
+    pub fn contains(&self, position: Vector2) -> bool {
         let (far, near) = (self.reach.powi(2), (APART / SQRT_2 * self.reach).powi(2));
         // Seen from the place, how far to the left and to the right of the first the others are: it is in their hull if that is half a
         // turn together.
         let mut seen: Option<(Vector2, f64, f64)> = None;
-        for &known in &self.places {
-            let off = Vector2::from(known) - place;
+        for &known in &self.positions {
+            let off = Vector2::from(known) - position;
             let square = off.norm_squared();
             if square <= near {
                 return true;
@@ -102,8 +105,8 @@ impl AngleSurface {
     }
 
     /// The terms of the polynomial with their changes by u and v.
-    fn basis(&self, place: Vector2) -> [[f64; 3]; COUNT] {
-        let [u, v] = <[f64; 2]>::from((place - Vector2::from(self.centre)) / self.scale);
+    fn basis(&self, position: Vector2) -> [[f64; 3]; COUNT] {
+        let [u, v] = <[f64; 2]>::from((position - Vector2::from(self.centre)) / self.scale);
         let powers = |value: f64| {
             let mut powers = [1.0; ORDER + 1];
             for index in 1..=ORDER {
@@ -124,26 +127,26 @@ impl AngleSurface {
 
     /// Whether it is a surface: finite, and near places that are.
     pub(super) fn is_sound(&self) -> bool {
-        let numbers = self.coefficients.iter().chain(&self.centre).chain(self.places.iter().flatten());
+        let numbers = self.coefficients.iter().chain(&self.centre).chain(self.positions.iter().flatten());
         let positive = |number: f64| number.is_finite() && number > 0.0;
         numbers.clone().all(|number| number.is_finite())
             && positive(self.scale)
             && positive(self.reach)
-            && self.spread.is_finite()
-            && self.spread >= 0.0
-            && (1..=ContactSet::MOST).contains(&self.places.len())
+            && self.deviation.is_finite()
+            && self.deviation >= 0.0
+            && (1..=ContactSet::MOST).contains(&self.positions.len())
     }
 }
 
 /// The longest step of the net of the shortest ways from place to place that holds all of them together (Prim, Bell System Technical
 /// Journal 36 (1957), 1389).
-fn widest_mesh(places: &[Vector2]) -> f64 {
-    let mut outside: Vec<(Vector2, f64)> = places.iter().map(|place| (*place, f64::INFINITY)).collect();
-    let (mut newest, mut widest) = (outside.pop().map(|(place, _)| place), 0.0_f64);
-    while let Some(place) = newest {
+fn widest_mesh(positions: &[Vector2]) -> f64 {
+    let mut outside: Vec<(Vector2, f64)> = positions.iter().map(|position| (*position, f64::INFINITY)).collect();
+    let (mut newest, mut widest) = (outside.pop().map(|(position, _)| position), 0.0_f64);
+    while let Some(position) = newest {
         let mut nearest = (0, f64::INFINITY);
         for (index, (other, step)) in outside.iter_mut().enumerate() {
-            *step = step.min((*other - place).norm());
+            *step = step.min((*other - position).norm());
             if *step < nearest.1 {
                 nearest = (index, *step);
             }

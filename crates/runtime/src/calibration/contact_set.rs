@@ -24,9 +24,9 @@ impl ContactSet {
     /// The set as one of a bend to the left: itself or its mirror image, with a normal from 0 to 2π.
     #[must_use]
     pub fn to_left(self) -> Self {
-        let bend = if self.base_angle < 0.0 { -1.0 } else { 1.0 };
-        let contact_base = Vector2::new(self.contact_base.x, bend * self.contact_base.y);
-        let normal = self.normal.map(|normal| (bend * normal).rem_euclid(2.0 * PI));
-        Self { contact_base, base_angle: bend * self.base_angle, normal, ..self }
+        let sign = if self.base_angle < 0.0 { -1.0 } else { 1.0 };
+        let contact_base = Vector2::new(self.contact_base.x, sign * self.contact_base.y);
+        let normal = self.normal.map(|normal| (sign * normal).rem_euclid(2.0 * PI));
+        Self { contact_base, base_angle: sign * self.base_angle, normal, ..self }
     }
 }

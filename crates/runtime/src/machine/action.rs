@@ -42,7 +42,7 @@ pub enum Turn {
 
 /// A number of a command that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Flaw {
+pub struct NonFinite {
     /// Which number it is.
     pub part: ActionPart,
     /// Whether it is no number at all; otherwise it is infinite.
@@ -66,7 +66,7 @@ pub enum ActionPart {
     YawRate,
 }
 
-impl std::fmt::Display for Flaw {
+impl std::fmt::Display for NonFinite {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} {}", self.part, if self.is_nan { "is not a number" } else { "is infinite" })
     }
@@ -75,7 +75,7 @@ impl std::fmt::Display for Flaw {
 impl Action {
     /// The first number in the action, as it is written, that is not finite.
     #[must_use]
-    pub fn flaw(&self) -> Option<Flaw> {
+    pub fn non_finite(&self) -> Option<NonFinite> {
         let Self::Steer { along_world: along, speed, turn, .. } = *self else { return None };
         let (turn, turned) = match turn {
             Turn::Facing(heading) => (heading, ActionPart::Heading),
@@ -84,7 +84,7 @@ impl Action {
         let numbers =
             [(ActionPart::Along, along.x), (ActionPart::Along, along.y), (ActionPart::Speed, speed), (turned, turn)];
         let (part, number) = numbers.into_iter().find(|(_, number)| !number.is_finite())?;
-        Some(Flaw { part, is_nan: number.is_nan() })
+        Some(NonFinite { part, is_nan: number.is_nan() })
     }
 
     /// Whether every number in the action is finite.

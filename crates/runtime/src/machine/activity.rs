@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::action::{Action, Flaw};
+use super::action::{Action, NonFinite};
+use super::configuration::Configuration;
 use super::evaluate::{compute, evaluate};
-use super::failsafe::{Cause, Failsafe};
+use super::fallback::{Cause, Fallback};
 use super::op::Block;
 use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
-use super::tick::{CHAIN_LIMIT, Failure};
-use super::way::Way;
+use super::tick::{Failure, MICROSTEP_LIMIT};
 
 /// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
 pub const TIME_SLACK: f64 = 1e-9;
@@ -18,7 +18,7 @@ pub const TIME_SLACK: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub(super) struct Activity {
     registers: Vec<f64>,
-    active: Way,
+    active: Configuration,
     has_begun: bool,
     /// When each state was entered last (s).
     entered_at: Vec<f64>,
@@ -33,7 +33,7 @@ impl Activity {
     pub(super) fn new(program: &Program, state: usize, registers: Vec<f64>) -> Self {
         Self {
             registers,
-            active: Way::to(program, state),
+            active: Configuration::to(program, state),
             has_begun: false,
             entered_at: vec![0.0; program.states.len()],
             last_inner: vec![None; program.states.len()],
@@ -52,7 +52,7 @@ impl Activity {
         program: &Program,
         senses: &mut S,
         action: &mut Action,
-    ) -> (Result<(), Failure>, Option<Failsafe>) {
+    ) -> (Result<(), Failure>, Option<Fallback>) {
         let now = senses.time();
         if !self.has_begun {
             self.has_begun = true;
@@ -60,38 +60,40 @@ impl Activity {
             self.compute(program, &program.entry, senses);
             self.enter(program, None, (self.state(), false), now, senses);
         }
-        let mut due = self.due(program, None, now, senses);
-        for taken in 0..=CHAIN_LIMIT {
-            if due.is_none() {
-                due = self.due_within(program, now, senses);
+        let mut enabled = self.enabled(program, None, now, senses);
+        for taken in 0..=MICROSTEP_LIMIT {
+            if enabled.is_none() {
+                enabled = self.enabled_within(program, now, senses);
             }
-            match due.take() {
+            match enabled.take() {
                 None => {
                     self.compute(program, &program.body, senses);
-                    return match self.act(program, 0, senses, action) {
+                    return match self.run_bodies(program, 0, senses, action) {
                         Ok(()) => (Ok(()), None),
-                        Err((state, flaw)) => self.leave(program, (state, Cause::NotFinite(flaw)), now, senses, action),
+                        Err((state, non_finite)) => {
+                            self.take_fallback(program, (state, Cause::NotFinite(non_finite)), now, senses, action)
+                        }
                     };
                 }
                 Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
-                Some((from, Target::State { state, arguments, resume })) if taken < CHAIN_LIMIT => {
+                Some((from, Target::State { state, arguments, resume })) if taken < MICROSTEP_LIMIT => {
                     self.take(program, from, (*state, arguments, *resume), now, senses);
                 }
                 Some((_, Target::State { .. })) => {}
             }
         }
-        self.leave(program, (self.state(), Cause::Chain), now, senses, action)
+        self.take_fallback(program, (self.state(), Cause::MicrostepLimit), now, senses, action)
     }
 
     /// What is due of the active states' transitions, from the outermost state to the innermost.
-    fn due_within<'p, S: Senses>(
+    fn enabled_within<'p, S: Senses>(
         &mut self,
         program: &'p Program,
         now: f64,
         senses: &mut S,
     ) -> Option<(Option<usize>, &'p Target)> {
         (0..self.active.states().len())
-            .find_map(|level| self.due(program, Some(self.active.states()[level]), now, senses))
+            .find_map(|level| self.enabled(program, Some(self.active.states()[level]), now, senses))
     }
 
     /// Goes to a target of a state's transition, or of one that belongs to none.
@@ -103,12 +105,12 @@ impl Activity {
         now: f64,
         senses: &mut S,
     ) {
-        let stays = program.stays(from, target);
-        for left in program.outward(self.state()).take_while(|&left| Some(left) != stays) {
+        let common_ancestor = program.common_ancestor(from, target);
+        for left in program.outward(self.state()).take_while(|&left| Some(left) != common_ancestor) {
             self.compute(program, &program.states[left].exit, senses);
         }
         self.compute(program, arguments, senses);
-        self.enter(program, stays, (target, resume), now, senses);
+        self.enter(program, common_ancestor, (target, resume), now, senses);
     }
 
     /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
@@ -116,13 +118,16 @@ impl Activity {
     fn enter<S: Senses>(
         &mut self,
         program: &Program,
-        stays: Option<usize>,
+        common_ancestor: Option<usize>,
         (target, resume): (usize, bool),
         now: f64,
         senses: &mut S,
     ) {
-        let (way, first) = (Way::to(program, target), stays.map_or(0, |stays| program.outward(stays).count()));
-        for &state in &way.states()[first..] {
+        let (configuration, first) = (
+            Configuration::to(program, target),
+            common_ancestor.map_or(0, |common_ancestor| program.outward(common_ancestor).count()),
+        );
+        for &state in &configuration.states()[first..] {
             self.enter_one(program, state, now, senses);
         }
         while let Some((initial, arguments)) = &program.states[self.state()].initial {
@@ -139,7 +144,7 @@ impl Activity {
 
     fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
         let state = &program.states[index];
-        self.active = Way::to(program, index);
+        self.active = Configuration::to(program, index);
         self.entered_at[index] = now;
         if let Some(parent) = state.parent {
             self.last_inner[parent] = Some(index);
@@ -154,13 +159,13 @@ impl Activity {
 
     /// What the active states do, but for the `from` outermost: the last action that one of them gives, or to hold. If it is not
     /// finite, the state that gave it and the number.
-    fn act<S: Senses>(
+    fn run_bodies<S: Senses>(
         &mut self,
         program: &Program,
         from: usize,
         senses: &mut S,
         action: &mut Action,
-    ) -> Result<(), (usize, Flaw)> {
+    ) -> Result<(), (usize, NonFinite)> {
         *action = Action::Hold;
         let mut giver = self.state();
         for &state in &self.active.states()[from..] {
@@ -171,7 +176,7 @@ impl Activity {
         if action.is_finite() {
             return Ok(());
         }
-        action.flaw().map_or(Ok(()), |flaw| Err((giver, flaw)))
+        action.non_finite().map_or(Ok(()), |non_finite| Err((giver, non_finite)))
     }
 
     /// Runs code that gives no action.
@@ -181,39 +186,39 @@ impl Activity {
 
     /// Leaves the active state by the failsafe of the state in which the machine cannot go on. The states entered only act:
     /// whatever they would do next has time until the next tick.
-    fn leave<S: Senses>(
+    fn take_fallback<S: Senses>(
         &mut self,
         program: &Program,
         (stuck, cause): (usize, Cause),
         now: f64,
         senses: &mut S,
         action: &mut Action,
-    ) -> (Result<(), Failure>, Option<Failsafe>) {
-        let went = match program.failsafe_of(stuck) {
+    ) -> (Result<(), Failure>, Option<Fallback>) {
+        let went = match program.fallback_of(stuck) {
             None => return (Err(cause.failure(&program.states[stuck].name)), None),
             Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
                 let have_acted = match cause {
-                    Cause::NotFinite(_) => {
-                        program.stays(from, *state).map_or(0, |stays| program.outward(stays).count())
-                    }
+                    Cause::NotFinite(_) => program
+                        .common_ancestor(from, *state)
+                        .map_or(0, |common_ancestor| program.outward(common_ancestor).count()),
                     // Nothing has acted yet.
-                    Cause::Chain => {
+                    Cause::MicrostepLimit => {
                         self.compute(program, &program.body, senses);
                         0
                     }
                 };
-                let acted = self.act(program, have_acted, senses, action);
-                acted.map_err(|(state, flaw)| Cause::NotFinite(flaw).failure(&program.states[state].name))
+                let acted = self.run_bodies(program, have_acted, senses, action);
+                acted.map_err(|(state, non_finite)| Cause::NotFinite(non_finite).failure(&program.states[state].name))
             }
         };
-        (went, Some(Failsafe { left: stuck, cause }))
+        (went, Some(Fallback { left: stuck, cause }))
     }
 
     /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds. If that has
     /// led where it leads already, the others wait, but for a failure. Every guard is looked at, so that the timers of the later ones run.
-    fn due<'p, S: Senses>(
+    fn enabled<'p, S: Senses>(
         &mut self,
         program: &'p Program,
         from: Option<usize>,
@@ -235,7 +240,7 @@ impl Activity {
             }
         }
         let target = match first? {
-            Target::State { state, .. } if program.is_settled(from, *state, self.state()) => failure?,
+            Target::State { state, .. } if program.is_target_active(from, *state, self.state()) => failure?,
             target => target,
         };
         Some((from, target))

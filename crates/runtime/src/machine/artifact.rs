@@ -35,10 +35,10 @@ const TEXT_LIMIT: usize = 255;
 pub struct Artifact {
     /// Where it comes from.
     pub origin: Origin,
-    /// The compiled policy; [`Program::image`] has the parameters as they were set.
+    /// The compiled policy; [`Program::initial_registers`] has the parameters as they were set.
     pub program: Program,
     /// Where in its text the policy's states and transitions are.
-    pub places: SourceMap,
+    pub positions: SourceMap,
 }
 
 /// Where a compiled policy comes from.
@@ -86,7 +86,7 @@ pub enum ArtifactError {
     Origin(String),
     /// There are more or fewer places than states and transitions.
     #[error("the machine's source map is that of another policy; compile the policy again")]
-    Places,
+    Positions,
     /// The program is not safe to run.
     #[error("the machine is not safe to run: {0}; compile the policy again")]
     Unsound(#[from] Unsound),
@@ -156,7 +156,7 @@ impl Artifact {
             }
         }
         self.program.verify()?;
-        if self.places.fits(&self.program) { Ok(()) } else { Err(ArtifactError::Places) }
+        if self.positions.fits(&self.program) { Ok(()) } else { Err(ArtifactError::Positions) }
     }
 }
 

@@ -7,8 +7,10 @@
 mod action;
 mod activity;
 mod artifact;
+mod configuration;
+mod contact_estimator_kind;
 mod evaluate;
-mod failsafe;
+mod fallback;
 mod op;
 mod operands;
 mod program;
@@ -16,24 +18,22 @@ mod senses;
 mod source_map;
 mod stateful;
 mod tick;
-mod tip_model_kind;
 mod verify;
-mod way;
 
 pub use activity::TIME_SLACK;
 pub use evaluate::compute;
-pub use operands::{Effect, Operands, Place, Role};
+pub use operands::{Effect, Operands, RegisterSpan, Role};
 
-pub use action::{Action, ActionPart, Flaw, Mover, Turn};
+pub use action::{Action, ActionPart, Mover, NonFinite, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
-pub use failsafe::{Cause, Failsafe};
+pub use contact_estimator_kind::ContactEstimatorKind;
+pub use fallback::{Cause, Fallback};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
     CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Parameter, Program, REGISTER_LIMIT, SetError, State, Target,
     Transition,
 };
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
-pub use source_map::{Position, SourceMap, StatePlace};
-pub use tick::{CHAIN_LIMIT, Failure, Machine, Status, Tick};
-pub use tip_model_kind::TipModelKind;
+pub use source_map::{Position, SourceMap, StatePosition};
+pub use tick::{Failure, MICROSTEP_LIMIT, Machine, Status, Tick};
 pub use verify::Unsound;

@@ -109,7 +109,7 @@ pub enum Op {
     WhiskerSize { to: Register, whisker: Register, quantity: WhiskerScalar },
     /// `to = a vector of a whisker`
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
-    /// `to = the place of a whisker's tip at the deflection a, in the frame of its base`
+    /// `to = the position of a whisker's tip at the base_angle a, in the frame of its base`
     TipAt { to: Wide, whisker: Register, a: Register },
     /// `to = a vector of a whisker's contour, a behind its end`
     ContourAt { to: Wide, whisker: Register, a: Register, quantity: ContourVector },

@@ -7,31 +7,31 @@ use super::op::{Op, Register};
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Operands {
     /// Where the result and what is remembered go.
-    pub writes: [Place; 2],
+    pub writes: [RegisterSpan; 2],
     /// Where numbers are read, what is remembered among them.
-    pub reads: [Place; 3],
+    pub reads: [RegisterSpan; 3],
     /// Where the index of a whisker is read.
     pub whisker: Option<Register>,
 }
 
 impl Operands {
     /// Where anything is read: numbers, what is remembered, the index of a whisker.
-    pub fn all_reads(&self) -> [Place; 4] {
+    pub fn all_reads(&self) -> [RegisterSpan; 4] {
         let [a, b, c] = self.reads;
-        [a, b, c, self.whisker.map_or_else(Place::default, number)]
+        [a, b, c, self.whisker.map_or_else(RegisterSpan::default, number)]
     }
 }
 
 /// Neighbouring registers; none, by default.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Place {
+pub struct RegisterSpan {
     /// The first register.
     pub first: Register,
     /// The number of registers.
     pub width: u16,
 }
 
-impl Place {
+impl RegisterSpan {
     /// The indices of the registers.
     pub fn registers(self) -> std::ops::Range<usize> {
         usize::from(self.first)..usize::from(self.first) + usize::from(self.width)
@@ -39,8 +39,8 @@ impl Place {
 }
 
 /// The place of a number.
-pub(super) fn number(first: Register) -> Place {
-    Place { first, width: 1 }
+pub(super) fn number(first: Register) -> RegisterSpan {
+    RegisterSpan { first, width: 1 }
 }
 
 /// What an operation has a register for.
@@ -51,7 +51,7 @@ pub enum Role {
     /// A number or neighbouring numbers, so many in all, are read there.
     Read(u16),
     /// What is remembered is there and in its neighbours, so many in all.
-    Remember(u16),
+    Memory(u16),
     /// The index of a whisker is read there.
     Whisker,
 }
@@ -60,11 +60,11 @@ pub enum Role {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
     /// Nothing, and its result follows from what it reads.
-    Computes,
+    Pure,
     /// Nothing, but it asks perception: the same question has the same answer until a tip is recorded.
-    Feels,
+    Sensing,
     /// Something: it remembers, jumps, records or commands.
-    Acts,
+    SideEffect,
 }
 
 impl Op {
@@ -78,7 +78,7 @@ impl Op {
             | Self::WhiskerSize { .. }
             | Self::WhiskerVector { .. }
             | Self::TipAt { .. }
-            | Self::ContourAt { .. } => Effect::Feels,
+            | Self::ContourAt { .. } => Effect::Sensing,
             Self::LowPass { .. }
             | Self::Pid { .. }
             | Self::Clear { .. }
@@ -93,8 +93,8 @@ impl Op {
             | Self::SteerWhiskerFacing { .. }
             | Self::SteerWhiskerTurning { .. }
             | Self::Hold
-            | Self::Stop => Effect::Acts,
-            _ => Effect::Computes,
+            | Self::Stop => Effect::SideEffect,
+            _ => Effect::Pure,
         }
     }
 
@@ -103,13 +103,13 @@ impl Op {
         let mut operands = Operands::default();
         let mut reads = 0;
         self.visit(|role, register| match role {
-            Role::Write(width) => operands.writes[0] = Place { first: *register, width },
+            Role::Write(width) => operands.writes[0] = RegisterSpan { first: *register, width },
             Role::Read(width) => {
-                operands.reads[reads] = Place { first: *register, width };
+                operands.reads[reads] = RegisterSpan { first: *register, width };
                 reads += 1;
             }
-            Role::Remember(width) => {
-                operands.writes[1] = Place { first: *register, width };
+            Role::Memory(width) => {
+                operands.writes[1] = RegisterSpan { first: *register, width };
                 operands.reads[2] = operands.writes[1];
             }
             Role::Whisker => operands.whisker = Some(*register),
@@ -136,7 +136,7 @@ impl Op {
     /// Goes through the registers of the operation.
     #[expect(clippy::too_many_lines, reason = "one arm for operations alike")]
     pub fn visit(&mut self, mut visit: impl FnMut(Role, &mut Register)) {
-        use Role::{Read, Remember, Whisker, Write};
+        use Role::{Memory, Read, Whisker, Write};
         match self {
             Self::Copy { to, a }
             | Self::Negate { to, a }
@@ -226,13 +226,13 @@ impl Op {
                 visit(Write(1), to);
                 visit(Read(1), a);
                 visit(Read(1), b);
-                visit(Remember(3), memory);
+                visit(Memory(3), memory);
             }
             Self::Pid { to, a, gains, memory } => {
                 visit(Write(1), to);
                 visit(Read(1), a);
                 visit(Read(4), gains);
-                visit(Remember(4), memory);
+                visit(Memory(4), memory);
             }
             Self::Clear { memory, count } => visit(Write(*count), memory),
             Self::JumpUnless { a, .. } => visit(Read(1), a),

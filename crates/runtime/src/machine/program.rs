@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::{Dimension, format_si};
 
+use super::contact_estimator_kind::ContactEstimatorKind;
 use super::op::{Block, Op, Register};
-use super::tick::CHAIN_LIMIT;
-use super::tip_model_kind::TipModelKind;
+use super::tick::MICROSTEP_LIMIT;
 
 /// The most operations that a program may have.
 pub const CODE_LIMIT: usize = 50_000;
@@ -23,7 +23,7 @@ pub const DESCRIPTION_LIMIT: usize = 500;
 /// A compiled policy.
 ///
 /// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
-/// them out; [`Program::image`] is what they hold at the start of a run. A program that does not come from the compiler or an
+/// them out; [`Program::initial_registers`] is what they hold at the start of a run. A program that does not come from the compiler or an
 /// [`Artifact`](super::Artifact) is safe to run if it passes [`Program::verify`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Program {
@@ -32,7 +32,7 @@ pub struct Program {
     /// The whiskers that the policy binds, by their names in the rig.
     pub whiskers: Vec<String>,
     /// The tip model of each of them.
-    pub tip_models: Vec<TipModelKind>,
+    pub contact_estimators: Vec<ContactEstimatorKind>,
     /// Whether a rig may lack each of them.
     pub optional: Vec<bool>,
     /// The parameters; the one with index `i` lives in register `i`.
@@ -50,11 +50,11 @@ pub struct Program {
     /// Transitions that are tried first, whatever the state.
     pub always: Vec<Transition>,
     /// Where a state without a failsafe of its own is left to when the machine cannot go on in it.
-    pub failsafe: Option<Target>,
+    pub fallback: Option<Target>,
     /// All code; blocks are ranges of it.
     pub code: Vec<Op>,
     /// The register file at the start of a run.
-    pub image: Vec<f64>,
+    pub initial_registers: Vec<f64>,
     /// Number of timers that guards with a duration need; those of `always` come first.
     pub timers: usize,
 }
@@ -93,7 +93,7 @@ pub struct State {
     pub transitions: Vec<Transition>,
     /// Where it is left to when the machine cannot go on in it: its command is not finite, or a tick wants too many
     /// transitions.
-    pub failsafe: Option<Target>,
+    pub fallback: Option<Target>,
 }
 
 /// A way out of a state.
@@ -218,9 +218,9 @@ impl Program {
     /// Where the state with this index is left to when the machine cannot go on in it: by its own failsafe, or else by the
     /// machine's, given with the state that it belongs to.
     #[must_use]
-    pub fn failsafe_of(&self, state: usize) -> Option<(Option<usize>, &Target)> {
-        let own = |state: usize| Some((Some(state), self.states[state].failsafe.as_ref()?));
-        self.outward(state).find_map(own).or_else(|| Some((None, self.failsafe.as_ref()?)))
+    pub fn fallback_of(&self, state: usize) -> Option<(Option<usize>, &Target)> {
+        let own = |state: usize| Some((Some(state), self.states[state].fallback.as_ref()?));
+        self.outward(state).find_map(own).or_else(|| Some((None, self.fallback.as_ref()?)))
     }
 
     /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the machine and
@@ -238,29 +238,29 @@ impl Program {
     #[must_use]
     pub fn most_operations(&self) -> usize {
         let most = |of: &dyn Fn(usize) -> usize| (0..self.states.len()).map(of).max().unwrap_or(0);
-        let on_the_way = |state: usize, of: &dyn Fn(&State) -> usize| -> usize {
+        let along_path = |state: usize, of: &dyn Fn(&State) -> usize| -> usize {
             self.outward(state).map(|state| of(&self.states[state])).sum()
         };
         let guards = |transitions: &[Transition]| guards(transitions).len();
         let values = |target: &Target| if let Target::State { arguments, .. } = target { arguments.len() } else { 0 };
         let of_states =
-            self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.failsafe));
-        let targets = self.always.iter().map(|one| &one.target).chain(&self.failsafe).chain(of_states);
+            self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.fallback));
+        let targets = self.always.iter().map(|one| &one.target).chain(&self.fallback).chain(of_states);
         let entering = |state: &State| state.entry.len() + state.initial.as_ref().map_or(0, |(_, values)| values.len());
-        let transition = most(&|state| on_the_way(state, &|state| state.exit.len()))
+        let transition = most(&|state| along_path(state, &|state| state.exit.len()))
             + targets.map(values).max().unwrap_or(0)
-            + most(&|state| on_the_way(state, &entering));
-        let look = most(&|state| on_the_way(state, &|state| guards(&state.transitions)));
-        let act = most(&|state| on_the_way(state, &|state| state.body.len()));
+            + most(&|state| along_path(state, &entering));
+        let look = most(&|state| along_path(state, &|state| guards(&state.transitions)));
+        let act = most(&|state| along_path(state, &|state| state.body.len()));
         let once = self.start.len() + self.entry.len() + guards(&self.always) + self.body.len();
-        once + (CHAIN_LIMIT + 1) * (look + transition) + 2 * act
+        once + (MICROSTEP_LIMIT + 1) * (look + transition) + 2 * act
     }
 
     /// Bytes that a running machine keeps: registers, times, and which state was last active in which.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let (number, index, time) = (size_of::<f64>(), size_of::<Option<usize>>(), size_of::<Option<f64>>());
-        self.image.len() * number + self.states.len() * (number + index) + self.timers * time
+        self.initial_registers.len() * number + self.states.len() * (number + index) + self.timers * time
     }
 
     /// The state with this index and those that it lies in, the innermost first.
@@ -277,7 +277,7 @@ impl Program {
     /// The innermost of the states that stay active when a transition of the state `from`, or of any state, leads to `target`:
     /// it contains both, and is not the target.
     #[must_use]
-    pub fn stays(&self, from: Option<usize>, target: usize) -> Option<usize> {
+    pub fn common_ancestor(&self, from: Option<usize>, target: usize) -> Option<usize> {
         let from = from?;
         self.outward(target).skip(1).find(|&outer| self.contains(outer, from))
     }
@@ -285,7 +285,7 @@ impl Program {
     /// Whether a transition of the state `from`, or of any state, has led where it leads already while the innermost active
     /// state is `active`: it stands outside of its target, and that is active.
     #[must_use]
-    pub fn is_settled(&self, from: Option<usize>, target: usize, active: usize) -> bool {
+    pub fn is_target_active(&self, from: Option<usize>, target: usize, active: usize) -> bool {
         let from_outside = from.is_none_or(|from| from != target && self.contains(from, target));
         from_outside && self.contains(target, active)
     }
@@ -302,7 +302,7 @@ impl Program {
         };
         let parameter = &self.parameters[index];
         parameter.check(value, dimension)?;
-        self.image[index] = value;
+        self.initial_registers[index] = value;
         Ok(())
     }
 }

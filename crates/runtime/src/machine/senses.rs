@@ -23,8 +23,8 @@ pub trait Senses {
     /// A vector that belongs to a whisker.
     fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2;
 
-    /// Where the whisker's tip would touch, in the frame of its base (m), if its base angle were `deflection` (rad).
-    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2;
+    /// Where the whisker's tip would touch, in the frame of its base (m), if its base angle were `base_angle` (rad).
+    fn tip_at(&self, whisker: usize, base_angle: f64) -> Vector2;
 
     /// A vector of the whisker's contour at the distance `back` (m) behind its end.
     fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2;
@@ -74,7 +74,7 @@ pub enum BodyScalar {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WhiskerScalar {
     /// Filtered base angle (rad, counter-clockwise positive).
-    Deflection,
+    BaseAngle,
     /// Whether the base angle is beyond the rig's contact threshold.
     Touching,
     /// Direction of the undeflected shaft in the world frame (rad).
@@ -90,7 +90,7 @@ pub enum WhiskerScalar {
     /// Curvature at the end of the contour (rad/m, counter-clockwise positive in the direction of travel).
     ContourCurvature,
     /// How far off the place of the tip's contact may be (m): a standard deviation.
-    TipSpread,
+    TipDeviation,
     /// Whether the rig has it.
     Fitted,
 }

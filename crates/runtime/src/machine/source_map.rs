@@ -19,12 +19,12 @@ pub struct SourceMap {
     /// The conditions of the transitions that are tried whatever the state.
     pub always: Vec<Position>,
     /// The states.
-    pub states: Vec<StatePlace>,
+    pub states: Vec<StatePosition>,
 }
 
 /// Where in its text a state is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct StatePlace {
+pub struct StatePosition {
     /// Its name.
     pub name: Position,
     /// The conditions of its transitions.
@@ -34,7 +34,8 @@ pub struct StatePlace {
 impl SourceMap {
     /// Whether there is a place for every state and every transition of `program`, and no other.
     pub(super) fn fits(&self, program: &Program) -> bool {
-        let counts = |(place, state): (&StatePlace, &super::State)| place.transitions.len() == state.transitions.len();
+        let counts =
+            |(position, state): (&StatePosition, &super::State)| position.transitions.len() == state.transitions.len();
         self.always.len() == program.always.len()
             && self.states.len() == program.states.len()
             && self.states.iter().zip(&program.states).all(counts)

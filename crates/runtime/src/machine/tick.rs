@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::action::{Action, Flaw};
+use super::action::{Action, NonFinite};
 use super::activity::Activity;
-use super::failsafe::Failsafe;
+use super::fallback::Fallback;
 use super::program::Program;
 use super::senses::Senses;
 
 /// The most transitions that one tick takes; a policy that wants more fails.
-pub const CHAIN_LIMIT: usize = 8;
+pub const MICROSTEP_LIMIT: usize = 8;
 
 /// A running machine: a program and its memory.
 #[derive(Debug, Clone)]
@@ -26,16 +26,16 @@ pub enum Failure {
     #[error("{0}")]
     Policy(Arc<str>),
     /// A number of a command was not finite.
-    #[error("state {state} gave a command that is not finite: {flaw}")]
+    #[error("state {state} gave a command that is not finite: {non_finite}")]
     NotFinite {
         /// The state that gave it.
         state: Arc<str>,
         /// The number.
-        flaw: Flaw,
+        non_finite: NonFinite,
     },
-    /// One tick took more than [`CHAIN_LIMIT`] transitions.
-    #[error("more than {CHAIN_LIMIT} transitions in one tick, the last one taken into {state}")]
-    Chain {
+    /// One tick took more than [`MICROSTEP_LIMIT`] transitions.
+    #[error("more than {MICROSTEP_LIMIT} transitions in one tick, the last one taken into {state}")]
+    MicrostepLimit {
         /// The state that the last one taken led into.
         state: Arc<str>,
     },
@@ -49,7 +49,7 @@ pub struct Tick {
     /// Whether the machine goes on.
     pub status: Status,
     /// The state that was left by its failsafe, if one was.
-    pub failsafe: Option<Failsafe>,
+    pub fallback: Option<Fallback>,
 }
 
 /// Whether a machine goes on.
@@ -65,7 +65,7 @@ impl Machine {
     /// A machine at the start of `program`.
     #[must_use]
     pub fn new(program: Arc<Program>) -> Self {
-        let activity = Activity::new(&program, program.initial, program.image.clone());
+        let activity = Activity::new(&program, program.initial, program.initial_registers.clone());
         Self { activity, failure: None, program }
     }
 
@@ -99,7 +99,7 @@ impl Machine {
     }
 
     /// One tick: first the rules that hold always, then the active states' transitions, from the outermost state to the
-    /// innermost and in their written order (and again after each one taken, up to [`CHAIN_LIMIT`]), then what the machine
+    /// innermost and in their written order (and again after each one taken, up to [`MICROSTEP_LIMIT`]), then what the machine
     /// itself does, and what the active states do, from the outermost to the innermost.
     ///
     /// An action with a number that is not finite is never given. Instead, and where a tick wants too many transitions, the
@@ -107,11 +107,11 @@ impl Machine {
     /// failsafe, or if that state's action is not finite either, the machine fails.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
-            return Tick { action: Action::Stop, status: Status::Failed, failsafe: None };
+            return Tick { action: Action::Stop, status: Status::Failed, fallback: None };
         }
-        let mut tick = Tick { action: Action::Hold, status: Status::Running, failsafe: None };
-        let (went, failsafe) = self.activity.tick(&self.program, senses, &mut tick.action);
-        tick.failsafe = failsafe;
+        let mut tick = Tick { action: Action::Hold, status: Status::Running, fallback: None };
+        let (went, fallback) = self.activity.tick(&self.program, senses, &mut tick.action);
+        tick.fallback = fallback;
         if let Err(failure) = went {
             self.failure = Some(failure);
             tick.action = Action::Stop;

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use crate::signal::MAX_WHISKERS;
 
 use super::op::{Block, Op, Register};
-use super::operands::{Place, number};
+use super::operands::{RegisterSpan, number};
 use super::program::{
     CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
 };
@@ -67,7 +67,7 @@ pub enum Unsound {
     Nesting(usize),
     /// A state begins or is resumed where it cannot.
     #[error("its state {0} cannot begin where it does")]
-    Beginning(usize),
+    InitialState(usize),
     /// A timer of a rule that holds always is used by a state, or the other way round.
     #[error("its timer {0} belongs to another guard")]
     Timer(usize),
@@ -114,7 +114,7 @@ impl Program {
         let Self {
             name,
             whiskers,
-            tip_models,
+            contact_estimators,
             optional,
             parameters,
             states,
@@ -123,9 +123,9 @@ impl Program {
             entry: _,
             body: _,
             always,
-            failsafe: _,
+            fallback: _,
             code,
-            image,
+            initial_registers,
             timers: _,
         } = self;
         let transitions = always.len() + states.iter().map(|state| state.transitions.len()).sum::<usize>();
@@ -134,9 +134,9 @@ impl Program {
             ("states", states.len(), STRUCTURE_LIMIT),
             ("transitions", transitions, STRUCTURE_LIMIT),
             ("operations", code.len(), CODE_LIMIT),
-            ("registers", image.len(), REGISTER_LIMIT),
-            ("parameters", parameters.len(), image.len()),
-            ("tip models", tip_models.len(), MAX_WHISKERS),
+            ("registers", initial_registers.len(), REGISTER_LIMIT),
+            ("parameters", parameters.len(), initial_registers.len()),
+            ("contact estimators", contact_estimators.len(), MAX_WHISKERS),
             ("whiskers that a rig may lack", optional.len(), MAX_WHISKERS),
         ] {
             if count > limit {
@@ -159,10 +159,10 @@ impl Program {
     }
 
     fn verify_numbers(&self) -> Result<(), Unsound> {
-        if let Some(register) = self.image.iter().position(|value| !value.is_finite()) {
+        if let Some(register) = self.initial_registers.iter().position(|value| !value.is_finite()) {
             return Err(Unsound::NotFinite(register));
         }
-        for (parameter, value) in self.parameters.iter().zip(&self.image) {
+        for (parameter, value) in self.parameters.iter().zip(&self.initial_registers) {
             let holds = match parameter.range {
                 None => parameter.default.is_finite(),
                 Some((low, high)) => {
@@ -195,12 +195,12 @@ impl Program {
             if let Some(parent) = state.parent
                 && self.states[parent].initial.is_none()
             {
-                return Err(Unsound::Beginning(parent));
+                return Err(Unsound::InitialState(parent));
             }
             if let Some((inner, _)) = state.initial
                 && self.states.get(inner).is_none_or(|inner| inner.parent != Some(index))
             {
-                return Err(Unsound::Beginning(index));
+                return Err(Unsound::InitialState(index));
             }
         }
         Ok(())
@@ -226,8 +226,8 @@ impl Program {
                 }
             }
         }
-        let of_states = self.states.iter().filter_map(|state| state.failsafe.as_ref());
-        of_states.chain(&self.failsafe).try_for_each(|target| self.verify_target(target))
+        let of_states = self.states.iter().filter_map(|state| state.fallback.as_ref());
+        of_states.chain(&self.fallback).try_for_each(|target| self.verify_target(target))
     }
 
     fn verify_transition(&self, transition: &Transition, timers: std::ops::Range<usize>) -> Result<(), Unsound> {
@@ -241,7 +241,7 @@ impl Program {
             Guard::When { truth: only, lasting: None, .. } | Guard::After { time: only, .. } => [*only; 2],
         };
         for register in registers {
-            within("register", usize::from(register), self.image.len())?;
+            within("register", usize::from(register), self.initial_registers.len())?;
         }
         self.verify_target(&transition.target)
     }
@@ -250,7 +250,11 @@ impl Program {
         match target {
             Target::State { state, resume, .. } => {
                 within("state", *state, self.states.len())?;
-                if *resume && self.states[*state].initial.is_none() { Err(Unsound::Beginning(*state)) } else { Ok(()) }
+                if *resume && self.states[*state].initial.is_none() {
+                    Err(Unsound::InitialState(*state))
+                } else {
+                    Ok(())
+                }
             }
             Target::Failure(reason) if reason.chars().any(char::is_control) => Err(Unsound::Reason(reason.to_string())),
             Target::Failure(_) => Ok(()),
@@ -266,12 +270,12 @@ impl Program {
         let of_state = |state: &State| {
             let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
             let own = own.into_iter().chain(state.initial.iter().map(|(_, arguments)| arguments.clone()));
-            let failsafe = state.failsafe.iter().map(of_target);
-            state.transitions.iter().flat_map(of_transition).chain(own).chain(failsafe).collect::<Vec<Block>>()
+            let fallback = state.fallback.iter().map(of_target);
+            state.transitions.iter().flat_map(of_transition).chain(own).chain(fallback).collect::<Vec<Block>>()
         };
-        let failsafe = self.failsafe.iter().map(of_target);
+        let fallback = self.fallback.iter().map(of_target);
         let acts = [&self.start, &self.entry, &self.body].map(Block::clone);
-        let own: Vec<Block> = self.always.iter().flat_map(of_transition).chain(failsafe).chain(acts).collect();
+        let own: Vec<Block> = self.always.iter().flat_map(of_transition).chain(fallback).chain(acts).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&own).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));
@@ -314,12 +318,12 @@ impl Program {
         for op in &self.code {
             let operands = op.operands();
             let whisker = operands.whisker.map_or_else(Default::default, number);
-            for place in operands.reads.into_iter().chain(operands.writes).chain([whisker]) {
-                if let Some(last) = place.registers().last() {
-                    within("register", last, self.image.len())?;
+            for span in operands.reads.into_iter().chain(operands.writes).chain([whisker]) {
+                if let Some(last) = span.registers().last() {
+                    within("register", last, self.initial_registers.len())?;
                 }
             }
-            for written in operands.writes.map(Place::registers) {
+            for written in operands.writes.map(RegisterSpan::registers) {
                 if let Some(parameter) = self.parameters.get(written.start)
                     && !written.is_empty()
                 {
@@ -351,14 +355,14 @@ impl Program {
             return Err(Unsound::NoWhisker);
         }
         for &register in &whiskers {
-            let index = self.image[usize::from(register)];
+            let index = self.initial_registers[usize::from(register)];
             let is_index = index.fract() == 0.0 && (0.0..self.whiskers.len() as f64).contains(&index);
             if !is_index || usize::from(register) < self.parameters.len() {
                 return Err(Unsound::Whisker(register));
             }
         }
         for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. } | Op::CopyVector { .. })) {
-            for register in op.operands().writes.into_iter().flat_map(Place::registers) {
+            for register in op.operands().writes.into_iter().flat_map(RegisterSpan::registers) {
                 if let Ok(register) = Register::try_from(register)
                     && whiskers.contains(&register)
                 {

@@ -33,7 +33,7 @@ pub struct Equilibrium {
 /// An equilibrium that is sought: the base angle (rad), the direction of the force at the tip (rad), and the neighbouring solution to
 /// start from.
 #[derive(Debug, Clone, Copy)]
-pub struct Sought {
+pub struct EquilibriumProblem {
     /// The base angle (rad).
     pub base_angle: f64,
     /// The direction of the force at the tip (rad).
@@ -64,14 +64,14 @@ impl ShaftChain {
     /// at the base: the hinge's own angle is the moment over the hinge's stiffness, and it is the one asked for.
     #[must_use]
     pub fn solve(&self, base_angle: f64, force_direction: f64, guess: &Equilibrium) -> Option<Equilibrium> {
-        let [found] = self.solve_each([Some(Sought { base_angle, force_direction, guess: *guess })]);
+        let [found] = self.solve_each([Some(EquilibriumProblem { base_angle, force_direction, guess: *guess })]);
         found
     }
 
     /// The same for several, as far as they are sought. None waits for another, so that a processor follows their chains side by side.
-    pub fn solve_each<const N: usize>(&self, sought: [Option<Sought>; N]) -> [Option<Equilibrium>; N] {
-        let mut unknowns =
-            sought.map(|sought| sought.map_or((0.0, 0.0), |Sought { guess, .. }| (guess.tip_angle, guess.force)));
+    pub fn solve_each<const N: usize>(&self, sought: [Option<EquilibriumProblem>; N]) -> [Option<Equilibrium>; N] {
+        let mut unknowns = sought
+            .map(|sought| sought.map_or((0.0, 0.0), |EquilibriumProblem { guess, .. }| (guess.tip_angle, guess.force)));
         let directions = sought.map(|sought| unit(sought.map_or(0.0, |sought| sought.force_direction)));
         let (mut open, mut found) = (sought, [None; N]);
         for _ in 0..NEWTON_STEPS {
@@ -82,7 +82,7 @@ impl ShaftChain {
             for (((open, found), (tip_angle, force)), shot) in
                 open.iter_mut().zip(&mut found).zip(&mut unknowns).zip(shots)
             {
-                let Some(Sought { base_angle, .. }) = *open else { continue };
+                let Some(EquilibriumProblem { base_angle, .. }) = *open else { continue };
                 let Some(step) = shot.step(base_angle) else {
                     *open = None;
                     continue;
@@ -177,7 +177,7 @@ impl Shot {
 mod tests {
     use nalgebra::Vector2;
 
-    use super::{ShaftChain, Sought};
+    use super::{EquilibriumProblem, ShaftChain};
     use crate::geometry::unit;
     use crate::rig::Rig;
 
@@ -187,10 +187,10 @@ mod tests {
         let guess = chain.solve(1e-4, 2.0, &super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() });
         let guess = guess.unwrap_or_else(|| chain.straight());
         let sought = [(1.1e-4, 2.0), (2e-4, 1.2), (9e-5, 2.6), (f64::NAN, 2.0)]
-            .map(|(base_angle, force_direction)| Some(Sought { base_angle, force_direction, guess }));
+            .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));
         let [a, b, c, d] = sought;
         let found = chain.solve_each([a, None, b, c, d]);
-        let alone = |sought: Option<Sought>| chain.solve_each([sought])[0];
+        let alone = |sought: Option<EquilibriumProblem>| chain.solve_each([sought])[0];
         assert_eq!(found, [alone(a), None, alone(b), alone(c), None]);
         assert!(found.iter().flatten().count() >= 2, "{found:?}");
     }
@@ -214,7 +214,7 @@ mod tests {
         let start = super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() };
         let guess = chain.solve(1e-4, 2.0, &start).unwrap_or(start);
         let sought = [(1e-4, 2.0), (1.1e-4, 2.1), (1.2e-4, 1.8), (0.9e-4, 2.3)]
-            .map(|(base_angle, force_direction)| Some(Sought { base_angle, force_direction, guess }));
+            .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));
         for (sought, found) in sought.into_iter().zip(chain.solve_each(sought)) {
             let (Some(sought), Some(found)) = (sought, found) else { panic!("{sought:?}: {found:?}") };
             let force = found.force * unit(sought.force_direction);

@@ -7,9 +7,9 @@ use nalgebra::{Matrix2, Vector2};
 use crate::geometry::{perpendicular, unit, wrap};
 use crate::rig::Whisker;
 
-use super::bend::Bend;
-use super::follow::follow;
+use super::continuation::continuation;
 use super::newton::{self, Residual};
+use super::shaft_shape::ShaftShape;
 use super::shot::{Load, Shot};
 
 /// A whisker's shaft as a planar elastica on its base hinge: inextensible, bent by `M = EI θ'` however far, without mass.
@@ -61,13 +61,13 @@ impl Elastica {
 
     /// The straight shaft.
     #[must_use]
-    pub fn straight(&self) -> Bend {
+    pub fn straight(&self) -> ShaftShape {
         self.unbent(self.length, FRAC_PI_2)
     }
 
     /// The straight shaft under no force at a length (m), in a direction (rad).
-    fn unbent(&self, contact_length: f64, force_direction: f64) -> Bend {
-        Bend {
+    fn unbent(&self, contact_length: f64, force_direction: f64) -> ShaftShape {
+        ShaftShape {
             base_angle: 0.0,
             shear: 0.0,
             axial: 0.0,
@@ -86,18 +86,18 @@ impl Elastica {
     ///
     /// There is nothing to be solved for: the shape follows from the force.
     #[must_use]
-    pub fn under(&self, contact_length: f64, force_angle: f64, force: f64) -> Option<Bend> {
+    pub fn under(&self, contact_length: f64, force_angle: f64, force: f64) -> Option<ShaftShape> {
         let load = Load { contact: contact_length / self.length, angle: force_angle, force: force / self.force_unit };
         if load.angle < 0.0 {
-            return self.under(contact_length, -force_angle, force).map(|bend| bend.mirrored());
+            return self.under(contact_length, -force_angle, force).map(|shape| shape.mirrored());
         }
-        self.bend(&load, &Shot::of(&load, self.taper)?)
+        self.shape(&load, &Shot::of(&load, self.taper)?)
     }
 
     /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the tip in the direction
     /// `force_direction` (rad, frame of the base); see [`solve_at`](Self::solve_at).
     #[must_use]
-    pub fn solve_tip(&self, base_angle: f64, force_direction: f64, guess: &Bend) -> Option<Bend> {
+    pub fn solve_tip(&self, base_angle: f64, force_direction: f64, guess: &ShaftShape) -> Option<ShaftShape> {
         self.solve_at(self.length, base_angle, force_direction, guess)
     }
 
@@ -107,11 +107,17 @@ impl Elastica {
     /// It is sought from `guess` on, in as many steps as that takes; the [`straight`](Self::straight) shaft is a guess for
     /// all directions up to π, and beyond for some. `None` if none is found.
     #[must_use]
-    pub fn solve_at(&self, contact_length: f64, base_angle: f64, force_direction: f64, guess: &Bend) -> Option<Bend> {
+    pub fn solve_at(
+        &self,
+        contact_length: f64,
+        base_angle: f64,
+        force_direction: f64,
+        guess: &ShaftShape,
+    ) -> Option<ShaftShape> {
         if base_angle < 0.0 {
             return self
                 .solve_at(contact_length, -base_angle, -force_direction, &guess.mirrored())
-                .map(|bend| bend.mirrored());
+                .map(|shape| shape.mirrored());
         }
         if base_angle == 0.0 {
             return Some(self.unbent(contact_length, force_direction));
@@ -123,7 +129,7 @@ impl Elastica {
         };
         // A guess that does not bend, or to the other side, says nothing.
         let start = if guess.base_angle > 0.0 {
-            Bend { force_direction: force_direction + wrap(guess.force_direction - force_direction), ..*guess }
+            ShaftShape { force_direction: force_direction + wrap(guess.force_direction - force_direction), ..*guess }
         } else {
             // Towards the head of the shaft a small force does not bend it, and turns there once it does.
             self.unbent(contact_length, force_direction.min(SIDEWAYS))
@@ -133,11 +139,11 @@ impl Elastica {
             moment: start.base_angle / self.hinge_compliance,
             direction: start.force_direction,
         };
-        follow(start, |share, near| self.balance(&from.towards(&aim, share), near)).ok()
+        continuation(start, |share, near| self.balance(&from.towards(&aim, share), near)).ok()
     }
 
     /// The equilibrium that meets an aim, from a neighbouring one on.
-    fn balance(&self, aim: &Aim, near: &Bend) -> Option<Bend> {
+    fn balance(&self, aim: &Aim, near: &ShaftShape) -> Option<ShaftShape> {
         let guess = Vector2::new(near.force_direction - near.tip_angle, near.force / self.force_unit);
         let load = |unknowns: Vector2<f64>| Load { contact: aim.contact, angle: unknowns.x, force: unknowns.y };
         let solution = newton::solve(guess, REACH, |unknowns| {
@@ -150,11 +156,11 @@ impl Elastica {
             })
         })?;
         let load = load(solution);
-        self.bend(&load, &Shot::of(&load, self.taper)?)
+        self.shape(&load, &Shot::of(&load, self.taper)?)
     }
 
     /// The shape under a load, in the whisker's units; `None` if it does not bend to the left all along.
-    pub(super) fn bend(&self, load: &Load, shot: &Shot) -> Option<Bend> {
+    pub(super) fn shape(&self, load: &Load, shot: &Shot) -> Option<ShaftShape> {
         if !shot.bends_left || load.force <= 0.0 {
             return None;
         }
@@ -163,10 +169,10 @@ impl Elastica {
         let force = load.force * self.force_unit;
         let (across, along) = (load.angle - shot.root.value).sin_cos();
         let force_direction = load.angle + tip_angle;
-        let (way, left) = (unit(force_direction), perpendicular(unit(force_direction)));
-        let contact_base = self.length * (shot.along.value * way - shot.lever.value * left);
+        let (forward, left) = (unit(force_direction), perpendicular(unit(force_direction)));
+        let contact_base = self.length * (shot.along.value * forward - shot.lever.value * left);
         let beyond = self.length * (1.0 - load.contact);
-        Some(Bend {
+        Some(ShaftShape {
             base_angle,
             shear: force * across,
             axial: force * along,

@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
-use super::bend::Bend;
+use super::continuation::continuation;
 use super::elastica::Elastica;
-use super::follow::follow;
+use super::frictionless_contact::{FrictionlessContact, LoadedContact};
 use super::newton::{self, Residual};
-use super::touch::{LoadedTouch, Touch};
+use super::shaft_shape::ShaftShape;
 
 /// Why nothing can be said of where a whisker is touched.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -62,14 +62,14 @@ impl Elastica {
     ///
     /// # Errors
     /// [`LocateError`].
-    pub fn locate(&self, base_angle: f64, shear: f64, guess: &Bend) -> Result<Bend, LocateError> {
+    pub fn locate(&self, base_angle: f64, shear: f64, guess: &ShaftShape) -> Result<ShaftShape, LocateError> {
         if !(base_angle.is_finite() && shear.is_finite()) {
             return Err(LocateError::NotFinite);
         }
         if base_angle == 0.0 {
             return Err(if shear == 0.0 { LocateError::NoContact } else { LocateError::NoSolution });
         }
-        let side = |bend: Bend| if base_angle < 0.0 { bend.mirrored() } else { bend };
+        let side = |shape: ShaftShape| if base_angle < 0.0 { shape.mirrored() } else { shape };
         let (moment, shear) = (base_angle.abs() / self.hinge_compliance, base_angle.signum() * shear / self.force_unit);
         self.find(moment, shear, &side(*guess)).map(side).ok_or(LocateError::NoSolution)
     }
@@ -77,10 +77,10 @@ impl Elastica {
     /// How the place of a touch (m) and the direction of its force (rad), both in the frame of the base, change with the base angle (rad)
     /// and the shear (N): a row each of x, y and the direction. `None` of a straight shaft, and of what is no touch.
     #[must_use]
-    pub fn changes(&self, bend: &Bend) -> Option<Matrix3x2<f64>> {
-        let is_left = bend.base_angle > 0.0;
-        let left = if is_left { *bend } else { bend.mirrored() };
-        let mut changes = self.loaded(Touch::of(&left, self))?.by_readings(self, &left)?;
+    pub fn changes(&self, shape: &ShaftShape) -> Option<Matrix3x2<f64>> {
+        let is_left = shape.base_angle > 0.0;
+        let left = if is_left { *shape } else { shape.mirrored() };
+        let mut changes = self.loaded(FrictionlessContact::of(&left, self))?.by_readings(self, &left)?;
         if !is_left {
             // x is the same function of both readings with the other sign; all else changes its sign with them.
             changes.row_mut(0).neg_mut();
@@ -89,40 +89,40 @@ impl Elastica {
     }
 
     /// The bend to the left with a moment and a shear at its base, in the units of [`Load`](super::shot::Load).
-    fn find(&self, moment: f64, shear: f64, guess: &Bend) -> Option<Bend> {
+    fn find(&self, moment: f64, shear: f64, guess: &ShaftShape) -> Option<ShaftShape> {
         let aim = Aim { moment: moment.ln(), ratio: shear / moment };
         let is_absurd = moment.max(moment.recip()).max(aim.ratio.abs()) > ABSURD;
         if is_absurd || shear < -(LEAST_SHEAR.0 + LEAST_SHEAR.1 * moment * moment) {
             return None;
         }
-        let near = (guess.base_angle > 0.0).then(|| self.touch(aim, Touch::of(guess, self))).flatten();
-        let touch = near.or_else(|| {
-            let start = self.loaded(Touch::about(moment, aim.ratio, self.taper))?;
-            self.touch(aim, start.touch).or_else(|| {
+        let near = (guess.base_angle > 0.0).then(|| self.contact(aim, FrictionlessContact::of(guess, self))).flatten();
+        let contact = near.or_else(|| {
+            let start = self.loaded(FrictionlessContact::about(moment, aim.ratio, self.taper))?;
+            self.contact(aim, start.contact).or_else(|| {
                 let from = Aim { moment: start.moment.value.ln(), ratio: start.shear.value / start.moment.value };
                 let between = |from: f64, to: f64, share: f64| (1.0 - share) * from + share * to;
-                let on_the_way = |share: f64, near: &LoadedTouch| {
+                let between_loads = |share: f64, near: &LoadedContact| {
                     let moment = between(from.moment, aim.moment, share);
-                    self.touch(Aim { moment, ratio: between(from.ratio, aim.ratio, share) }, near.touch)
+                    self.contact(Aim { moment, ratio: between(from.ratio, aim.ratio, share) }, near.contact)
                 };
-                follow(start, on_the_way).ok()
+                continuation(start, between_loads).ok()
             })
         })?;
-        if touch.stays() { self.bend(&touch.touch.load(), &touch.shot) } else { None }
+        if contact.is_stable() { self.shape(&contact.contact.load(), &contact.shot) } else { None }
     }
 
     /// The touch with a moment and a shear, from a neighbouring one on.
-    fn touch(&self, aim: Aim, near: Touch) -> Option<LoadedTouch> {
-        let at = |unknowns: Vector2<f64>| self.loaded(Touch { place: unknowns.x, force: unknowns.y });
-        let solution = newton::solve(Vector2::new(near.place, near.force), REACH, |unknowns| {
-            let LoadedTouch { moment, shear, .. } = at(unknowns)?;
+    fn contact(&self, aim: Aim, near: FrictionlessContact) -> Option<LoadedContact> {
+        let at = |unknowns: Vector2<f64>| self.loaded(FrictionlessContact { position: unknowns.x, force: unknowns.y });
+        let solution = newton::solve(Vector2::new(near.position, near.force), REACH, |unknowns| {
+            let LoadedContact { moment, shear, .. } = at(unknowns)?;
             let ratio = shear.value / moment.value;
             Some(Residual {
                 value: Vector2::new(moment.value.ln() - aim.moment, ratio - aim.ratio),
                 slope: Matrix2::new(
-                    moment.by_place / moment.value,
+                    moment.by_position / moment.value,
                     moment.by_force / moment.value,
-                    (shear.by_place - ratio * moment.by_place) / moment.value,
+                    (shear.by_position - ratio * moment.by_position) / moment.value,
                     (shear.by_force - ratio * moment.by_force) / moment.value,
                 ),
             })

@@ -25,7 +25,7 @@ pub struct Pivot {
 }
 
 /// The greatest bend (rad) of the series.
-const MOST_BEND: f64 = FRAC_PI_2;
+const MAX_BENDING_ANGLE: f64 = FRAC_PI_2;
 /// Newton steps, which settle for every bend within the series.
 const NEWTON_STEPS: usize = 3;
 /// A shaft that is within this angle (rad) of a surface is taken to lie along it.
@@ -46,53 +46,55 @@ impl Pivot {
     /// The place (m, frame of the base) at which a shaft that rests on it at the length `contact_length` (m) has the base angle
     /// `base_angle` (rad). `None` if it bends farther than the closed form goes.
     #[must_use]
-    pub fn place(&self, base_angle: f64, contact_length: f64) -> Option<Vector2<f64>> {
-        let bend = self.bend(base_angle, contact_length)?;
-        let (along, across) = lever(bend);
-        let scale = contact_length / along_the_shaft(bend);
-        let (sin, cos) = (base_angle.abs() + bend).sin_cos();
-        let place = scale * Vector2::new(along * cos + across * sin, along * sin - across * cos);
-        Some(Vector2::new(place.x, base_angle.signum() * place.y))
+    pub fn contact_base(&self, base_angle: f64, contact_length: f64) -> Option<Vector2<f64>> {
+        let bending_angle = self.bending_angle(base_angle, contact_length)?;
+        let (along, across) = lever(bending_angle);
+        let scale = contact_length / along_the_shaft(bending_angle);
+        let (sin, cos) = (base_angle.abs() + bending_angle).sin_cos();
+        let contact_base = scale * Vector2::new(along * cos + across * sin, along * sin - across * cos);
+        Some(Vector2::new(contact_base.x, base_angle.signum() * contact_base.y))
     }
 
     /// Whether a shaft with the base angle `base_angle` (rad) lies along a surface, rather than touch it with its tip alone. The
     /// surface's normal has the direction `normal` (rad, frame of the base), for a bend to the left.
     #[must_use]
     pub fn lies_flat(&self, base_angle: f64, normal: f64) -> bool {
-        let square = self.bend(base_angle, self.length).map(|bend| base_angle.abs() + bend + FRAC_PI_2);
+        let square = self
+            .bending_angle(base_angle, self.length)
+            .map(|bending_angle| base_angle.abs() + bending_angle + FRAC_PI_2);
         square.is_none_or(|square| normal < square + NEARLY_FLAT)
     }
 
     /// The bend (rad, not 0) of a shaft with a base angle (rad) between its base and a force at the length `contact_length` (m).
-    fn bend(&self, base_angle: f64, contact_length: f64) -> Option<f64> {
+    fn bending_angle(&self, base_angle: f64, contact_length: f64) -> Option<f64> {
         let turn = contact_length * base_angle.abs() / self.softened_compliance(contact_length);
-        let mut bend = (0.5 * turn).max(f64::EPSILON);
+        let mut bending_angle = (0.5 * turn).max(f64::EPSILON);
         for _ in 0..NEWTON_STEPS {
-            bend -= (along_the_shaft(bend) - turn) / (2.0 - 0.4 * bend * bend);
+            bending_angle -= (along_the_shaft(bending_angle) - turn) / (2.0 - 0.4 * bending_angle * bending_angle);
         }
-        (bend <= MOST_BEND).then_some(bend.max(f64::EPSILON))
+        (bending_angle <= MAX_BENDING_ANGLE).then_some(bending_angle.max(f64::EPSILON))
     }
 
     /// The base angle (rad) of a shaft, long enough, that rests on a place (m, frame of the base). `None` if that bends it farther than
     /// the closed form goes.
     #[must_use]
-    pub fn base_angle(&self, place: Vector2<f64>) -> Option<f64> {
-        let (distance, direction) = (place.norm(), place.y.abs().atan2(place.x));
+    pub fn base_angle(&self, contact_base: Vector2<f64>) -> Option<f64> {
+        let (distance, direction) = (contact_base.norm(), contact_base.y.abs().atan2(contact_base.x));
         if distance == 0.0 || distance.is_nan() {
             return None;
         }
         let compliance = self.softened_compliance(distance.min(self.length)) / distance;
-        let angle = |bend: f64| {
-            let (along, across) = lever(bend);
-            (compliance * along.hypot(across), bend - across.atan2(along))
+        let angle = |bending_angle: f64| {
+            let (along, across) = lever(bending_angle);
+            (compliance * along.hypot(across), bending_angle - across.atan2(along))
         };
         // The direction from the base is that of the hinge and two thirds of the bend, to the first order.
-        let mut bend = direction / (2.0 / 3.0 + 2.0 * compliance);
+        let mut bending_angle = direction / (2.0 / 3.0 + 2.0 * compliance);
         for _ in 0..NEWTON_STEPS {
-            let (hinge, turned) = angle(bend);
-            bend -= (hinge + turned - direction) / (2.0 / 3.0 + 2.0 * compliance);
+            let (hinge, turned) = angle(bending_angle);
+            bending_angle -= (hinge + turned - direction) / (2.0 / 3.0 + 2.0 * compliance);
         }
-        (bend <= MOST_BEND).then(|| angle(bend).0 * place.y.signum())
+        (bending_angle <= MAX_BENDING_ANGLE).then(|| angle(bending_angle).0 * contact_base.y.signum())
     }
 
     /// The base angle (rad) that a curvature of 1/m at the base makes, of the uniform shaft that stands for this one under a force at
@@ -103,16 +105,19 @@ impl Pivot {
 }
 
 /// The length of the shaft from the base to the force, times the curvature at the base: `c κ = 2 δ (1 − δ²/15)`.
-fn along_the_shaft(bend: f64) -> f64 {
-    2.0 * bend * (1.0 - bend * bend / 15.0)
+fn along_the_shaft(bending_angle: f64) -> f64 {
+    2.0 * bending_angle * (1.0 - bending_angle * bending_angle / 15.0)
 }
 
 /// Where the force is, seen from the base in the direction that the shaft has at the force, times the curvature at the base: along
 /// that direction, and to its right.
-fn lever(bend: f64) -> (f64, f64) {
-    let sin = bend.sin();
-    let square = bend * bend;
-    (2.0 * sin, sin.max(0.0).sqrt() * bend.max(0.0).sqrt() * bend * (2.0 / 3.0) * (1.0 - square / 28.0))
+fn lever(bending_angle: f64) -> (f64, f64) {
+    let sin = bending_angle.sin();
+    let square = bending_angle * bending_angle;
+    (
+        2.0 * sin,
+        sin.max(0.0).sqrt() * bending_angle.max(0.0).sqrt() * bending_angle * (2.0 / 3.0) * (1.0 - square / 28.0),
+    )
 }
 
 #[cfg(test)]
@@ -137,14 +142,14 @@ mod tests {
             whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
             let (shaft, side) = (&whisker.shaft, if is_left { 1.0 } else { -1.0 });
             let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / (share * shaft.length).powi(2));
-            let bend = Elastica::new(&whisker).under(contact, side * MOST_BEND, force * unit).unwrap();
+            let shape = Elastica::new(&whisker).under(contact, side * MAX_BENDING_ANGLE, force * unit).unwrap();
             let pivot = Pivot::new(&whisker);
             // A taper is exact to the first order of the bend only.
             let tolerance = 1e-3 + 0.25 * (1.0 - taper);
-            let angle = pivot.base_angle(bend.contact_base).unwrap();
-            prop_assert!((angle / bend.base_angle - 1.0).abs() < tolerance, "{angle} {}", bend.base_angle);
-            let place = pivot.place(bend.base_angle, contact).unwrap();
-            prop_assert!((place - bend.contact_base).norm() < tolerance * contact, "{place} {}", bend.contact_base);
+            let angle = pivot.base_angle(shape.contact_base).unwrap();
+            prop_assert!((angle / shape.base_angle - 1.0).abs() < tolerance, "{angle} {}", shape.base_angle);
+            let contact_base = pivot.contact_base(shape.base_angle, contact).unwrap();
+            prop_assert!((contact_base - shape.contact_base).norm() < tolerance * contact, "{contact_base} {}", shape.contact_base);
         }
 
         #[test]
@@ -152,9 +157,9 @@ mod tests {
             prop_assume!((lean - NEARLY_FLAT).abs() > 3e-3);
             let whisker = Rig::default().whiskers.remove(0);
             let unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
-            let bend = Elastica::new(&whisker).under(whisker.shaft.length, MOST_BEND, force * unit).unwrap();
-            let normal = bend.tip_angle + FRAC_PI_2 + lean;
-            prop_assert_eq!(Pivot::new(&whisker).lies_flat(bend.base_angle, normal), lean < NEARLY_FLAT);
+            let shape = Elastica::new(&whisker).under(whisker.shaft.length, MAX_BENDING_ANGLE, force * unit).unwrap();
+            let normal = shape.tip_angle + FRAC_PI_2 + lean;
+            prop_assert_eq!(Pivot::new(&whisker).lies_flat(shape.base_angle, normal), lean < NEARLY_FLAT);
         }
     }
 }

@@ -56,18 +56,18 @@ impl Shot {
             let [angle, lever, _, angle_c, lever_c, _, angle_a, lever_a, _, angle_f, lever_f, _] = *state;
             let (across, along) = (psi - angle).sin_cos();
             let (across_c, along_c) = (contact * across, contact * along);
-            let bend = contact * softness * force;
+            let curvature = contact * softness * force;
             [
-                -bend * lever,
+                -curvature * lever,
                 across_c,
                 along_c,
-                -bend * lever_c - force * (softness + contact * softness_c) * lever,
+                -curvature * lever_c - force * (softness + contact * softness_c) * lever,
                 across - along_c * angle_c,
                 along + across_c * angle_c,
-                -bend * lever_a,
+                -curvature * lever_a,
                 along_c * (1.0 - angle_a),
                 -across_c * (1.0 - angle_a),
-                -bend * lever_f - contact * softness * lever,
+                -curvature * lever_f - contact * softness * lever,
                 -along_c * angle_f,
                 across_c * angle_f,
             ]

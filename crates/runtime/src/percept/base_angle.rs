@@ -12,16 +12,16 @@ pub(super) struct BaseAngle {
     /// Time by which the base angle is behind the base moment (s): the hinge's damping over its stiffness.
     delay: f64,
     /// Standard deviation (rad).
-    pub(super) spread: f64,
+    pub(super) deviation: f64,
     /// The same for who takes one value after the other to be off by chance: as lines have readings in common, many of their values
     /// together are no better than as many readings.
-    pub(super) lasting_spread: f64,
+    pub(super) correlated_deviation: f64,
 }
 
 /// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
-const MODEL_SPREAD: f64 = 3e-7;
+const MODEL_DEVIATION: f64 = 3e-7;
 /// The spread of the base angle (rad) that is worth a longer line through the readings.
-const WANTED_SPREAD: f64 = 4.5e-7;
+const WANTED_DEVIATION: f64 = 4.5e-7;
 /// A base angle that changes faster (rad/s) is that of a whisker in free motion.
 const CALM_RATE: f64 = 6e-4;
 
@@ -29,10 +29,10 @@ impl BaseAngle {
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         let delay = whisker.hinge.damping / whisker.hinge.stiffness;
         let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
-        let line = RecentLine::new(sensing.sample_rate.recip(), delay, noise, WANTED_SPREAD);
+        let line = RecentLine::new(sensing.sample_rate.recip(), delay, noise, WANTED_DEVIATION);
         let gain = line.noise_gain(delay);
-        let spread = |gain: f64| MODEL_SPREAD.hypot(noise * gain);
-        Self { spread: spread(gain), lasting_spread: spread(gain.max(1.0)), delay, line }
+        let deviation = |gain: f64| MODEL_DEVIATION.hypot(noise * gain);
+        Self { deviation: deviation(gain), correlated_deviation: deviation(gain.max(1.0)), delay, line }
     }
 
     /// Takes a reading (rad).

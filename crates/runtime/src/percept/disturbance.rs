@@ -121,8 +121,8 @@ impl Disturbance {
         // A heading may be given within one turn.
         missing.z = turn_between(0.0, missing.z);
         let asked = self.fastest(self.expected) / self.elapsed;
-        let bends = self.base_angles.iter().zip(&self.pushes);
-        let pushed: f64 = bends.map(|(base_angle, push)| base_angle.abs() * push).sum();
+        let weighted = self.base_angles.iter().zip(&self.pushes);
+        let pushed: f64 = weighted.map(|(base_angle, push)| base_angle.abs() * push).sum();
         let left = (-self.elapsed / AVERAGED).exp();
         self.missing = self.missing * left + missing * ((1.0 - left) / self.elapsed);
         self.asked = self.asked * left + asked * (1.0 - left);

@@ -1,8 +1,10 @@
 //! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
 
 mod base_angle;
-mod deflection;
+mod contact;
+mod contact_estimator;
 mod disturbance;
+mod filtered_base_angle;
 mod local_contour;
 mod low_pass;
 mod moment_and_shear;
@@ -13,13 +15,13 @@ mod recursive;
 mod shaft_rest;
 mod sliding;
 mod tip_curve;
-mod tip_model;
 mod tip_table;
 mod whisker;
 
+pub use contact::Contact;
+pub use contact_estimator::ContactEstimator;
 pub use local_contour::LocalContour;
 pub use low_pass::{CutoffError, LowPass};
 pub use perception::{Perception, PerceptionError};
-pub use tip_curve::{TipCurve, TipModelError};
-pub use tip_model::{TipModel, Touch};
-pub use tip_table::{TipPlace, TipTable};
+pub use tip_curve::{TipCurve, TipCurveError};
+pub use tip_table::{TipPosition, TipTable};

@@ -3,20 +3,21 @@
 use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, ContourVector, Mark, Senses, TipModelKind, WhiskerScalar, WhiskerVector};
+use crate::machine::{BodyScalar, ContactEstimatorKind, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 use crate::rig::{Rig, Whisker};
 use crate::signal::{Command, Sample};
 
+use super::contact::Contact;
+use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
 use super::one_channel::OneChannel;
 use super::recursive::{self, Recursive};
 use super::sliding::Sliding;
-use super::tip_curve::{TipCurve, TipModelError};
-use super::tip_model::{TipModel, Touch};
+use super::tip_curve::{TipCurve, TipCurveError};
 use super::tip_table::TipTable;
-use super::whisker::{PerceivedWhisker, deflection_spread};
+use super::whisker::{PerceivedWhisker, base_angle_deviation};
 
 /// Perception of a rig by the whiskers that a policy binds.
 #[derive(Debug, Clone)]
@@ -35,7 +36,7 @@ pub struct Perception {
 pub enum PerceptionError {
     /// A whisker's mechanics give no tip model.
     #[error(transparent)]
-    TipModel(#[from] TipModelError),
+    ContactEstimator(#[from] TipCurveError),
     /// A whisker is to be perceived by forces that the rig does not measure.
     #[error(
         "the policy perceives the whisker `{whisker}` by moment_and_shear, and the rig measures no forces; give it \
@@ -61,8 +62,11 @@ pub enum PerceptionError {
 impl Perception {
     /// Makes what takes longest of the perception of `rig` by these tip models, and keeps it for [`new`](Self::new): for who has other
     /// things to do meanwhile.
-    pub fn prepare(rig: &Rig, tip_models: &[TipModelKind]) {
-        if tip_models.iter().any(|kind| matches!(kind, TipModelKind::Sliding | TipModelKind::Recursive)) {
+    pub fn prepare(rig: &Rig, contact_estimators: &[ContactEstimatorKind]) {
+        if contact_estimators
+            .iter()
+            .any(|kind| matches!(kind, ContactEstimatorKind::Sliding | ContactEstimatorKind::Recursive))
+        {
             for whisker in &rig.whiskers {
                 drop(TipTable::shared(&whisker.perceived()));
             }
@@ -77,15 +81,20 @@ impl Perception {
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
-    pub fn new(rig: &Rig, whiskers: &[Option<usize>], tip_models: &[TipModelKind]) -> Result<Self, PerceptionError> {
+    pub fn new(
+        rig: &Rig,
+        whiskers: &[Option<usize>],
+        contact_estimators: &[ContactEstimatorKind],
+    ) -> Result<Self, PerceptionError> {
         let sensing = &rig.sensing;
-        let perceived =
-            whiskers.iter().zip(tip_models.iter().copied().chain(std::iter::repeat(TipModelKind::default())));
+        let perceived = whiskers
+            .iter()
+            .zip(contact_estimators.iter().copied().chain(std::iter::repeat(ContactEstimatorKind::default())));
         let perceived = perceived.map(|(&index, kind)| {
             // What nothing touches needs no model but the one that takes no time.
             let (whisker, kind) = match index {
                 Some(index) => (rig.whiskers[index].perceived(), kind),
-                None => (Whisker::unfitted(), TipModelKind::OneChannel),
+                None => (Whisker::unfitted(), ContactEstimatorKind::OneChannel),
             };
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
@@ -93,16 +102,18 @@ impl Perception {
                 Some(measured) => TipCurve::calibrated(measured),
                 None => TipCurve::with_friction(&whisker, sensing.friction)?,
             });
-            let model: Box<dyn TipModel> = match kind {
-                TipModelKind::OneChannel => {
-                    Box::new(OneChannel::new(Arc::clone(&curve), deflection_spread(sensing), whisker.shaft.length))
+            let estimator: Box<dyn ContactEstimator> = match kind {
+                ContactEstimatorKind::OneChannel => {
+                    Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), whisker.shaft.length))
                 }
-                TipModelKind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
-                TipModelKind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
-                TipModelKind::MomentAndShear => {
+                ContactEstimatorKind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
+                ContactEstimatorKind::MomentAndShear if sensing.forces => {
+                    Box::new(MomentAndShear::new(&whisker, sensing))
+                }
+                ContactEstimatorKind::MomentAndShear => {
                     return Err(PerceptionError::NoForces { whisker: whisker.name });
                 }
-                TipModelKind::Recursive => {
+                ContactEstimatorKind::Recursive => {
                     let surface = match calibration.and_then(|calibration| calibration.recursive.clone()) {
                         Some(measured) => measured,
                         None => recursive::surface(&whisker, &TipTable::shared(&whisker))
@@ -111,7 +122,7 @@ impl Perception {
                     Box::new(Recursive::new(&whisker, Arc::new(surface), Arc::clone(&curve), sensing))
                 }
             };
-            Ok(PerceivedWhisker::new(&whisker, filter, curve, model, sensing))
+            Ok(PerceivedWhisker::new(&whisker, filter, curve, estimator, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
         Ok(Self {
@@ -130,7 +141,7 @@ impl Perception {
     /// the pose and all that depends on it, are not a number. The time then stands still.
     pub fn update(&mut self, samples: &[Sample]) {
         for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
-            whisker.deflection.begin();
+            whisker.base_angle.begin();
         }
         self.body = Pose::UNKNOWN;
         for sample in samples {
@@ -145,7 +156,7 @@ impl Perception {
             }
         }
         for whisker in &mut self.whiskers {
-            whisker.place(self.body);
+            whisker.update(self.body);
         }
         self.disturbance.update(samples, self.time, self.body);
     }
@@ -175,27 +186,27 @@ impl Perception {
 
     /// Filtered base angle (rad) of a whisker; not a number in a tick that brought no reading of it.
     #[must_use]
-    pub fn deflection(&self, whisker: usize) -> f64 {
-        self.whiskers[whisker].deflection()
+    pub fn base_angle(&self, whisker: usize) -> f64 {
+        self.whiskers[whisker].base_angle()
     }
 
     /// Where a whisker is touched, if its tip model can tell in this tick.
     #[must_use]
-    pub fn touch(&self, whisker: usize) -> Option<&Touch> {
-        self.whiskers[whisker].touch()
+    pub fn contact(&self, whisker: usize) -> Option<&Contact> {
+        self.whiskers[whisker].contact()
     }
 
     /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
-        (whisker.recorded && whisker.is_felt() && whisker.is_sure()).then(|| whisker.tip_world())
+        (whisker.recorded && whisker.has_contact() && whisker.is_recordable()).then(|| whisker.tip_world())
     }
 
     /// How far off the recorded tip of a whisker may be (m): a standard deviation.
     #[must_use]
-    pub fn recorded_spread(&self, whisker: usize) -> f64 {
-        self.whiskers[whisker].recorded_spread()
+    pub fn recorded_deviation(&self, whisker: usize) -> f64 {
+        self.whiskers[whisker].recorded_deviation()
     }
 
     /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
@@ -235,16 +246,16 @@ impl Senses for Perception {
         let fitted = truth(self.in_sample[whisker].is_some());
         let whisker = &self.whiskers[whisker];
         match quantity {
-            WhiskerScalar::Deflection => whisker.deflection(),
-            WhiskerScalar::Touching => truth(whisker.touches()),
+            WhiskerScalar::BaseAngle => whisker.base_angle(),
+            WhiskerScalar::Touching => truth(whisker.is_touching()),
             WhiskerScalar::Yaw => whisker.yaw,
             WhiskerScalar::Side => whisker.side,
-            WhiskerScalar::Sense if whisker.touches() => whisker.deflection().signum() * whisker.side,
+            WhiskerScalar::Sense if whisker.is_touching() => whisker.base_angle().signum() * whisker.side,
             WhiskerScalar::Sense => 0.0,
             WhiskerScalar::Length => whisker.length,
             WhiskerScalar::ContourReady => truth(whisker.has_current_contour()),
             WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
-            WhiskerScalar::TipSpread => whisker.tip_spread(),
+            WhiskerScalar::TipDeviation => whisker.tip_deviation(),
             WhiskerScalar::Fitted => fitted,
         }
     }
@@ -262,8 +273,8 @@ impl Senses for Perception {
         }
     }
 
-    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
-        self.whiskers[whisker].tip_at(deflection)
+    fn tip_at(&self, whisker: usize, base_angle: f64) -> Vector2 {
+        self.whiskers[whisker].tip_at(base_angle)
     }
 
     fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {

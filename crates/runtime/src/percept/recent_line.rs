@@ -18,13 +18,13 @@ const LONGEST: usize = 30;
 const SHORTEST: usize = 3;
 
 impl RecentLine {
-    /// A line through as few readings as bring the spread of its value `ahead` (s) of the newest down to `spread`, or through
+    /// A line through as few readings as bring the spread of its value `ahead` (s) of the newest down to `deviation`, or through
     /// thirty, for readings of which each may be off by `noise`.
-    pub(super) fn new(period: f64, ahead: f64, noise: f64, spread: f64) -> Self {
+    pub(super) fn new(period: f64, ahead: f64, noise: f64, deviation: f64) -> Self {
         let line = |window| Self { period, window, readings: [0.0; LONGEST], count: 0 };
         (SHORTEST..LONGEST)
             .map(line)
-            .find(|line| noise * line.noise_gain(ahead) <= spread)
+            .find(|line| noise * line.noise_gain(ahead) <= deviation)
             .unwrap_or_else(|| line(LONGEST))
     }
 

@@ -10,8 +10,9 @@ use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
+use super::contact::Contact;
+use super::contact_estimator::ContactEstimator;
 use super::tip_curve::TipCurve;
-use super::tip_model::{TipModel, Touch};
 use super::tip_table::TipTable;
 
 /// Follows the tip's place in the frame of the base: from reading to reading it goes as the usual curve does, then a step along the
@@ -25,7 +26,7 @@ pub(super) struct Recursive {
     curve: Arc<TipCurve>,
     angle: BaseAngle,
     /// Standard deviation of the base angle (rad), with what the polynomial leaves of it.
-    angle_spread: f64,
+    angle_deviation: f64,
     contact_threshold: f64,
     length: f64,
     tip: Option<Tip>,
@@ -36,10 +37,10 @@ pub(super) struct Recursive {
 #[derive(Debug, Clone, Copy)]
 struct Tip {
     /// +1 for a bend that is counter-clockwise, −1 for one that is clockwise.
-    bend: f64,
+    bend_sign: f64,
     base_angle: f64,
     /// m, frame of the base.
-    place: Vector2,
+    position: Vector2,
     covariance: Matrix2<f64>,
 }
 
@@ -54,8 +55,8 @@ const ANGLES: usize = 40;
 /// The polynomial of a whisker that nobody has measured, from its mechanics; `None` if they give too few places.
 pub(super) fn surface(whisker: &Whisker, table: &TipTable) -> Option<AngleSurface> {
     let (first, last, step) = DIRECTIONS;
-    let places = (first..=last).step_by(step).flat_map(|degrees| (0..=ANGLES).map(move |angle| (degrees, angle)));
-    let sets = places.filter_map(|(degrees, angle)| {
+    let positions = (first..=last).step_by(step).flat_map(|degrees| (0..=ANGLES).map(move |angle| (degrees, angle)));
+    let sets = positions.filter_map(|(degrees, angle)| {
         let (normal, base_angle) = ((degrees as f64).to_radians(), table.range() * angle as f64 / (2 * ANGLES) as f64);
         let tip = table.at(base_angle, normal)?.tip_base;
         let contact_base = tip - whisker.shaft.radius_at(1.0) * unit(normal);
@@ -68,7 +69,7 @@ impl Recursive {
     pub(super) fn new(whisker: &Whisker, surface: Arc<AngleSurface>, curve: Arc<TipCurve>, sensing: &Sensing) -> Self {
         let angle = BaseAngle::new(whisker, sensing);
         Self {
-            angle_spread: angle.spread.hypot(surface.spread),
+            angle_deviation: angle.deviation.hypot(surface.deviation),
             surface,
             curve,
             angle,
@@ -80,38 +81,38 @@ impl Recursive {
     }
 
     /// The first place of a tip.
-    fn first(&self, bend: f64, base_angle: f64) -> Option<Tip> {
-        let covariance = self.curve.covariance(base_angle, self.angle_spread)?;
-        Some(Tip { bend, base_angle, place: self.curve.contact_base(base_angle), covariance })
+    fn first(&self, bend_sign: f64, base_angle: f64) -> Option<Tip> {
+        let covariance = self.curve.covariance(base_angle, self.angle_deviation)?;
+        Some(Tip { bend_sign, base_angle, position: self.curve.contact_base(base_angle), covariance })
     }
 
     /// One step of a tip whose base has gone a way (m).
-    fn follow(&self, last: &Tip, base_angle: f64, way: f64) -> Option<Tip> {
+    fn advance(&self, last: &Tip, base_angle: f64, path: f64) -> Option<Tip> {
         let usual = self.curve.contact_base(base_angle) - self.curve.contact_base(last.base_angle);
-        let carried = last.place + usual;
-        let covariance = last.covariance + Matrix2::identity() * (SLIDING * way);
+        let carried = last.position + usual;
+        let covariance = last.covariance + Matrix2::identity() * (SLIDING * path);
         let (expected, gradient) = self.surface.at(carried);
-        let variance = (gradient.transpose() * covariance * gradient).x + self.angle_spread.powi(2);
+        let variance = (gradient.transpose() * covariance * gradient).x + self.angle_deviation.powi(2);
         let gain = covariance * gradient / variance;
-        let place = carried + gain * (base_angle - expected);
+        let position = carried + gain * (base_angle - expected);
         let covariance = covariance - variance * gain * gain.transpose();
-        self.surface.contains(place).then_some(Tip { bend: last.bend, base_angle, place, covariance })
+        self.surface.contains(position).then_some(Tip { bend_sign: last.bend_sign, base_angle, position, covariance })
     }
 }
 
-impl TipModel for Recursive {
+impl ContactEstimator for Recursive {
     fn take(&mut self, reading: &Reading, base: Pose) {
         self.angle.take(reading.base_angle);
         let (angle, _) = self.angle.value();
-        let (bend, base_angle) = (angle.signum(), angle.abs());
-        let way = self.base_before.map_or(0.0, |before| {
+        let (bend_sign, base_angle) = (angle.signum(), angle.abs());
+        let path = self.base_before.map_or(0.0, |before| {
             (base.position - before.position).norm() + self.length * (base.heading - before.heading).abs()
         });
         self.base_before = Some(base);
         self.tip = match self.tip {
             _ if base_angle < self.contact_threshold => None,
-            Some(last) if last.bend * bend > 0.0 => self.follow(&last, base_angle, way),
-            _ => self.first(bend, base_angle),
+            Some(last) if last.bend_sign * bend_sign > 0.0 => self.advance(&last, base_angle, path),
+            _ => self.first(bend_sign, base_angle),
         };
     }
 
@@ -121,11 +122,12 @@ impl TipModel for Recursive {
         self.base_before = None;
     }
 
-    fn touch(&mut self, _: f64, base: Pose) -> Option<Touch> {
-        let Tip { bend, place, mut covariance, .. } = self.tip.filter(|tip| self.surface.contains(tip.place))?;
-        covariance.m12 *= bend;
+    fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {
+        let Tip { bend_sign, position, mut covariance, .. } =
+            self.tip.filter(|tip| self.surface.contains(tip.position))?;
+        covariance.m12 *= bend_sign;
         covariance.m21 = covariance.m12;
-        let place = Vector2::new(place.x, bend * place.y);
-        Some(Touch::by_tip(place, &covariance, self.length, base))
+        let position = Vector2::new(position.x, bend_sign * position.y);
+        Some(Contact::by_tip(position, &covariance, self.length, base))
     }
 }

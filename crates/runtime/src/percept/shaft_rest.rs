@@ -16,12 +16,12 @@ pub(super) struct ShaftRest {
     /// Length of the shaft (m).
     length: f64,
     /// Standard deviation of a base angle (rad).
-    angle_spread: f64,
+    angle_deviation: f64,
     /// The newest readings, oldest first.
     readings: [Posed; REMEMBERED],
     count: usize,
     /// Way of the whisker (m) since the newest of them.
-    way: f64,
+    path: f64,
     /// The tip (m, world frame) at the last sample.
     tip: Option<Point2>,
     /// How far the fixed place is from the tip (m); 0 without one.
@@ -35,7 +35,7 @@ pub(super) struct ShaftRest {
 #[derive(Debug, Clone, Copy)]
 struct Rest {
     /// m, world frame.
-    place: Point2,
+    position: Point2,
     /// Judgements in a row, up to now, by which it explains the readings, and the most of them.
     lasted: usize,
     longest: usize,
@@ -83,14 +83,14 @@ const FADING: f64 = 12e-3;
 const FLAT: f64 = 5e-3;
 
 impl ShaftRest {
-    pub(super) fn new(whisker: &Whisker, angle_spread: f64) -> Self {
+    pub(super) fn new(whisker: &Whisker, angle_deviation: f64) -> Self {
         Self {
             pivot: Pivot::new(whisker),
             length: whisker.shaft.length,
-            angle_spread,
+            angle_deviation,
             readings: [Posed::default(); REMEMBERED],
             count: 0,
-            way: 0.0,
+            path: 0.0,
             tip: None,
             apart: 0.0,
             doubt: 0.0,
@@ -105,7 +105,7 @@ impl ShaftRest {
 
     /// Forgets the readings at a gap in the contact. What was in doubt before stays so.
     pub(super) fn interrupt(&mut self) {
-        (self.count, self.way, self.tip, self.apart, self.rest) = (0, 0.0, None, 0.0, None);
+        (self.count, self.path, self.tip, self.apart, self.rest) = (0, 0.0, None, 0.0, None);
     }
 
     /// Forgets the contact.
@@ -114,21 +114,21 @@ impl ShaftRest {
         self.doubt = 0.0;
     }
 
-    /// Takes a base angle (rad) with the base at `base`, `way` (m) after the last one. By the estimate the tip is at `tip` (m, world
+    /// Takes a base angle (rad) with the base at `base`, `path` (m) after the last one. By the estimate the tip is at `tip` (m, world
     /// frame), on a surface whose normal has the direction `normal` (rad) from the undeflected shaft, for a bend to the left.
-    pub(super) fn take(&mut self, angle: f64, base: Pose, way: f64, tip: Point2, normal: f64) {
+    pub(super) fn take(&mut self, angle: f64, base: Pose, path: f64, tip: Point2, normal: f64) {
         // An estimate that goes wrong may run ahead of the whisker.
-        let slid = self.tip.replace(tip).map_or(0.0, |before| (tip - before).norm().min(way));
+        let slid = self.tip.replace(tip).map_or(0.0, |before| (tip - before).norm().min(path));
         let fading = (-slid / FADING).exp();
         self.doubt *= fading;
         if let Some(rest) = &mut self.rest {
             rest.doubt_before *= fading;
         }
-        self.way += way;
-        if self.count > 0 && self.way < SPACING {
+        self.path += path;
+        if self.count > 0 && self.path < SPACING {
             return;
         }
-        self.way = 0.0;
+        self.path = 0.0;
         self.readings.rotate_left(1);
         self.readings[REMEMBERED - 1] = Posed {
             base: base.position,
@@ -150,38 +150,38 @@ impl ShaftRest {
     }
 
     fn judge(&mut self, tip: Point2) {
-        let Some(place) = self.fixed_place() else {
+        let Some(position) = self.fixed_position() else {
             self.apart = 0.0;
             if let Some(rest) = &mut self.rest {
                 rest.lasted = 0;
             }
             return;
         };
-        if let Some(moved) = self.rest.take_if(|rest| (place - rest.place).norm() > DRIFT)
+        if let Some(moved) = self.rest.take_if(|rest| (position - rest.position).norm() > DRIFT)
             && moved.longest < PROVEN
         {
             self.doubt = moved.doubt_before;
         }
-        let begun = Rest { place, lasted: 0, longest: 0, doubt_before: self.doubt };
+        let begun = Rest { position, lasted: 0, longest: 0, doubt_before: self.doubt };
         let rest = self.rest.get_or_insert(begun);
         rest.lasted += 1;
         rest.longest = rest.longest.max(rest.lasted);
-        self.apart = (place - tip).norm();
+        self.apart = (position - tip).norm();
         if rest.lasted >= LASTING {
             self.doubt = self.doubt.max(self.apart);
         }
     }
 
     /// The place (m, world frame) nearest to the base on which a shaft that rests has all the base angles.
-    fn fixed_place(&self) -> Option<Point2> {
+    fn fixed_position(&self) -> Option<Point2> {
         let (oldest, newest) = (&self.readings[0], &self.readings[REMEMBERED - 1]);
-        if self.angle_spread > MOST_NOISE * newest.angle.abs() || !self.seems_to_turn() {
+        if self.angle_deviation > MOST_NOISE * newest.angle.abs() || !self.seems_to_turn() {
             return None;
         }
         // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
         let tried = |share: f64| {
-            let place = newest.to_world(self.pivot.place(newest.angle, share * self.length)?);
-            Some((place, self.misfit(oldest, place)?))
+            let position = newest.to_world(self.pivot.contact_base(newest.angle, share * self.length)?);
+            Some((position, self.misfit(oldest, position)?))
         };
         let shares = (0..=STEPS).map(|step| LEAST_SHARE + (1.0 - LEAST_SHARE) * f64::from(step) / f64::from(STEPS));
         let mut before: Option<(f64, f64)> = None;
@@ -190,10 +190,10 @@ impl ShaftRest {
             before = tried(share).map(|(_, misfit)| (share, misfit));
             if let (Some(below), Some(above)) = (last, before)
                 && below.1 * above.1 <= 0.0
-                && let Some(place) = refined(tried, below, above)
-                && self.explains(place)
+                && let Some(position) = refined(tried, below, above)
+                && self.explains(position)
             {
-                return Some(place);
+                return Some(position);
             }
         }
         None
@@ -206,16 +206,16 @@ impl ShaftRest {
     }
 
     /// Whether a shaft that rests on a place (m, world frame) has all the base angles.
-    fn explains(&self, place: Point2) -> bool {
+    fn explains(&self, position: Point2) -> bool {
         self.readings.iter().all(|reading| {
-            let spread = self.angle_spread.hypot(MODEL_SHARE * reading.angle);
-            self.misfit(reading, place).is_some_and(|misfit| misfit.abs() <= MISFIT * spread)
+            let deviation = self.angle_deviation.hypot(MODEL_SHARE * reading.angle);
+            self.misfit(reading, position).is_some_and(|misfit| misfit.abs() <= MISFIT * deviation)
         })
     }
 
     /// By how much (rad) the base angle of a shaft that rests on a place (m, world frame) is greater than that of a reading.
-    fn misfit(&self, reading: &Posed, place: Point2) -> Option<f64> {
-        Some(self.pivot.base_angle(reading.to_base(place))? - reading.angle)
+    fn misfit(&self, reading: &Posed, position: Point2) -> Option<f64> {
+        Some(self.pivot.base_angle(reading.to_base(position))? - reading.angle)
     }
 }
 
@@ -225,23 +225,23 @@ fn refined(
     mut below: (f64, f64),
     mut above: (f64, f64),
 ) -> Option<Point2> {
-    let mut place = None;
+    let mut position = None;
     for _ in 0..REFINEMENTS {
         let share = below.0 + (above.0 - below.0) * below.1 / (below.1 - above.1);
         let (found, misfit) = tried(share)?;
-        place = Some(found);
+        position = Some(found);
         if misfit * below.1 > 0.0 { below = (share, misfit) } else { above = (share, misfit) }
     }
-    place
+    position
 }
 
 impl Posed {
-    fn to_world(self, place: Vector2) -> Point2 {
-        self.base + place.x * self.axis + place.y * perpendicular(self.axis)
+    fn to_world(self, position: Vector2) -> Point2 {
+        self.base + position.x * self.axis + position.y * perpendicular(self.axis)
     }
 
-    fn to_base(self, place: Point2) -> Vector2 {
-        let offset = place - self.base;
+    fn to_base(self, position: Point2) -> Vector2 {
+        let offset = position - self.base;
         Vector2::new(self.axis.dot(&offset), perpendicular(self.axis).dot(&offset))
     }
 }
@@ -263,15 +263,21 @@ mod tests {
         (ShaftRest::new(&whisker, 4.5e-7), whisker)
     }
 
-    /// Takes the base angle of a shaft that rests on a corner at `place` (m, world frame) with a share of its length, by the exact theory.
+    /// Takes the base angle of a shaft that rests on a corner at `position` (m, world frame) with a share of its length, by the exact theory.
     /// The force is in units of `EI / L²`. What is taken for a surface turns by `turned` (rad).
-    fn take_on_corner(rest: &mut ShaftRest, whisker: &Whisker, place: Point2, (share, force): (f64, f64), turned: f64) {
+    fn take_on_corner(
+        rest: &mut ShaftRest,
+        whisker: &Whisker,
+        position: Point2,
+        (share, force): (f64, f64),
+        turned: f64,
+    ) {
         let elastica = Elastica::new(whisker);
         let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
-        let bend = elastica.under(share * whisker.shaft.length, FRAC_PI_2, force * force_unit).unwrap();
-        let base = Pose { position: place - bend.contact_base, heading: 0.0 };
-        let tip = base.position + bend.tip_base;
-        rest.take(bend.base_angle, base, SPACING, tip, PI + turned);
+        let shape = elastica.under(share * whisker.shaft.length, FRAC_PI_2, force * force_unit).unwrap();
+        let base = Pose { position: position - shape.contact_base, heading: 0.0 };
+        let tip = base.position + shape.tip_base;
+        rest.take(shape.base_angle, base, SPACING, tip, PI + turned);
     }
 
     proptest! {
@@ -290,12 +296,12 @@ mod tests {
             let (mut rest, whisker) = rest();
             let elastica = Elastica::new(&whisker);
             let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
-            let bend = elastica.under(whisker.shaft.length, FRAC_PI_2 + lean, force * force_unit).unwrap();
+            let shape = elastica.under(whisker.shaft.length, FRAC_PI_2 + lean, force * force_unit).unwrap();
             // The wall is square to the force.
-            let along = perpendicular(unit(bend.force_direction));
+            let along = perpendicular(unit(shape.force_direction));
             for step in 0..40 {
                 let base = Pose { position: Point2::origin() + SPACING * f64::from(step) * along, heading: 0.0 };
-                rest.take(bend.base_angle, base, SPACING, base.position + bend.tip_base, bend.force_direction);
+                rest.take(shape.base_angle, base, SPACING, base.position + shape.tip_base, shape.force_direction);
                 prop_assert!(rest.doubt() < 1e-4, "{} m", rest.doubt());
             }
         }
@@ -317,10 +323,10 @@ mod tests {
     fn a_place_that_was_no_corner_leaves_a_shaft_in_doubt_that_lay_along_a_surface() {
         let (mut rest, whisker) = rest();
         // It lies along a surface while it seems to rest on one corner, and then it seems to rest on another.
-        for (place, normal) in [(Point2::new(0.3, -0.2), FRAC_PI_2), (Point2::new(0.3, -0.19), PI)] {
+        for (position, normal) in [(Point2::new(0.3, -0.2), FRAC_PI_2), (Point2::new(0.3, -0.19), PI)] {
             for step in 0..5 {
                 let turned = normal - PI - 0.02 * f64::from(step);
-                take_on_corner(&mut rest, &whisker, place, (0.9 + 5e-3 * f64::from(step), 2.0), turned);
+                take_on_corner(&mut rest, &whisker, position, (0.9 + 5e-3 * f64::from(step), 2.0), turned);
             }
         }
         // Readings that no fixed place explains end the rest.

@@ -10,9 +10,10 @@ use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
+use super::contact::{CONTACT_DEVIATION, Contact};
+use super::contact_estimator::ContactEstimator;
 use super::shaft_rest::ShaftRest;
-use super::tip_model::{CONTACT_SPREAD, TipModel, Touch};
-use super::tip_table::{TipPlace, TipTable};
+use super::tip_table::{TipPosition, TipTable};
 
 /// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
 ///
@@ -51,16 +52,16 @@ enum State {
     /// Touching, but not sliding; with where the tip slid last, if it did.
     Unsettled {
         left: Option<Point2>,
-        bend: f64,
+        bend_sign: f64,
     },
-    Settled(Contact),
+    Settled(SlidingContact),
 }
 
 /// The contact of a sliding tip.
 #[derive(Debug, Clone, Copy)]
-struct Contact {
+struct SlidingContact {
     /// Which way the whisker is bent: +1 counter-clockwise, −1 clockwise.
-    bend: f64,
+    bend_sign: f64,
     /// The tip's centre (m, world frame), and where it was one, two and three samples before.
     centre: Point2,
     before: [Point2; 3],
@@ -71,7 +72,7 @@ struct Contact {
     /// The same with what the filter's gain does not regard: that contacts give more or less.
     considered: Matrix2<f64>,
     /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
-    tip: TipPlace,
+    tip: TipPosition,
     /// Where it came to touch (m, world frame), how far it has been from there since (m), and the variance of the place (m²) by which it
     /// may not have been the tip that touched there.
     first: Point2,
@@ -91,7 +92,7 @@ const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same behind an edge, where a surface may go anywhere.
 const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
 /// Standard deviation of a centre's place at a light touch (m).
-const FIRST_PLACE: f64 = 2e-5;
+const FIRST_POSITION: f64 = 2e-5;
 /// How far off the place of a tip may be (m, standard deviation) where it came to touch and nothing was known of the surface: an edge may
 /// have met the shaft before it. And the way of the tip (m) on which that variance falls by a factor e, as it comes to the edge.
 const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
@@ -115,7 +116,7 @@ impl Sliding {
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
         let angle = BaseAngle::new(whisker, sensing);
         Self {
-            rest: ShaftRest::new(whisker, angle.spread),
+            rest: ShaftRest::new(whisker, angle.deviation),
             table,
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
@@ -131,41 +132,41 @@ impl Sliding {
     }
 
     /// The contact, while the tip slides.
-    fn contact(&self) -> Option<&Contact> {
+    fn sliding_contact(&self) -> Option<&SlidingContact> {
         if let State::Settled(contact) = &self.state { Some(contact) } else { None }
     }
 
     /// Where the tip's centre is (m, world frame), with its changes, on a surface whose normal has a direction (rad, world frame).
-    fn tip(&self, angle: f64, base: Pose, normal: f64) -> Option<TipPlace> {
-        let bend = angle.signum();
-        let force = (bend * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
-        let place = self.table.at(angle.abs(), force)?;
-        let turned = |v: Column<f64>| rotate(Vector2::new(v.x, bend * v.y), base.heading);
-        Some(TipPlace {
-            tip_base: turned(place.tip_base) + base.position.coords,
-            by_angle: bend * turned(place.by_angle),
-            by_direction: bend * turned(place.by_direction),
+    fn tip(&self, angle: f64, base: Pose, normal: f64) -> Option<TipPosition> {
+        let bend_sign = angle.signum();
+        let force = (bend_sign * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
+        let position = self.table.at(angle.abs(), force)?;
+        let turned = |v: Column<f64>| rotate(Vector2::new(v.x, bend_sign * v.y), base.heading);
+        Some(TipPosition {
+            tip_base: turned(position.tip_base) + base.position.coords,
+            by_angle: bend_sign * turned(position.by_angle),
+            by_direction: bend_sign * turned(position.by_direction),
         })
     }
 
     /// The first touch of a surface of which nothing is known.
     fn first(&self, angle: f64, base: Pose) -> State {
-        let bend = angle.signum();
-        let normal = base.heading + bend * self.usual_normal;
-        let unsettled = State::Unsettled { left: None, bend };
+        let bend_sign = angle.signum();
+        let normal = base.heading + bend_sign * self.usual_normal;
+        let unsettled = State::Unsettled { left: None, bend_sign };
         let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
-        let contact = Contact::begun(bend, &tip, normal, FIRST_DIRECTION.powi(2));
-        State::Settled(Contact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
+        let contact = SlidingContact::begun(bend_sign, &tip, normal, FIRST_DIRECTION.powi(2));
+        State::Settled(SlidingContact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
     }
 
     /// One step of sliding.
-    fn slide(&self, last: &Contact, angle: f64, base: Pose, way: f64) -> State {
-        let unsettled = State::Unsettled { left: Some(last.before[0]), bend: last.bend };
+    fn slide(&self, last: &SlidingContact, angle: f64, base: Pose, path: f64) -> State {
+        let unsettled = State::Unsettled { left: Some(last.before[0]), bend_sign: last.bend_sign };
         // At a light touch, noise may turn the surface farther than any force comes from that bends the whisker: it is as far off as it
         // has to be, if it may be.
-        let spread = last.covariance.m11.max(0.0).sqrt();
-        let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= spread);
-        let mut directions = turns.map(|turn| last.normal - last.bend * turn);
+        let deviation = last.covariance.m11.max(0.0).sqrt();
+        let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= deviation);
+        let mut directions = turns.map(|turn| last.normal - last.bend_sign * turn);
         let found = directions.find_map(|direction| Some((direction, self.tip(angle, base, direction)?)));
         let Some((direction, tip)) = found else { return unsettled };
         let normal = unit(direction);
@@ -175,14 +176,14 @@ impl Sliding {
         // A direction that is off takes the place along with it.
         let transition = Matrix2::new(1.0, 0.0, -slid, 1.0);
         let mut covariance = transition * last.covariance * transition.transpose();
-        covariance.m11 += BENDING * way + UNREST;
+        covariance.m11 += BENDING * path + UNREST;
         let mut considered = transition * last.considered * transition.transpose();
-        considered.m11 += BENDING * way + UNREST;
-        considered.m22 += GIVING * way;
+        considered.m11 += BENDING * path + UNREST;
+        considered.m22 += GIVING * path;
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
-        let noise = (tip.by_angle.dot(&normal) * self.angle.lasting_spread).powi(2) + SMOOTHNESS.powi(2);
+        let noise = (tip.by_angle.dot(&normal) * self.angle.correlated_deviation).powi(2) + SMOOTHNESS.powi(2);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
         if !is_sliding {
@@ -191,7 +192,7 @@ impl Sliding {
         let gain = covariance * measured.transpose() / variance;
         let centre = along - gain.y * innovation * normal;
         let left = Matrix2::identity() - gain * measured;
-        State::Settled(Contact {
+        State::Settled(SlidingContact {
             centre,
             before: [last.before[1], last.before[2], last.centre],
             normal: direction - gain.x * innovation,
@@ -217,9 +218,9 @@ impl Sliding {
 
     /// Coming to rest, after the tip left a surface at `left`, on what goes on from there.
     fn land(&self, left: Point2, angle: f64, base: Pose) -> State {
-        let bend = angle.signum();
-        let unsettled = State::Unsettled { left: Some(left), bend };
-        let usual = base.heading + bend * self.usual_normal;
+        let bend_sign = angle.signum();
+        let unsettled = State::Unsettled { left: Some(left), bend_sign };
+        let usual = base.heading + bend_sign * self.usual_normal;
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
         let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
         let turned = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
@@ -258,18 +259,18 @@ impl Sliding {
         let slope = miss_slope(&tip, normal, left) / off;
         let going = tip.by_direction / LANDED_WITHIN;
         let variance = (slope * slope + going.norm_squared() + prior).recip();
-        State::Settled(Contact::begun(bend, &tip, normal, variance))
+        State::Settled(SlidingContact::begun(bend_sign, &tip, normal, variance))
     }
 }
 
-impl TipModel for Sliding {
+impl ContactEstimator for Sliding {
     fn take(&mut self, reading: &Reading, base: Pose) {
         self.angle.take(reading.base_angle);
         let (angle, is_calm) = self.angle.value();
         self.calm_for = if is_calm { self.calm_for + 1 } else { 0 };
-        let bend = angle.signum();
-        let way = self.base_before.map_or(0.0, |(place, heading)| {
-            (base.position - place).norm() + self.length * (base.heading - heading).abs()
+        let bend_sign = angle.signum();
+        let path = self.base_before.map_or(0.0, |(position, heading)| {
+            (base.position - position).norm() + self.length * (base.heading - heading).abs()
         });
         self.base_before = Some((base.position, base.heading));
         if angle.abs() < self.contact_threshold {
@@ -279,20 +280,20 @@ impl TipModel for Sliding {
         }
         self.state = match self.state {
             State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend * bend > 0.0 => self.slide(&contact, angle, base, way),
-            State::Unsettled { left, bend: before } if before * bend > 0.0 => {
+            State::Settled(contact) if contact.bend_sign * bend_sign > 0.0 => self.slide(&contact, angle, base, path),
+            State::Unsettled { left, bend_sign: before } if before * bend_sign > 0.0 => {
                 if self.calm_for < self.calm_samples {
-                    State::Unsettled { left, bend }
+                    State::Unsettled { left, bend_sign }
                 } else {
                     self.come_to_rest(left, angle, base)
                 }
             }
-            _ => State::Unsettled { left: None, bend },
+            _ => State::Unsettled { left: None, bend_sign },
         };
         match self.state {
             State::Settled(contact) => {
-                let normal = (contact.bend * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
-                self.rest.take(angle, base, way, contact.centre, normal);
+                let normal = (contact.bend_sign * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
+                self.rest.take(angle, base, path, contact.centre, normal);
             }
             _ => self.rest.interrupt(),
         }
@@ -306,26 +307,26 @@ impl TipModel for Sliding {
         self.rest.end();
     }
 
-    fn touch(&mut self, _: f64, _: Pose) -> Option<Touch> {
-        let contact = self.contact()?;
-        Some(Touch {
+    fn contact(&mut self, _: f64, _: Pose) -> Option<Contact> {
+        let contact = self.sliding_contact()?;
+        Some(Contact {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
-            covariance_world: contact.place_covariance(self.tip_radius, self.angle.spread),
-            spread: contact.place_spread(&contact.covariance),
-            recorded_spread: contact.place_spread(&contact.considered),
-            is_sure: self.rest.doubt() < MOST_DOUBT,
+            covariance_world: contact.position_covariance(self.tip_radius, self.angle.deviation),
+            deviation: contact.position_deviation(&contact.covariance),
+            recorded_deviation: contact.position_deviation(&contact.considered),
+            is_recordable: self.rest.doubt() < MOST_DOUBT,
             contact_length: self.length,
         })
     }
 
-    fn touch_at(&self, deflection: f64, yaw: f64) -> Option<Vector2> {
-        let contact = self.contact()?;
-        let bend = deflection.signum();
+    fn contact_at(&self, base_angle: f64, yaw: f64) -> Option<Vector2> {
+        let contact = self.sliding_contact()?;
+        let bend_sign = base_angle.signum();
         // On the other side of the shaft it would be the mirror image.
-        let normal = contact.bend * (contact.normal - yaw);
+        let normal = contact.bend_sign * (contact.normal - yaw);
         let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
-        let tip = self.table.at(deflection.abs(), force)?.tip_base - self.tip_radius * unit(normal);
-        Some(Vector2::new(tip.x, bend * tip.y))
+        let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
+        Some(Vector2::new(tip.x, bend_sign * tip.y))
     }
 }
 
@@ -340,22 +341,22 @@ const CAUGHT: f64 = 5e-3;
 const LANDING_ITERATIONS: usize = 6;
 
 /// How fast a surface through the tip moves away from `left` when its normal turns (m/rad).
-fn miss_slope(tip: &TipPlace, normal: f64, left: Point2) -> f64 {
+fn miss_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {
     let normal = unit(normal);
     tip.by_direction.dot(&normal) + perpendicular(normal).dot(&(tip.tip_base - left.coords))
 }
 
-impl Contact {
+impl SlidingContact {
     /// The contact of a tip that has just come to touch, with the direction of the normal (rad, world frame) and its variance (rad²).
-    fn begun(bend: f64, tip: &TipPlace, normal: f64, variance: f64) -> Self {
+    fn begun(bend_sign: f64, tip: &TipPosition, normal: f64, variance: f64) -> Self {
         let centre = Point2::from(tip.tip_base);
         // The place goes along with the direction.
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
-            + Matrix2::new(0.0, 0.0, 0.0, FIRST_PLACE.powi(2));
+            + Matrix2::new(0.0, 0.0, 0.0, FIRST_POSITION.powi(2));
         let before = [centre; 3];
         Self {
-            bend,
+            bend_sign,
             centre,
             before,
             normal,
@@ -369,22 +370,22 @@ impl Contact {
     }
 
     /// Standard deviation of the place along the normal (m), by a covariance as the contact's own.
-    fn place_spread(&self, covariance: &Matrix2<f64>) -> f64 {
+    fn position_deviation(&self, covariance: &Matrix2<f64>) -> f64 {
         let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
-        (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_SPREAD)
+        (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_DEVIATION)
     }
 
     /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
-    /// `angle_spread` (rad). Along the surface the place goes by what base angle and direction tell.
-    fn place_covariance(&self, tip_radius: f64, angle_spread: f64) -> Matrix2<f64> {
+    /// `angle_deviation` (rad). Along the surface the place goes by what base angle and direction tell.
+    fn position_covariance(&self, tip_radius: f64, angle_deviation: f64) -> Matrix2<f64> {
         let normal = unit(self.normal);
         let tangent = perpendicular(normal);
         let by_direction = self.tip.by_direction.dot(&tangent) - tip_radius;
         let along =
-            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_spread).powi(2);
+            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_deviation).powi(2);
         let both = by_direction * self.covariance.m12;
         along * tangent * tangent.transpose()
             + both * (tangent * normal.transpose() + normal * tangent.transpose())
-            + self.place_spread(&self.covariance).powi(2) * normal * normal.transpose()
+            + self.position_deviation(&self.covariance).powi(2) * normal * normal.transpose()
     }
 }

@@ -37,7 +37,7 @@ struct Knot {
 
 /// Why a whisker has no tip model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TipModelError {
+pub enum TipCurveError {
     /// The whisker stands too nearly across the heading.
     #[error(
         "whisker {whisker} meets the force of a surface beside it {:.0} deg from head-on, and might buckle either way; sweep it by \
@@ -52,7 +52,7 @@ pub enum TipModelError {
     },
     /// The chain has no equilibrium where the model needs one.
     #[error(
-        "whisker {whisker}: no tip model beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
+        "whisker {whisker}: the shaft has no equilibrium beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
         base_angle * 1e6
     )]
     NoEquilibrium {
@@ -76,23 +76,23 @@ const LEAST_SWEEP: f64 = 0.087;
 const TURN: f64 = 0.01;
 /// How far off a surface is from the direction that the model takes it to have (rad): a standard deviation. Swiping keeps the
 /// heading within about this of a surface that bends, and knows nothing of it at the first touch.
-const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
+const SURFACE_DEVIATION: f64 = 10.0 * PI / 180.0;
 
 impl TipCurve {
     /// The curve of `whisker` on surfaces without friction.
     ///
     /// # Errors
     /// As [`with_friction`](Self::with_friction).
-    pub fn new(whisker: &Whisker) -> Result<Self, TipModelError> {
+    pub fn new(whisker: &Whisker) -> Result<Self, TipCurveError> {
         Self::with_friction(whisker, 0.0)
     }
 
     /// The curve of `whisker` on surfaces on which it slides forward with a coefficient of friction.
     ///
     /// # Errors
-    /// [`TipModelError`] when the whisker sticks rather than slides, or its chain has no equilibrium somewhere in the model's
+    /// [`TipCurveError`] when the whisker sticks rather than slides, or its chain has no equilibrium somewhere in the model's
     /// range.
-    pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipModelError> {
+    pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipCurveError> {
         let chain = ShaftChain::new(whisker);
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
@@ -119,16 +119,16 @@ impl TipCurve {
                 before = solution;
                 solution = chain
                     .solve(base_angle, force_direction, &guess)
-                    .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
+                    .ok_or_else(|| TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             }
             // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
             let contact = solution.tip_base - tip_radius * normal;
             let turned = chain
                 .solve(base_angle, force_direction - TURN, &solution)
-                .ok_or_else(|| TipModelError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
+                .ok_or_else(|| TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             let turned_contact = turned.tip_base - tip_radius * rotate(normal, -TURN);
             contacts.push(contact);
-            let off = (turned_contact - contact) * (SURFACE_SPREAD / TURN);
+            let off = (turned_contact - contact) * (SURFACE_DEVIATION / TURN);
             unknowns.push(off * off.transpose());
         }
         Ok(Self { step, least: 0.0, knots: knots(&contacts, &unknowns) })
@@ -149,11 +149,11 @@ impl TipCurve {
     /// swipes along a surface parallel to its heading, and of that surface's normal. A whisker swept forward is bent forward by
     /// it, one swept back to the back; in the frame of the base the one is the mirror image of the other. Friction turns the
     /// force to the back, as if the whisker were swept back by so much more.
-    fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipModelError> {
+    fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipCurveError> {
         let turn = friction.atan();
         let sweep = whisker.direction_body.abs() - FRAC_PI_2 + turn;
         if sweep.abs() < LEAST_SWEEP {
-            return Err(TipModelError::HeadOn { whisker: whisker.name.clone(), sweep });
+            return Err(TipCurveError::HeadOn { whisker: whisker.name.clone(), sweep });
         }
         Ok((PI - sweep.abs(), PI - sweep.abs() + turn * sweep.signum()))
     }
@@ -167,35 +167,35 @@ impl TipCurve {
         }
         let (a, b, u) = self.between(base_angle);
         let v = 1.0 - u;
-        let place =
+        let position =
             (1.0 + 2.0 * u) * v * v * a.contact_base + u * v * v * a.slope + (1.0 + 2.0 * v) * u * u * b.contact_base
                 - v * u * u * b.slope;
-        Vector2::new(place.x, place.y * base_angle.signum())
+        Vector2::new(position.x, position.y * base_angle.signum())
     }
 
     /// How far off [`contact_base`](Self::contact_base) may be (m), as a standard deviation, when the base angle may be
-    /// off by `angle_spread` (rad): the root of the sum of both variances of [`covariance`](Self::covariance). Infinite beyond the
+    /// off by `angle_deviation` (rad): the root of the sum of both variances of [`covariance`](Self::covariance). Infinite beyond the
     /// range; not a number for a base angle that is none.
     ///
     /// It takes the tip to be what touches: when the shaft touches instead, at a corner, the place is farther off.
     #[must_use]
-    pub fn spread(&self, base_angle: f64, angle_spread: f64) -> f64 {
+    pub fn deviation(&self, base_angle: f64, angle_deviation: f64) -> f64 {
         if base_angle.is_nan() {
             return f64::NAN;
         }
-        self.covariance(base_angle, angle_spread).map_or(f64::INFINITY, |covariance| covariance.trace().sqrt())
+        self.covariance(base_angle, angle_deviation).map_or(f64::INFINITY, |covariance| covariance.trace().sqrt())
     }
 
     /// Covariance of [`contact_base`](Self::contact_base) (m², frame of the base) when the base angle may be off by
-    /// `angle_spread` (rad): what that moves the place by, and what a surface does that is not parallel to the heading but 10 deg
+    /// `angle_deviation` (rad): what that moves the place by, and what a surface does that is not parallel to the heading but 10 deg
     /// off. `None` beyond the range.
     #[must_use]
-    pub fn covariance(&self, base_angle: f64, angle_spread: f64) -> Option<Matrix2<f64>> {
+    pub fn covariance(&self, base_angle: f64, angle_deviation: f64) -> Option<Matrix2<f64>> {
         if !(self.least..=self.range()).contains(&base_angle.abs()) {
             return None;
         }
         let (a, b, u) = self.between(base_angle);
-        let off = a.slope.lerp(&b.slope, u) * (angle_spread / self.step);
+        let off = a.slope.lerp(&b.slope, u) * (angle_deviation / self.step);
         let mut covariance = off * off.transpose() + a.unknown + u * (b.unknown - a.unknown);
         covariance.m12 *= base_angle.signum();
         covariance.m21 = covariance.m12;

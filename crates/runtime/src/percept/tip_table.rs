@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector2;
 
-use crate::mechanics::{Equilibrium, ShaftChain, Sought};
+use crate::mechanics::{Equilibrium, EquilibriumProblem, ShaftChain};
 use crate::rig::{Hinge, Shaft, Whisker};
 
 /// Where a whisker's tip is, by its base angle and the direction of the force at the tip: a table of equilibria of the whisker's own
@@ -25,7 +25,7 @@ pub struct TipTable {
 
 /// A tip's place, and how it changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TipPlace {
+pub struct TipPosition {
     /// Place of the tip's centre (m, frame of the base).
     pub tip_base: Vector2<f64>,
     /// Its change with the base angle (m/rad).
@@ -64,7 +64,7 @@ impl TipTable {
         }
         columns.truncate(FROM_STRAIGHT);
         for index in FROM_STRAIGHT..DIRECTIONS {
-            columns.push(goes_on(&chain, direction(index), [&columns[index - 1], &columns[index - 2]]));
+            columns.push(continued(&chain, direction(index), [&columns[index - 1], &columns[index - 2]]));
         }
         let none = Vector2::repeat(f64::NAN);
         let tips_base =
@@ -93,25 +93,25 @@ impl TipTable {
     /// The tip at a base angle (rad, 0 or more) under a force in a direction (rad). `None` beyond the table, and where there is no
     /// such equilibrium.
     #[must_use]
-    pub fn at(&self, base_angle: f64, force_direction: f64) -> Option<TipPlace> {
-        let row = Place::new(base_angle / self.angle_step, ANGLE_STEPS)?;
-        let column = Place::new((force_direction - FIRST_DIRECTION) / DIRECTION_STEP, DIRECTIONS - 1)?;
-        let mut place =
-            TipPlace { tip_base: Vector2::zeros(), by_angle: Vector2::zeros(), by_direction: Vector2::zeros() };
+    pub fn at(&self, base_angle: f64, force_direction: f64) -> Option<TipPosition> {
+        let row = Stencil::new(base_angle / self.angle_step, ANGLE_STEPS)?;
+        let column = Stencil::new((force_direction - FIRST_DIRECTION) / DIRECTION_STEP, DIRECTIONS - 1)?;
+        let mut position =
+            TipPosition { tip_base: Vector2::zeros(), by_angle: Vector2::zeros(), by_direction: Vector2::zeros() };
         for (across, (weight, slope)) in column.weights.iter().zip(column.slopes).enumerate() {
             let first = (column.first + across) * (ANGLE_STEPS + 1) + row.first;
             for (tip, (row_weight, row_slope)) in
                 self.tips_base[first..first + 4].iter().zip(row.weights.iter().zip(row.slopes))
             {
-                place.tip_base += weight * row_weight * tip;
-                place.by_angle += weight * row_slope * tip;
-                place.by_direction += slope * row_weight * tip;
+                position.tip_base += weight * row_weight * tip;
+                position.by_angle += weight * row_slope * tip;
+                position.by_direction += slope * row_weight * tip;
             }
         }
-        place.by_angle /= self.angle_step;
-        place.by_direction /= DIRECTION_STEP;
+        position.by_angle /= self.angle_step;
+        position.by_direction /= DIRECTION_STEP;
         // One place that is not a number makes all of them so.
-        place.tip_base.x.is_finite().then_some(place)
+        position.tip_base.x.is_finite().then_some(position)
     }
 
     /// The greatest base angle of the table (rad).
@@ -146,7 +146,7 @@ fn from_straight(
         let sought = array::from_fn(|lane| {
             let force_direction = directions[lane];
             let guess = match (last[lane], before[lane]) {
-                (Some(last), Some(before)) => beyond(&last, &before),
+                (Some(last), Some(before)) => extrapolated(&last, &before),
                 // The first step is that of a cantilever under a small force.
                 (Some(straight), None) => {
                     let force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
@@ -156,7 +156,7 @@ fn from_straight(
                 }
                 (None, _) => return None,
             };
-            Some(Sought { base_angle, force_direction, guess })
+            Some(EquilibriumProblem { base_angle, force_direction, guess })
         });
         before = last;
         last = chain.solve_each(sought);
@@ -169,7 +169,7 @@ fn from_straight(
 
 /// Equilibria under a force that is turned by one step more, from those before it at the same base angles; none where what is found
 /// belongs to another shape.
-fn goes_on(
+fn continued(
     chain: &ShaftChain,
     force_direction: f64,
     [last, before]: [&[Option<Equilibrium>]; 2],
@@ -178,8 +178,8 @@ fn goes_on(
     for (last, before) in last.chunks(SIDE_BY_SIDE).zip(before.chunks(SIDE_BY_SIDE)) {
         let sought = array::from_fn(|lane| {
             let last = last.get(lane).copied().flatten()?;
-            let guess = before[lane].map_or(last, |before| beyond(&last, &before));
-            Some(Sought { base_angle: last.base_angle, force_direction, guess })
+            let guess = before[lane].map_or(last, |before| extrapolated(&last, &before));
+            Some(EquilibriumProblem { base_angle: last.base_angle, force_direction, guess })
         });
         let found = chain.solve_each::<SIDE_BY_SIDE>(sought);
         column.extend(last.iter().zip(found).map(|(last, found)| found.filter(|found| is_next(last.as_ref(), found))));
@@ -197,18 +197,18 @@ fn is_next(last: Option<&Equilibrium>, found: &Equilibrium) -> bool {
 }
 
 /// Straight on from two solutions.
-fn beyond(last: &Equilibrium, before: &Equilibrium) -> Equilibrium {
+fn extrapolated(last: &Equilibrium, before: &Equilibrium) -> Equilibrium {
     Equilibrium { tip_angle: 2.0 * last.tip_angle - before.tip_angle, force: 2.0 * last.force - before.force, ..*last }
 }
 
 /// A place between the knots of an axis: the first of four, their weights, and the weights of the slope for one step.
-struct Place {
+struct Stencil {
     first: usize,
     weights: [f64; 4],
     slopes: [f64; 4],
 }
 
-impl Place {
+impl Stencil {
     fn new(along: f64, last: usize) -> Option<Self> {
         if !(along >= 0.0 && along <= last as f64) {
             return None;

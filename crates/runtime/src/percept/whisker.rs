@@ -7,11 +7,12 @@ use crate::machine::{ContourVector, Mark};
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
-use super::deflection::{Deflection, GREATEST_ANGLE};
+use super::contact::Contact;
+use super::contact_estimator::ContactEstimator;
+use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::tip_curve::TipCurve;
-use super::tip_model::{TipModel, Touch};
 
 /// One whisker as perceived: where it is, how it bends, what it has touched.
 #[derive(Debug, Clone)]
@@ -20,15 +21,15 @@ pub(super) struct PerceivedWhisker {
     direction_body: f64,
     pub(super) side: f64,
     pub(super) length: f64,
-    pub(super) deflection: Deflection,
-    model: Box<dyn TipModel>,
+    pub(super) base_angle: FilteredBaseAngle,
+    estimator: Box<dyn ContactEstimator>,
     /// Where the whisker is touched by the model, if that can be told in this tick.
-    touch: Option<Touch>,
+    contact: Option<Contact>,
     /// Where the tip is taken to be when the model cannot tell.
     curve: Arc<TipCurve>,
     contact_threshold: f64,
     /// Standard deviation of the deflection (rad).
-    deflection_spread: f64,
+    base_angle_deviation: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
     pub(super) contour: LocalContour,
@@ -46,7 +47,7 @@ impl PerceivedWhisker {
         whisker: &Whisker,
         filter: LowPass,
         curve: Arc<TipCurve>,
-        model: Box<dyn TipModel>,
+        estimator: Box<dyn ContactEstimator>,
         sensing: &Sensing,
     ) -> Self {
         Self {
@@ -54,12 +55,12 @@ impl PerceivedWhisker {
             direction_body: whisker.direction_body,
             side: whisker.side(),
             length: whisker.shaft.length,
-            deflection: Deflection::new(filter),
-            model,
-            touch: None,
+            base_angle: FilteredBaseAngle::new(filter),
+            estimator,
+            contact: None,
             curve,
             contact_threshold: sensing.contact_threshold,
-            deflection_spread: deflection_spread(sensing),
+            base_angle_deviation: base_angle_deviation(sensing),
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: LocalContour::default(),
@@ -71,17 +72,17 @@ impl PerceivedWhisker {
     }
 
     /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
-    pub(super) fn deflection(&self) -> f64 {
-        self.deflection.value()
+    pub(super) fn base_angle(&self) -> f64 {
+        self.base_angle.value()
     }
 
     /// Takes a reading, sampled with the platform at `body`.
     pub(super) fn take(&mut self, reading: &Reading, body: Pose) {
-        self.deflection.take(reading.base_angle);
+        self.base_angle.take(reading.base_angle);
         if reading.base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
-            self.model.take(reading, self.base(body));
+            self.estimator.take(reading, self.base(body));
         } else {
-            self.model.interrupt();
+            self.estimator.interrupt();
         }
     }
 
@@ -92,11 +93,11 @@ impl PerceivedWhisker {
     }
 
     /// Goes where it is with the platform at `body`, and estimates where it is touched.
-    pub(super) fn place(&mut self, body: Pose) {
+    pub(super) fn update(&mut self, body: Pose) {
         let base = self.base(body);
         (self.base_world, self.yaw) = (base.position, base.heading);
-        let deflection = self.deflection();
-        self.touch = if deflection.is_nan() { None } else { self.model.touch(deflection, base) };
+        let base_angle = self.base_angle();
+        self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
         self.recorded_before = self.recorded;
         self.recorded = false;
         self.marks = Default::default();
@@ -111,59 +112,59 @@ impl PerceivedWhisker {
         }
     }
 
-    pub(super) fn touches(&self) -> bool {
-        self.deflection().abs() > self.contact_threshold
+    pub(super) fn is_touching(&self) -> bool {
+        self.base_angle().abs() > self.contact_threshold
     }
 
     /// Where the whisker is touched, if that can be told in this tick.
-    pub(super) fn touch(&self) -> Option<&Touch> {
-        self.touch.as_ref()
+    pub(super) fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
     }
 
     /// Where the tip touches, in the frame of the base (m).
     pub(super) fn tip_base(&self) -> Vector2 {
-        match &self.touch {
-            Some(touch) => rotate(touch.point_world - self.base_world, -self.yaw),
-            None => self.curve.contact_base(self.deflection()),
+        match &self.contact {
+            Some(contact) => rotate(contact.point_world - self.base_world, -self.yaw),
+            None => self.curve.contact_base(self.base_angle()),
         }
     }
 
     /// Where the tip would touch at another deflection, in the frame of the base (m): the surface turned as it is now, or, where
     /// nothing is known of it, parallel to the heading.
-    pub(super) fn tip_at(&self, deflection: f64) -> Vector2 {
-        let touched = self.touch.and_then(|_| self.model.touch_at(deflection, self.yaw));
-        touched.unwrap_or_else(|| self.curve.contact_base(deflection))
+    pub(super) fn tip_at(&self, base_angle: f64) -> Vector2 {
+        let touched = self.contact.and_then(|_| self.estimator.contact_at(base_angle, self.yaw));
+        touched.unwrap_or_else(|| self.curve.contact_base(base_angle))
     }
 
     /// Whether the place that is touched may be taken for one of the surface.
-    pub(super) fn is_sure(&self) -> bool {
-        self.touch.is_some_and(|touch| touch.is_sure)
+    pub(super) fn is_recordable(&self) -> bool {
+        self.contact.is_some_and(|contact| contact.is_recordable)
     }
 
     /// Whether the whisker touches where that can be told.
-    pub(super) fn is_felt(&self) -> bool {
-        self.touches() && self.touch.is_some()
+    pub(super) fn has_contact(&self) -> bool {
+        self.is_touching() && self.contact.is_some()
     }
 
     /// Where the tip touches, in the world frame (m).
     pub(super) fn tip_world(&self) -> Point2 {
-        match &self.touch {
-            Some(touch) => touch.point_world,
+        match &self.contact {
+            Some(contact) => contact.point_world,
             None => self.base_world + rotate(self.tip_base(), self.yaw),
         }
     }
 
     /// How far off the tip may be (m): a standard deviation.
-    pub(super) fn tip_spread(&self) -> f64 {
-        match &self.touch {
-            Some(touch) => touch.spread,
-            None => self.curve.spread(self.deflection(), self.deflection_spread),
+    pub(super) fn tip_deviation(&self) -> f64 {
+        match &self.contact {
+            Some(contact) => contact.deviation,
+            None => self.curve.deviation(self.base_angle(), self.base_angle_deviation),
         }
     }
 
     /// How far off a recorded tip may be (m): a standard deviation.
-    pub(super) fn recorded_spread(&self) -> f64 {
-        self.touch.map_or_else(|| self.tip_spread(), |touch| touch.recorded_spread)
+    pub(super) fn recorded_deviation(&self) -> f64 {
+        self.contact.map_or_else(|| self.tip_deviation(), |contact| contact.recorded_deviation)
     }
 
     /// A vector of the contour (world frame) at the distance `back` (m) behind its end, once it is ready.
@@ -196,7 +197,7 @@ impl PerceivedWhisker {
         }
         self.recorded = true;
         let tip_world = self.tip_world();
-        if self.is_felt() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
+        if self.has_contact() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
             self.contour.add(tip_world);
             self.recorded_from = self.base_world;
         }
@@ -204,7 +205,7 @@ impl PerceivedWhisker {
 }
 
 /// Standard deviation of a deflection (rad).
-pub(super) fn deflection_spread(sensing: &Sensing) -> f64 {
+pub(super) fn base_angle_deviation(sensing: &Sensing) -> f64 {
     // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
     let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
     noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt())

@@ -63,7 +63,7 @@ impl Whisker {
 
     /// Which way such a surface bends it: +1 counter-clockwise, −1 clockwise.
     #[must_use]
-    pub fn usual_bend(&self) -> f64 {
+    pub fn usual_bend_sign(&self) -> f64 {
         if self.direction_body.abs() < FRAC_PI_2 { -self.side() } else { self.side() }
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain};
-use vibrissa_runtime::percept::{TipCurve, TipModelError};
+use vibrissa_runtime::percept::{TipCurve, TipCurveError};
 use vibrissa_runtime::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
@@ -263,7 +263,7 @@ fn friction_turns_the_force_as_sweeping_back_does() {
 fn a_whisker_swept_forward_by_the_angle_of_its_friction_sticks_and_has_no_model() {
     let forward = Whisker { direction_body: 75_f64.to_radians(), ..left() };
     assert!(TipCurve::with_friction(&forward, 0.1).is_ok());
-    assert!(matches!(TipCurve::with_friction(&forward, 0.3), Err(TipModelError::HeadOn { .. })));
+    assert!(matches!(TipCurve::with_friction(&forward, 0.3), Err(TipCurveError::HeadOn { .. })));
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn a_whisker_straight_across_the_platform_has_none_and_the_error_says_what_to_do
     for degrees in [90.0, -90.0, 94.0, 86.0_f64] {
         let whisker = Whisker { direction_body: degrees.to_radians(), ..left() };
         let error = TipCurve::new(&whisker).unwrap_err();
-        assert!(matches!(&error, TipModelError::HeadOn { .. }) && error.to_string().contains("sweep it"), "{error}");
+        assert!(matches!(&error, TipCurveError::HeadOn { .. }) && error.to_string().contains("sweep it"), "{error}");
     }
 }
 
@@ -353,7 +353,7 @@ fn the_spread_of_a_tip_is_that_of_surfaces_which_are_not_parallel_to_the_heading
             chain(&left(), base_angle, direction).tip_base - radius * normal
         };
         let moved = |turn: f64| (contact(turn) - contact(0.0)).norm() / turn.abs() * 10_f64.to_radians();
-        let (spread, small) = (model.spread(base_angle, 0.0), 0.5_f64.to_radians());
+        let (spread, small) = (model.deviation(base_angle, 0.0), 0.5_f64.to_radians());
         let near = f64::midpoint(moved(small), moved(-small));
         assert!((spread / near - 1.0).abs() < 0.03, "{base_angle}: {spread} {near}");
         // The nearer the surface is to head-on, the more a turn does.
@@ -366,8 +366,8 @@ proptest! {
     #[test]
     fn the_spread_of_a_tip_grows_with_what_the_base_angle_may_be_off(base_angle in -1e-3..1e-3_f64, off in 1e-7..2e-6_f64) {
         let model = TipCurve::new(&left()).unwrap();
-        let (still, spread) = (model.spread(base_angle, 0.0), model.spread(base_angle, off));
-        prop_assert!((model.spread(-base_angle, off) - spread).abs() <= f64::EPSILON * spread);
+        let (still, spread) = (model.deviation(base_angle, 0.0), model.deviation(base_angle, off));
+        prop_assert!((model.deviation(-base_angle, off) - spread).abs() <= f64::EPSILON * spread);
         let moved = (model.contact_base(base_angle + off) - model.contact_base(base_angle - off)).norm() / 2.0;
         // Where the base angle changes its sign the model has a bend.
         if base_angle.abs() > 2e-5 {
@@ -380,7 +380,7 @@ proptest! {
 fn a_whisker_that_is_not_bent_is_where_it_is_and_beyond_the_model_nothing_is_known() {
     let model = TipCurve::new(&left()).unwrap();
     // The sphere at its tip may be touched on any side.
-    assert!(model.spread(0.0, 0.0) <= left().shaft.radius);
-    assert!(model.spread(2e-3, 0.0).is_infinite());
-    assert!(model.spread(f64::NAN, 0.0).is_nan());
+    assert!(model.deviation(0.0, 0.0) <= left().shaft.radius);
+    assert!(model.deviation(2e-3, 0.0).is_infinite());
+    assert!(model.deviation(f64::NAN, 0.0).is_nan());
 }

@@ -9,7 +9,7 @@ pub(super) const GREATEST_ANGLE: f64 = PI;
 
 /// A whisker's deflection: its base angle, filtered, with the readings left out that are none.
 #[derive(Debug, Clone)]
-pub(super) struct Deflection {
+pub(super) struct FilteredBaseAngle {
     filter: LowPass,
     /// The newest valid reading (rad).
     reading: f64,
@@ -20,7 +20,7 @@ pub(super) struct Deflection {
     value: f64,
 }
 
-impl Deflection {
+impl FilteredBaseAngle {
     pub(super) fn new(filter: LowPass) -> Self {
         Self { filter, reading: 0.0, has_reading: true, had_reading: true, value: 0.0 }
     }

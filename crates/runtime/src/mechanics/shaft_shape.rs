@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 /// The frame is that of the whisker's base: origin at the base, first axis along the undeflected shaft, second axis to its
 /// left. Places are those of the wire's axis; what touches is its radius away, against the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bend {
+pub struct ShaftShape {
     /// Angle of the base hinge (rad).
     pub base_angle: f64,
     /// Force across the shaft at the base (N), positive to the left of the shaft as it stands there.
@@ -28,11 +28,11 @@ pub struct Bend {
     pub tip_angle: f64,
 }
 
-impl Bend {
+impl ShaftShape {
     /// The mirror image, which bends to the other side.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        let mirror = |place: Vector2<f64>| Vector2::new(place.x, -place.y);
+        let mirror = |position: Vector2<f64>| Vector2::new(position.x, -position.y);
         Self {
             base_angle: -self.base_angle,
             shear: -self.shear,

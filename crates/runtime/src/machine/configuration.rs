@@ -4,21 +4,21 @@ use super::program::{NESTING_LIMIT, Program};
 
 /// The states that are active with one of them, the outermost first.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Way {
+pub(super) struct Configuration {
     states: [usize; NESTING_LIMIT],
     count: usize,
 }
 
-impl Way {
+impl Configuration {
     /// The way to a state. States nest [`NESTING_LIMIT`] deep at most.
     pub(super) fn to(program: &Program, innermost: usize) -> Self {
-        let mut way = Self { states: [innermost; NESTING_LIMIT], count: 0 };
-        for (place, state) in way.states.iter_mut().zip(program.outward(innermost)) {
-            *place = state;
-            way.count += 1;
+        let mut configuration = Self { states: [innermost; NESTING_LIMIT], count: 0 };
+        for (slot, state) in configuration.states.iter_mut().zip(program.outward(innermost)) {
+            *slot = state;
+            configuration.count += 1;
         }
-        way.states[..way.count].reverse();
-        way
+        configuration.states[..configuration.count].reverse();
+        configuration
     }
 
     /// From the outermost to the innermost.

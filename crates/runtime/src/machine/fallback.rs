@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::action::Flaw;
+use super::action::NonFinite;
 use super::tick::Failure;
 
 /// That a machine left a state by its failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Failsafe {
+pub struct Fallback {
     /// Index of the state in which it could not go on: the one that gave the command, or the innermost active one.
     pub left: usize,
     /// Why.
@@ -19,10 +19,10 @@ pub struct Failsafe {
 pub enum Cause {
     /// A number of the state's command was not finite.
     #[error("its command was not finite: {0}")]
-    NotFinite(Flaw),
-    /// The state wanted to be left when the tick had taken [`CHAIN_LIMIT`](super::CHAIN_LIMIT) transitions.
+    NotFinite(NonFinite),
+    /// The state wanted to be left when the tick had taken [`MICROSTEP_LIMIT`](super::CHAIN_LIMIT) transitions.
     #[error("it wanted more transitions than a tick takes")]
-    Chain,
+    MicrostepLimit,
 }
 
 impl Cause {
@@ -30,8 +30,8 @@ impl Cause {
     pub(super) fn failure(self, state: &Arc<str>) -> Failure {
         let state = Arc::clone(state);
         match self {
-            Self::NotFinite(flaw) => Failure::NotFinite { state, flaw },
-            Self::Chain => Failure::Chain { state },
+            Self::NotFinite(non_finite) => Failure::NotFinite { state, non_finite },
+            Self::MicrostepLimit => Failure::MicrostepLimit { state },
         }
     }
 }

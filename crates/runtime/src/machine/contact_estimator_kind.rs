@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A tip model: how the place of a whisker's tip is estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum TipModelKind {
+pub enum ContactEstimatorKind {
     /// From the base angle alone, as the thesis does: exact on a surface parallel to the heading.
     OneChannel,
     /// From base angles and poses one after the other, by what sliding along a surface allows.
@@ -16,7 +16,7 @@ pub enum TipModelKind {
     Recursive,
 }
 
-impl TipModelKind {
+impl ContactEstimatorKind {
     /// Every tip model.
     pub const ALL: [Self; 4] = [Self::OneChannel, Self::Sliding, Self::MomentAndShear, Self::Recursive];
 

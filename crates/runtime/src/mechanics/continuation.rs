@@ -8,7 +8,7 @@ const LEAST_STRIDE: f64 = 1e-5;
 ///
 /// # Errors
 /// The last solution on the way, where there is none near behind it.
-pub(super) fn follow<T>(start: T, solve: impl Fn(f64, &T) -> Option<T>) -> Result<T, T> {
+pub(super) fn continuation<T>(start: T, solve: impl Fn(f64, &T) -> Option<T>) -> Result<T, T> {
     let (mut solution, mut done, mut stride) = (start, 0.0, 1.0_f64);
     while done < 1.0 {
         let next = (done + stride).min(1.0);

@@ -2,13 +2,13 @@
 
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose};
-use vibrissa_runtime::machine::{Senses, TipModelKind};
-use vibrissa_runtime::percept::{Perception, Touch};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Senses};
+use vibrissa_runtime::percept::{Contact, Perception};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 /// What the right whisker tells after one and a half seconds on a straight surface, bent by `base_angle` (rad).
-fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Option<Touch>) {
+fn touch(kind: ContactEstimatorKind, base_angle: f64, heading: f64) -> (Perception, Option<Contact>) {
     let mut rig = Rig::default();
     rig.sensing.forces = true;
     let mut perception = Perception::new(&rig, &[Some(0)], &[kind]).unwrap();
@@ -26,7 +26,7 @@ fn touch(kind: TipModelKind, base_angle: f64, heading: f64) -> (Perception, Opti
         perception.update(&samples);
         perception.record(0);
     }
-    let touch = perception.touch(0).copied();
+    let touch = perception.contact(0).copied();
     (perception, touch)
 }
 
@@ -35,15 +35,15 @@ proptest! {
 
     #[test]
     fn a_touch_has_a_covariance_that_is_one_and_holds_its_spread(
-        kind in prop::sample::select(TipModelKind::ALL.to_vec()), base_angle in 1e-4..4e-4_f64, heading in -3.0..3.0_f64,
+        kind in prop::sample::select(ContactEstimatorKind::ALL.to_vec()), base_angle in 1e-4..4e-4_f64, heading in -3.0..3.0_f64,
     ) {
         if let (perception, Some(touch)) = touch(kind, -base_angle, heading) {
             let covariance = touch.covariance_world;
             prop_assert!((covariance.m12 - covariance.m21).abs() <= 1e-12 * covariance.trace());
             let values = covariance.symmetric_eigenvalues();
             prop_assert!(values.min() >= -1e-9 * values.max() && values.max() > 0.0, "{values}");
-            prop_assert!(touch.spread.powi(2) <= 1.000_001 * covariance.trace());
-            prop_assert!(touch.spread.powi(2) >= 0.999_999 * values.min());
+            prop_assert!(touch.deviation.powi(2) <= 1.000_001 * covariance.trace());
+            prop_assert!(touch.deviation.powi(2) >= 0.999_999 * values.min());
             prop_assert!(touch.contact_length > 0.0 && touch.contact_length <= 0.1);
             prop_assert_eq!(perception.recorded_tip(0), Some(touch.point_world));
         }
@@ -51,7 +51,7 @@ proptest! {
 
     #[test]
     fn a_touch_goes_with_the_platform(
-        kind in prop::sample::select(TipModelKind::ALL.to_vec()), base_angle in 1e-4..4e-4_f64, turn in -3.0..3.0_f64,
+        kind in prop::sample::select(ContactEstimatorKind::ALL.to_vec()), base_angle in 1e-4..4e-4_f64, turn in -3.0..3.0_f64,
     ) {
         let (_, here) = touch(kind, -base_angle, 0.0);
         let (_, there) = touch(kind, -base_angle, turn);
@@ -69,10 +69,10 @@ proptest! {
 #[test]
 fn beyond_its_range_a_model_tells_no_touch_and_nothing_is_recorded() {
     // By two readings the range is where the mechanics have a touch with both.
-    for kind in [TipModelKind::OneChannel, TipModelKind::Sliding, TipModelKind::Recursive] {
+    for kind in [ContactEstimatorKind::OneChannel, ContactEstimatorKind::Sliding, ContactEstimatorKind::Recursive] {
         let (perception, found) = touch(kind, -2e-3, 1.0);
         assert_eq!(found, None, "{kind:?}");
         assert_eq!(perception.recorded_tip(0), None, "{kind:?}");
     }
-    assert!(touch(TipModelKind::OneChannel, -3e-4, 1.0).1.is_some());
+    assert!(touch(ContactEstimatorKind::OneChannel, -3e-4, 1.0).1.is_some());
 }

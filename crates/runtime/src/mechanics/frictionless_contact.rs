@@ -6,16 +6,16 @@ use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
 use crate::geometry::{perpendicular, unit};
 
-use super::bend::Bend;
 use super::elastica::Elastica;
+use super::shaft_shape::ShaftShape;
 use super::shot::{Load, Shot, Varied};
 
 /// A touch without friction as two numbers, so that all touches are one plane without a gap.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(super) struct FrictionlessContact {
     /// Below 0 the logarithm of the length to the touch, over that of the shaft; from 0 on the tip is touched, and it tells how far the
     /// force is from straight against the shaft: by π/2 at 0, and by a part e less for every π/2.
-    pub(super) place: f64,
+    pub(super) position: f64,
     /// Logarithm of the force, in the unit of [`Load`].
     pub(super) force: f64,
 }
@@ -24,14 +24,14 @@ pub(super) struct Touch {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     pub(super) value: f64,
-    pub(super) by_place: f64,
+    pub(super) by_position: f64,
     pub(super) by_force: f64,
 }
 
 /// A touch, and what it makes of a shaft.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LoadedTouch {
-    pub(super) touch: Touch,
+pub(super) struct LoadedContact {
+    pub(super) contact: FrictionlessContact,
     pub(super) shot: Shot,
     /// Bending moment at the base, and force across the shaft there.
     pub(super) moment: Change,
@@ -43,16 +43,16 @@ pub(super) struct LoadedTouch {
     left: Change,
 }
 
-impl Touch {
-    pub(super) fn of(bend: &Bend, elastica: &Elastica) -> Self {
-        let length = bend.contact_length / elastica.length;
-        let place = if length < 1.0 {
+impl FrictionlessContact {
+    pub(super) fn of(shape: &ShaftShape, elastica: &Elastica) -> Self {
+        let length = shape.contact_length / elastica.length;
+        let position = if length < 1.0 {
             length.ln()
         } else {
-            let from_against = PI - (bend.force_direction - bend.tip_angle);
+            let from_against = PI - (shape.force_direction - shape.tip_angle);
             FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0)
         };
-        Self { place, force: (bend.force / elastica.force_unit).ln() }
+        Self { position, force: (shape.force / elastica.force_unit).ln() }
     }
 
     /// About the touch with a moment, and a shear of so many times that: that of a uniform shaft that hardly bends, which is
@@ -61,74 +61,74 @@ impl Touch {
         let softer = taper * taper;
         if ratio >= 1.0 {
             let contact = ratio.recip().min(softer / moment);
-            return Self { place: contact.ln(), force: (moment / contact).ln() };
+            return Self { position: contact.ln(), force: (moment / contact).ln() };
         }
         // 1 − π² k² / 3 / (π² − k²) has the same value and slope at 0 and the same pole, and is 0.1 off at most above −1.
         let square = PI * PI * (1.0 - ratio) / (PI * PI / 3.0 + 1.0 - ratio);
         let k = square.sqrt();
         let from_against = moment / (k * k.sin() * softer);
-        Self { place: FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0), force: (square * softer).ln() }
+        Self { position: FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0), force: (square * softer).ln() }
     }
 
     pub(super) fn load(self) -> Load {
-        let angle = PI - FRAC_PI_2 * (-self.place.max(0.0) / FRAC_PI_2).exp();
-        Load { contact: self.place.min(0.0).exp(), angle, force: self.force.exp() }
+        let angle = PI - FRAC_PI_2 * (-self.position.max(0.0) / FRAC_PI_2).exp();
+        Load { contact: self.position.min(0.0).exp(), angle, force: self.force.exp() }
     }
 }
 
 impl Elastica {
     /// What a touch makes of the shaft; `None` if it does not bend it to the left all along.
-    pub(super) fn loaded(&self, touch: Touch) -> Option<LoadedTouch> {
-        let load = touch.load();
+    pub(super) fn loaded(&self, contact: FrictionlessContact) -> Option<LoadedContact> {
+        let load = contact.load();
         let shot = Shot::of(&load, self.taper)?;
         if !shot.bends_left {
             return None;
         }
-        let is_at_tip = touch.place >= 0.0;
-        let by_place = if is_at_tip { (PI - load.angle) / FRAC_PI_2 } else { load.contact };
+        let is_at_tip = contact.position >= 0.0;
+        let by_position = if is_at_tip { (PI - load.angle) / FRAC_PI_2 } else { load.contact };
         let change = |varied: &Varied| Change {
             value: varied.value,
-            by_place: by_place * if is_at_tip { varied.by_angle } else { varied.by_contact },
+            by_position: by_position * if is_at_tip { varied.by_angle } else { varied.by_contact },
             by_force: load.force * varied.by_force,
         };
         let (root, moment, lever) = (change(&shot.root), change(&shot.moment), change(&shot.lever));
-        let angle_by_place = if is_at_tip { by_place } else { 0.0 };
+        let angle_by_position = if is_at_tip { by_position } else { 0.0 };
         // The angle of the force to the shaft at the base.
         let at_base = Change {
             value: load.angle - root.value,
-            by_place: angle_by_place - root.by_place,
+            by_position: angle_by_position - root.by_position,
             by_force: -root.by_force,
         };
         let (sin, cos) = at_base.value.sin_cos();
         let turned = load.force * cos;
-        Some(LoadedTouch {
-            touch,
+        Some(LoadedContact {
+            contact,
             shear: Change {
                 value: load.force * sin,
-                by_place: turned * at_base.by_place,
+                by_position: turned * at_base.by_position,
                 by_force: load.force * sin + turned * at_base.by_force,
             },
             direction: Change {
                 value: self.hinge_compliance * moment.value + at_base.value,
-                by_place: self.hinge_compliance * moment.by_place + at_base.by_place,
+                by_position: self.hinge_compliance * moment.by_position + at_base.by_position,
                 by_force: self.hinge_compliance * moment.by_force + at_base.by_force,
             },
             along: change(&shot.along),
-            left: Change { value: -lever.value, by_place: -lever.by_place, by_force: -lever.by_force },
+            left: Change { value: -lever.value, by_position: -lever.by_position, by_force: -lever.by_force },
             moment,
             shot,
         })
     }
 }
 
-impl LoadedTouch {
+impl LoadedContact {
     /// Changes of the place in the direction that the force has here and to the left of that, by the two numbers.
     fn moved(&self) -> Matrix2<f64> {
         let Self { along, left, direction, .. } = self;
         Matrix2::new(
-            along.by_place - left.value * direction.by_place,
+            along.by_position - left.value * direction.by_position,
             along.by_force - left.value * direction.by_force,
-            left.by_place + along.value * direction.by_place,
+            left.by_position + along.value * direction.by_position,
             left.by_force + along.value * direction.by_force,
         )
     }
@@ -136,27 +136,27 @@ impl LoadedTouch {
     /// Whether it stays if what touches stays where it is. It does up to where it could move away without that: of the tip the direction of
     /// a surface and its distance along that are kept, on the shaft a point. From the unbent shaft on these have changed with the two
     /// numbers by a matrix whose determinant is above 0.
-    pub(super) fn stays(&self) -> bool {
-        if self.touch.place >= 0.0 {
+    pub(super) fn is_stable(&self) -> bool {
+        if self.contact.position >= 0.0 {
             let Self { along, direction, .. } = self;
-            direction.by_place * along.by_force - direction.by_force * along.by_place > 0.0
+            direction.by_position * along.by_force - direction.by_force * along.by_position > 0.0
         } else {
             self.moved().determinant() > 0.0
         }
     }
 
-    /// See [`Elastica::changes`]; `bend` is the touch itself.
-    pub(super) fn by_readings(&self, elastica: &Elastica, bend: &Bend) -> Option<Matrix3x2<f64>> {
+    /// See [`Elastica::changes`]; `shape` is the touch itself.
+    pub(super) fn by_readings(&self, elastica: &Elastica, shape: &ShaftShape) -> Option<Matrix3x2<f64>> {
         let readings = Matrix2::new(
-            elastica.hinge_compliance * self.moment.by_place,
+            elastica.hinge_compliance * self.moment.by_position,
             elastica.hinge_compliance * self.moment.by_force,
-            elastica.force_unit * self.shear.by_place,
+            elastica.force_unit * self.shear.by_position,
             elastica.force_unit * self.shear.by_force,
         );
-        let way: Vector2<f64> = unit(bend.force_direction);
-        let place = Matrix2::from_columns(&[way, perpendicular(way)]) * self.moved() * elastica.length;
-        let direction = [self.direction.by_place, self.direction.by_force];
-        let all = Matrix3x2::new(place.m11, place.m12, place.m21, place.m22, direction[0], direction[1]);
+        let forward: Vector2<f64> = unit(shape.force_direction);
+        let position = Matrix2::from_columns(&[forward, perpendicular(forward)]) * self.moved() * elastica.length;
+        let direction = [self.direction.by_position, self.direction.by_force];
+        let all = Matrix3x2::new(position.m11, position.m12, position.m21, position.m22, direction[0], direction[1]);
         Some(all * readings.try_inverse()?)
     }
 }
