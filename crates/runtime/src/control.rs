@@ -1,4 +1,4 @@
-//! The controller: everything between a sample and a command.
+//! The controller: perception, machine and steering.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
 use crate::signal::{Command, Sample};
 
-/// Why a policy cannot control a rig.
+/// The reason for which a policy cannot control a rig.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BindError {
     /// The rig lacks a whisker.
     #[error(transparent)]
     Whisker(#[from] UnknownWhisker),
-    /// The rig cannot be perceived.
+    /// The rig has no valid perception for the policy.
     #[error(transparent)]
     Perception(#[from] PerceptionError),
 }
 
-/// Perception, machine and steering of one rig under one policy: all that runs at the control rate.
+/// The control loop of one rig under one policy. It contains everything that runs at the control rate.
 #[derive(Debug, Clone)]
 pub struct Control {
     perception: Perception,
@@ -28,10 +28,10 @@ pub struct Control {
 }
 
 impl Control {
-    /// The controller of `rig` under `program`, at the start of a run.
+    /// Creates the controller of `rig` under `program`, at the start of a run.
     ///
     /// # Errors
-    /// [`BindError`] when the rig does not have what the policy needs.
+    /// [`BindError`] if the rig lacks something that the policy needs.
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
         Ok(Self {
@@ -41,8 +41,9 @@ impl Control {
         })
     }
 
-    /// One tick: takes the samples since the last one, oldest first, and gives the command until the next, with what the
-    /// machine gave. Allocates nothing.
+    /// Executes one tick and returns the command until the next tick, and the output of the machine.
+    ///
+    /// `samples` are those since the last tick, oldest first. The function allocates no memory.
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = self.machine.tick(&mut self.perception);
@@ -51,13 +52,13 @@ impl Control {
         (command, tick)
     }
 
-    /// What it perceives.
+    /// The perception of this controller.
     #[must_use]
     pub fn perception(&self) -> &Perception {
         &self.perception
     }
 
-    /// Its machine.
+    /// The machine of this controller.
     #[must_use]
     pub fn machine(&self) -> &Machine {
         &self.machine

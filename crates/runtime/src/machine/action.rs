@@ -1,55 +1,56 @@
-//! What a tick asks the platform to do.
+//! The action of a tick.
 
 use crate::geometry::Vector2;
 
-/// What a tick asks the platform to do.
+/// The motion that a policy requests in a tick. [`Steering`](crate::motion::Steering) converts it to a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// Keep to the last command.
+    /// Keep the last command. After [`Stop`](Self::Stop), continue to hold the pose.
     Hold,
-    /// Stand still.
+    /// Stop the platform and hold its pose.
     Stop,
-    /// Move the body, or one whisker's base, in a direction.
+    /// Move the body or the base of a whisker in a direction.
     Steer {
-        /// What is to move.
+        /// The point that moves.
         mover: Mover,
-        /// Direction of the motion in the world frame; its length does not matter, and zero stands still.
+        /// Direction of the motion in the world frame. Its length is ignored. A zero vector means no motion.
         along_world: Vector2,
         /// Speed (m/s).
         speed: f64,
-        /// How to turn meanwhile.
+        /// The rotation during the motion.
         turn: Turn,
     },
 }
 
-/// What a steering action moves.
+/// The point that a steering action moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mover {
     /// The platform's centre of mass.
     Body,
-    /// The base of the whisker with this index: the body moves at the speed, in the direction that takes the base along.
+    /// The base of the whisker with this index. The body moves at the given speed. Its direction is chosen so that the
+    /// base moves along.
     Whisker(usize),
 }
 
-/// How the platform turns while it moves.
+/// The rotation of the platform during a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Turn {
-    /// Towards this heading (rad, world frame), by the rig's yaw controller.
+    /// Rotate to this heading (rad, world frame) with the yaw controller of the rig.
     Facing(f64),
-    /// At this rate (rad/s, counter-clockwise positive).
+    /// Rotate at this yaw rate (rad/s, counter-clockwise positive).
     Rate(f64),
 }
 
-/// A number of a command that is not finite.
+/// A number of an action that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NonFinite {
-    /// Which number it is.
+    /// The part of the action that contains the number.
     pub part: ActionPart,
-    /// Whether it is no number at all; otherwise it is infinite.
+    /// True if it is NaN, false if it is infinite.
     pub is_nan: bool,
 }
 
-/// A number, or vector, of a command.
+/// A number or a vector of an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ActionPart {
     /// The direction of the motion.
@@ -58,7 +59,7 @@ pub enum ActionPart {
     /// The speed.
     #[error("the speed behind `at`")]
     Speed,
-    /// The heading to turn to.
+    /// The heading to which the platform rotates.
     #[error("the heading behind `facing`")]
     Heading,
     /// The yaw rate.
@@ -73,7 +74,7 @@ impl std::fmt::Display for NonFinite {
 }
 
 impl Action {
-    /// The first number in the action, as it is written, that is not finite.
+    /// Returns the first number of the action that is not finite, in the order of the policy's text.
     #[must_use]
     pub fn non_finite(&self) -> Option<NonFinite> {
         let Self::Steer { along_world: along, speed, turn, .. } = *self else { return None };
@@ -87,7 +88,7 @@ impl Action {
         Some(NonFinite { part, is_nan: number.is_nan() })
     }
 
-    /// Whether every number in the action is finite.
+    /// True if every number of the action is finite.
     #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {

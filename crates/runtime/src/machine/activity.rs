@@ -1,4 +1,4 @@
-//! What a machine is doing: its active states, its memory, its times.
+//! The state of execution of a machine: active states, registers and timers.
 
 use std::sync::Arc;
 
@@ -11,25 +11,25 @@ use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
 use super::tick::{Failure, MICROSTEP_LIMIT};
 
-/// Slack (s) with which times are compared, so that ten ticks of a thirtieth of a second make a third.
+/// Tolerance (s) of comparisons of times. With it, ten ticks of 1/30 s are not shorter than 1/3 s.
 pub const TIME_SLACK: f64 = 1e-9;
 
-/// What a machine is doing. The program is the same at every call.
+/// The state of execution of a machine. Every method receives the same program.
 #[derive(Debug, Clone)]
 pub(super) struct Activity {
     registers: Vec<f64>,
     active: Configuration,
     has_begun: bool,
-    /// When each state was entered last (s).
+    /// Time at which each state was last entered (s).
     entered_at: Vec<f64>,
-    /// For every state, which of the states directly in it was active last.
+    /// For every state, its direct inner state that was active last. History states use it.
     last_inner: Vec<Option<usize>>,
-    /// For every guard with a duration, since when its condition has held.
+    /// For every guard with a duration, the time (s) since which its condition holds.
     holding_since: Vec<Option<f64>>,
 }
 
 impl Activity {
-    /// What a machine does that is about to enter `state`, with `registers` as its memory.
+    /// Creates the execution of a machine that is about to enter `state`, with the given `registers`.
     pub(super) fn new(program: &Program, state: usize, registers: Vec<f64>) -> Self {
         Self {
             registers,
@@ -46,7 +46,7 @@ impl Activity {
         self.active.innermost()
     }
 
-    /// One tick, as [`Machine::tick`](super::Machine::tick) describes it.
+    /// Executes one tick, as described at [`Machine::tick`](super::Machine::tick).
     pub(super) fn tick<S: Senses>(
         &mut self,
         program: &Program,
@@ -85,7 +85,7 @@ impl Activity {
         self.take_fallback(program, (self.state(), Cause::MicrostepLimit), now, senses, action)
     }
 
-    /// What is due of the active states' transitions, from the outermost state to the innermost.
+    /// The target of the first enabled transition of the active states, from the outermost to the innermost.
     fn enabled_within<'p, S: Senses>(
         &mut self,
         program: &'p Program,
@@ -96,7 +96,7 @@ impl Activity {
             .find_map(|level| self.enabled(program, Some(self.active.states()[level]), now, senses))
     }
 
-    /// Goes to a target of a state's transition, or of one that belongs to none.
+    /// Takes the transition to a target. `from` is the state of the transition, or `None` for a global one.
     fn take<S: Senses>(
         &mut self,
         program: &Program,
@@ -113,8 +113,8 @@ impl Activity {
         self.enter(program, common_ancestor, (target, resume), now, senses);
     }
 
-    /// Enters `target` with those of its outer states that do not stay active, then the inner state that it begins in, or
-    /// was in last, and so on.
+    /// Enters `target` and those of its outer states that are not active yet. Then it enters inner states: the initial
+    /// one, or with `resume` the last active one.
     fn enter<S: Senses>(
         &mut self,
         program: &Program,
@@ -157,8 +157,10 @@ impl Activity {
         self.compute(program, &state.entry, senses);
     }
 
-    /// What the active states do, but for the `from` outermost: the last action that one of them gives, or to hold. If it is not
-    /// finite, the state that gave it and the number.
+    /// Runs the bodies of the active states, except the `from` outermost. The action is the last one given, or
+    /// [`Action::Hold`].
+    ///
+    /// The error contains the state that gave a non-finite action, and the number.
     fn run_bodies<S: Senses>(
         &mut self,
         program: &Program,
@@ -184,8 +186,8 @@ impl Activity {
         compute(&program.code, block, &mut self.registers, senses);
     }
 
-    /// Leaves the active state by the failsafe of the state in which the machine cannot go on. The states entered only act:
-    /// whatever they would do next has time until the next tick.
+    /// Takes the fallback transition of the state that cannot continue. The entered states only run their bodies. Their
+    /// transitions wait for the next tick.
     fn take_fallback<S: Senses>(
         &mut self,
         program: &Program,
@@ -203,7 +205,7 @@ impl Activity {
                     Cause::NotFinite(_) => program
                         .common_ancestor(from, *state)
                         .map_or(0, |common_ancestor| program.outward(common_ancestor).count()),
-                    // Nothing has acted yet.
+                    // No body has run in this tick yet.
                     Cause::MicrostepLimit => {
                         self.compute(program, &program.body, senses);
                         0
@@ -216,8 +218,10 @@ impl Activity {
         (went, Some(Fallback { left: stuck, cause }))
     }
 
-    /// The target of the transition of the state `from`, or of any state, that is due: the first whose guard holds. If that has
-    /// led where it leads already, the others wait, but for a failure. Every guard is looked at, so that the timers of the later ones run.
+    /// The target of the first enabled transition of the state `from`, or of the global transitions for `None`.
+    ///
+    /// If that target is already active from outside, only a failure among the other transitions counts. All guards are
+    /// evaluated, so that the timers of later ones run.
     fn enabled<'p, S: Senses>(
         &mut self,
         program: &'p Program,
@@ -246,7 +250,7 @@ impl Activity {
         Some((from, target))
     }
 
-    /// Whether a guard holds, which has been computed, and whose state has been active for the time `active` (s).
+    /// True if an evaluated guard holds. `active` is the time (s) for which its state has been active.
     #[inline]
     fn holds(&mut self, guard: &Guard, active: f64, now: f64) -> bool {
         match *guard {

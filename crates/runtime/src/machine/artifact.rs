@@ -1,4 +1,4 @@
-//! The artifact: a compiled policy as bytes, for a robot or an archive.
+//! The artifact: a compiled policy as bytes, for a robot or for storage.
 //!
 //! | bytes | hold |
 //! |---|---|
@@ -8,8 +8,8 @@
 //! | length | the content: an [`Artifact`] in postcard's wire format |
 //! | 32 | SHA-256 of all before |
 //!
-//! The same artifact always gives the same bytes, and no other bytes give it. Reading trusts nothing: a checksum tells damage,
-//! not malice, so that everything that running relies on is verified behind it.
+//! An artifact has exactly one encoding. The reader trusts nothing. The checksum detects damage, but not manipulation,
+//! so everything that the execution relies on is verified afterwards.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -18,41 +18,41 @@ use super::program::Program;
 use super::source_map::SourceMap;
 use super::verify::Unsound;
 
-/// How every artifact begins; no text does.
+/// The first bytes of every artifact. No text begins with them.
 pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
-/// The number of the format that is written and read. It counts the layout of [`Artifact`] and everything in it, the order of
-/// operations and quantities too.
+/// Number of the format. It covers the layout of [`Artifact`] and of everything in it, including the order of
+/// operations and quantities.
 pub const FORMAT: u32 = 5;
-/// The most bytes that an artifact may have; the largest program that the compiler writes has less than half of them.
+/// Maximum size of an artifact in bytes. The largest program of the compiler has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 
 const CHECKSUM_LENGTH: usize = 32;
-/// The most bytes of the texts in [`Origin`].
+/// Maximum length of the texts in [`Origin`], in bytes.
 const TEXT_LIMIT: usize = 255;
 
-/// A compiled policy and where it comes from.
+/// A compiled policy and its origin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Artifact {
-    /// Where it comes from.
+    /// Source and compiler of the policy.
     pub origin: Origin,
-    /// The compiled policy; [`Program::initial_registers`] has the parameters as they were set.
+    /// The compiled policy. [`Program::initial_registers`] contains the values of the parameters that were set.
     pub program: Program,
-    /// Where in its text the policy's states and transitions are.
+    /// Positions of states and transitions in the text of the policy.
     pub positions: SourceMap,
 }
 
-/// Where a compiled policy comes from.
+/// The source and the compiler of a compiled policy.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
-    /// Name of the policy's file, without a path.
+    /// Name of the policy's file, without its path.
     pub file: String,
-    /// SHA-256 of the policy's text and those of the files that it uses, each behind a line end.
+    /// SHA-256 of the text of the policy and of the files that it uses, each followed by a line end.
     pub text_sha256: [u8; 32],
     /// Version of the compiler.
     pub compiler: String,
 }
 
-/// Why bytes are no artifact, or an artifact cannot be written.
+/// The reason for which bytes are not a valid artifact, or an artifact cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ArtifactError {
     /// The bytes do not begin with [`MAGIC`].
@@ -61,30 +61,30 @@ pub enum ArtifactError {
          copy it again as it is, or make it from its policy with `vibrissa compile`"
     )]
     NotAnArtifact,
-    /// It is in another format.
+    /// The artifact has another format.
     #[error(
         "the machine is in format {found}, this program reads format {FORMAT}; compile the policy with this program"
     )]
     Format {
-        /// The format's number.
+        /// Number of that format.
         found: u32,
     },
-    /// Bytes are missing, or there are too many.
+    /// Bytes are missing or follow the end.
     #[error("the machine is cut off or has something behind its end; copy it again, or compile the policy again")]
     Length,
     /// It is larger than [`ARTIFACT_LIMIT`].
     #[error("the machine is larger than {ARTIFACT_LIMIT} bytes; make the policy smaller")]
     TooLarge,
-    /// The checksum is that of other bytes.
+    /// The checksum does not match the content.
     #[error("the machine is damaged, its checksum does not hold; copy it again, or compile the policy again")]
     Checksum,
-    /// The content is none of this format.
+    /// The content cannot be decoded in this format.
     #[error("the machine cannot be decoded, although its checksum holds; compile the policy with this program")]
     Content,
-    /// A text in [`Origin`] is long or has characters that cannot be shown.
+    /// A text in [`Origin`] is too long or has control characters.
     #[error("the machine names {0:?} as its origin, which is no single line of {TEXT_LIMIT} bytes; rename the policy")]
     Origin(String),
-    /// There are more or fewer places than states and transitions.
+    /// The number of positions differs from the number of states and transitions.
     #[error("the machine's source map is that of another policy; compile the policy again")]
     Positions,
     /// The program is not safe to run.
@@ -93,17 +93,17 @@ pub enum ArtifactError {
 }
 
 impl Artifact {
-    /// Whether `bytes` claim to be an artifact: a policy's text never does.
+    /// True if `bytes` begin like an artifact. The text of a policy never does.
     #[must_use]
     pub fn is_in(bytes: &[u8]) -> bool {
         bytes.starts_with(&MAGIC)
     }
 
-    /// The artifact as bytes.
+    /// Encodes the artifact.
     ///
     /// # Errors
-    /// [`ArtifactError`] if the bytes could not be read again: the program is unsound or too large, or a text of its origin is
-    /// unfit.
+    /// [`ArtifactError`] if the result could not be read again: the program is unsound or too large, or a text of the
+    /// origin is invalid.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ArtifactError> {
         self.verify()?;
         let content = self.content()?;
@@ -114,10 +114,10 @@ impl Artifact {
         if bytes.len() > ARTIFACT_LIMIT { Err(ArtifactError::TooLarge) } else { Ok(bytes) }
     }
 
-    /// The artifact in `bytes`, which may come from anywhere: what is returned is safe to run.
+    /// Decodes and verifies an artifact from untrusted bytes. The result is safe to run.
     ///
     /// # Errors
-    /// [`ArtifactError`] with the first thing that is wrong.
+    /// [`ArtifactError`] with the first problem found.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ArtifactError> {
         let behind_magic = bytes.strip_prefix(&MAGIC).ok_or(ArtifactError::NotAnArtifact)?;
         if bytes.len() > ARTIFACT_LIMIT {
@@ -135,9 +135,10 @@ impl Artifact {
         if *Sha256::digest(&bytes[..bytes.len() - CHECKSUM_LENGTH]) != *checksum {
             return Err(ArtifactError::Checksum);
         }
-        // Vectors in it grow only as far as the content does: nothing is allocated on the word of a length.
+        // postcard lets vectors grow only with the content, so a forged length cannot cause a large allocation.
         let artifact: Self = postcard::from_bytes(content).map_err(|_| ArtifactError::Content)?;
-        // There are longer spellings of numbers, and bytes behind the end are not looked at.
+        // postcard accepts longer encodings of numbers and ignores bytes after the end. Both would give one artifact
+        // several encodings.
         if artifact.content()? != content {
             return Err(ArtifactError::Content);
         }
@@ -160,7 +161,7 @@ impl Artifact {
     }
 }
 
-/// The number at the beginning of `bytes`, and what is behind it.
+/// Splits `bytes` into the number at their start and the rest.
 fn number(bytes: &[u8]) -> Result<(u32, &[u8]), ArtifactError> {
     let (number, rest) = bytes.split_first_chunk().ok_or(ArtifactError::Length)?;
     Ok((u32::from_le_bytes(*number), rest))

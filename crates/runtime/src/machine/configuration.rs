@@ -1,8 +1,8 @@
-//! The way from an outermost state to one that lies in it.
+//! The active configuration of a machine.
 
 use super::program::{NESTING_LIMIT, Program};
 
-/// The states that are active with one of them, the outermost first.
+/// The active configuration: an innermost state and all its outer states, the outermost first.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Configuration {
     states: [usize; NESTING_LIMIT],
@@ -10,7 +10,7 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    /// The way to a state. States nest [`NESTING_LIMIT`] deep at most.
+    /// The configuration in which `innermost` is the innermost state. States are nested at most [`NESTING_LIMIT`] deep.
     pub(super) fn to(program: &Program, innermost: usize) -> Self {
         let mut configuration = Self { states: [innermost; NESTING_LIMIT], count: 0 };
         for (slot, state) in configuration.states.iter_mut().zip(program.outward(innermost)) {
@@ -21,13 +21,13 @@ impl Configuration {
         configuration
     }
 
-    /// From the outermost to the innermost.
+    /// The active states, from the outermost to the innermost.
     #[inline]
     pub(super) fn states(&self) -> &[usize] {
         &self.states[..self.count]
     }
 
-    /// The state that it leads to.
+    /// Index of the innermost active state.
     #[inline]
     pub(super) fn innermost(&self) -> usize {
         self.states[self.count - 1]

@@ -1,26 +1,27 @@
-//! The tip models that a policy can have its whiskers perceived by.
+//! The contact estimators that a policy can select.
 
 use serde::{Deserialize, Serialize};
 
-/// A tip model: how the place of a whisker's tip is estimated.
+/// The kind of a contact estimator, selected by a policy for each whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum ContactEstimatorKind {
-    /// From the base angle alone, as the thesis does: exact on a surface parallel to the heading.
+    /// Uses the base angle alone, as the baseline does. It is exact on a surface parallel to the heading.
     OneChannel,
-    /// From base angles and poses one after the other, by what sliding along a surface allows.
+    /// Filters base angles and poses with a model of a tip that slides along a surface.
     #[default]
     Sliding,
-    /// From the moment and the shear at the base, where the rig measures the latter: finds a touch on the shaft, too.
+    /// Uses the moment and the shear at the base. The rig must measure the shear. It also locates contacts of the
+    /// shaft.
     MomentAndShear,
-    /// From the base angle as a polynomial in the tip's place, step by step along its gradient.
+    /// Uses the base angle as a polynomial in the tip position and follows its gradient from reading to reading.
     Recursive,
 }
 
 impl ContactEstimatorKind {
-    /// Every tip model.
+    /// All kinds.
     pub const ALL: [Self; 4] = [Self::OneChannel, Self::Sliding, Self::MomentAndShear, Self::Recursive];
 
-    /// The word that stands for it in a policy.
+    /// The keyword of this kind in a policy.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -31,7 +32,7 @@ impl ContactEstimatorKind {
         }
     }
 
-    /// The one with a name.
+    /// Returns the kind with this keyword.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)

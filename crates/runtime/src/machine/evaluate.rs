@@ -9,9 +9,9 @@ use super::op::{Block, Op, Register, Wide};
 use super::senses::Senses;
 use super::stateful;
 
-/// Runs `block` of `code`; says whether it gave an action, which then replaces `action`. Of several, the last one stays.
+/// Executes `block` of `code` and returns true if it gave an action. The last action given replaces `action`.
 ///
-/// An action is written where it is to be, because moving one about costs as much as several operations.
+/// The action is an output parameter, because moving an action costs as much as several operations.
 #[expect(clippy::too_many_lines, reason = "one arm an operation")]
 pub(super) fn evaluate<S: Senses>(
     code: &[Op],
@@ -22,7 +22,7 @@ pub(super) fn evaluate<S: Senses>(
 ) -> bool {
     let mut file = File(registers);
     let mut has_acted = false;
-    // A jump goes on with what lies ahead; taking operations off a slice spares the check of an index for each.
+    // Jumps only go forward. An iterator over a slice needs no bounds check per operation.
     let code = &code[..block.end as usize];
     let mut ahead = code[block.start as usize..].iter();
     while let Some(&op) = ahead.next() {
@@ -32,7 +32,7 @@ pub(super) fn evaluate<S: Senses>(
             Op::Add { to, a, b } => file.put(to, file.at(a) + file.at(b)),
             Op::Subtract { to, a, b } => file.put(to, file.at(a) - file.at(b)),
             Op::Multiply { to, a, b } => file.put(to, file.at(a) * file.at(b)),
-            // Not `mul_add`, which rounds once.
+            // `mul_add` would round only once and change results.
             Op::MultiplyAdd { to, a, b, c } => file.put(to, file.at(a) * file.at(b) + file.at(c)),
             Op::Divide { to, a, b } => file.put(to, file.at(a) / file.at(b)),
             Op::Negate { to, a } => file.put(to, -file.at(a)),
@@ -111,7 +111,7 @@ pub(super) fn evaluate<S: Senses>(
                 }
             }
             Op::JumpUnlessLess { a, b, target } => {
-                // Of what is not a number nothing is less, and it is less than nothing.
+                // With NaN the comparison is false, as for `<`. The negated operator would differ.
                 let is_less = file.at(a) < file.at(b);
                 if !is_less {
                     ahead = code[target as usize..].iter();
@@ -156,12 +156,12 @@ pub(super) fn evaluate<S: Senses>(
     has_acted
 }
 
-/// Runs code that only computes.
+/// Executes code that gives no action.
 pub fn compute<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], senses: &mut S) {
     evaluate(code, block, registers, senses, &mut Action::Hold);
 }
 
-/// The registers, read and written as what the code takes them for.
+/// The registers with typed access.
 struct File<'a>(&'a mut [f64]);
 
 impl File<'_> {
@@ -178,7 +178,7 @@ impl File<'_> {
         std::array::from_fn(|offset| self.0[start + offset])
     }
 
-    /// Writes a stateful operation's memory back, and gives its value.
+    /// Stores the memory of a stateful operation and returns its value.
     fn keep<const N: usize>(&mut self, register: Register, (memory, value): ([f64; N], f64)) -> f64 {
         let start = usize::from(register);
         self.0[start..start + N].copy_from_slice(&memory);
@@ -202,11 +202,12 @@ impl File<'_> {
         self.put(register + 1, vector.y);
     }
 
-    /// A whisker's index.
+    /// The index of a whisker in a register.
     fn index(&self, register: Register) -> usize {
-        /// Added to a small whole number, this leaves that number in the lowest bits.
+        /// Added to a small whole number, this moves that number to the lowest bits.
         const UNIT_IN_LAST_PLACE: f64 = (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
-        // Half of what reading a whisker costs would be a cast, which has a meaning for every number; this is for indices.
+        // A cast would be half of the cost of reading a whisker, because it handles every number. Indices are small
+        // whole numbers.
         let [lowest, ..] = (self.at(register) + UNIT_IN_LAST_PLACE).to_le_bytes();
         usize::from(lowest)
     }
@@ -216,8 +217,8 @@ impl File<'_> {
     }
 }
 
-/// The lesser of two numbers, and of equal ones the second (a zero has a sign); not a number if either is not, so that a bad
-/// sample is never hidden.
+/// The lesser of two numbers, or the second if they are equal, because zeros have signs. NaN if either is NaN, so that
+/// an invalid sample is never hidden.
 fn minimum(a: f64, b: f64) -> f64 {
     match a.partial_cmp(&b) {
         Some(Ordering::Less) => a,
@@ -226,7 +227,7 @@ fn minimum(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The greater of two numbers, and of equal ones the second; not a number if either is not.
+/// The greater of two numbers, or the second if they are equal. NaN if either is NaN.
 fn maximum(a: f64, b: f64) -> f64 {
     match a.partial_cmp(&b) {
         Some(Ordering::Greater) => a,
@@ -235,8 +236,8 @@ fn maximum(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The unit vector in the direction of an angle. By itself, so that sine and cosine stay one call: among the other operations
-/// the compiler would share the call of each with theirs.
+/// The unit vector with this direction. It is a separate function so that sine and cosine stay one call. Otherwise the
+/// compiler merges each with those of other operations.
 #[inline(never)]
 fn direction(angle: f64) -> Vector2 {
     unit(angle)

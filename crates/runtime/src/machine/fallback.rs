@@ -1,32 +1,32 @@
-//! When a machine leaves a state because it cannot go on in it.
+//! Fallback transitions that a machine has taken.
 
 use std::sync::Arc;
 
 use super::action::NonFinite;
 use super::tick::Failure;
 
-/// That a machine left a state by its failsafe.
+/// A fallback transition that was taken in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Fallback {
-    /// Index of the state in which it could not go on: the one that gave the command, or the innermost active one.
+    /// Index of the state that could not continue: the one that gave the action, or the innermost active one.
     pub left: usize,
-    /// Why.
+    /// The cause of the transition.
     pub cause: Cause,
 }
 
-/// Why a machine cannot go on in a state.
+/// The cause for which a machine cannot continue in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Cause {
-    /// A number of the state's command was not finite.
+    /// A number of the state's action was not finite.
     #[error("its command was not finite: {0}")]
     NotFinite(NonFinite),
-    /// The state wanted to be left when the tick had taken [`MICROSTEP_LIMIT`](super::CHAIN_LIMIT) transitions.
+    /// A transition was enabled after [`MICROSTEP_LIMIT`](super::MICROSTEP_LIMIT) transitions in one tick.
     #[error("it wanted more transitions than a tick takes")]
     MicrostepLimit,
 }
 
 impl Cause {
-    /// The failure of a machine that has no failsafe for it in this state.
+    /// The failure of a machine without a fallback transition for `state`.
     pub(super) fn failure(self, state: &Arc<str>) -> Failure {
         let state = Arc::clone(state);
         match self {

@@ -1,8 +1,8 @@
-//! The compiled machine and its evaluator: what a policy becomes, and all of it that a robot carries.
+//! The compiled machine and its evaluator. A robot needs nothing else of a policy.
 //!
-//! A [`Program`] is flat code over a file of registers. A [`Machine`] runs it: every tick reads [`Senses`], takes the
-//! transitions that are due, and gives one [`Action`]. A tick does a bounded amount of work (jumps only go forward, chains of
-//! transitions are limited) and allocates nothing. An [`Artifact`] is a program as bytes.
+//! A [`Program`] is flat code over a file of registers. A [`Machine`] executes it. Every tick reads [`Senses`], takes
+//! enabled transitions and gives one [`Action`]. A tick does a bounded amount of work and allocates nothing: jumps only
+//! go forward, and the number of transitions is limited. An [`Artifact`] is a program as bytes.
 
 mod action;
 mod activity;

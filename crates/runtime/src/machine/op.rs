@@ -1,4 +1,4 @@
-//! The operations that compiled code is made of.
+//! The operations of compiled code.
 
 use std::ops::Range;
 
@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::senses::{BodyScalar, ContourVector, Mark, WhiskerScalar, WhiskerVector};
 
-/// A place in the register file.
+/// Index of a register.
 pub type Register = u16;
 
-/// The first of two neighbouring places, which hold a vector's x and y.
+/// Index of the first of two neighbouring registers, which contain x and y of a vector.
 pub type Wide = u16;
 
 /// A range of the program's code.
 pub type Block = Range<u32>;
 
-/// One operation. `to` is where the result goes; truths are 1 and 0.
+/// One operation. `to` is the register of the result. Booleans are 1 and 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "operands are named alike throughout: to, a, b, and what the variant says")]
 pub enum Op {
@@ -53,11 +53,11 @@ pub enum Op {
     Cosine { to: Register, a: Register },
     /// `to = e to the power of a`
     Exponential { to: Register, a: Register },
-    /// `to = the greatest whole number that is not above a`
+    /// `to = floor(a)`
     Floor { to: Register, a: Register },
     /// `to = a wrapped to (-π, π]`
     Wrap { to: Register, a: Register },
-    /// `to = b - a` as a turn from the angle a to the angle b, wrapped to (-π, π]
+    /// `to = b - a`, the rotation from the angle a to the angle b, wrapped to (-π, π]
     Turn { to: Register, a: Register, b: Register },
     /// `to = a < b`
     Less { to: Register, a: Register, b: Register },
@@ -89,13 +89,13 @@ pub enum Op {
     Norm { to: Register, a: Wide },
     /// `to = length of a - b`, vectors
     Distance { to: Register, a: Wide, b: Wide },
-    /// `to = the vector a at unit length`, and zero for zero
+    /// `to = the vector a at unit length`, or zero for a zero vector
     Unit { to: Wide, a: Wide },
     /// `to = direction of the vector a` (rad)
     Angle { to: Register, a: Wide },
     /// `to = the unit vector in the direction of the angle a`
     Direction { to: Wide, a: Register },
-    /// `to = the vector a turned by the angle b`
+    /// `to = the vector a rotated by the angle b`
     Rotate { to: Wide, a: Wide, b: Register },
     /// `to = time since the start of the run`
     Time { to: Register },
@@ -105,43 +105,43 @@ pub enum Op {
     BodyPosition { to: Wide },
     /// `to = a quantity of a whisker`
     Whisker { to: Register, whisker: Register, quantity: WhiskerScalar },
-    /// `to = the size of a quantity of a whisker`
+    /// `to = the absolute value of a quantity of a whisker`
     WhiskerSize { to: Register, whisker: Register, quantity: WhiskerScalar },
     /// `to = a vector of a whisker`
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
-    /// `to = the position of a whisker's tip at the base_angle a, in the frame of its base`
+    /// `to = the position of a whisker's tip at the base angle a, in the frame of its base`
     TipAt { to: Wide, whisker: Register, a: Register },
-    /// `to = a vector of a whisker's contour, a behind its end`
+    /// `to = a vector of a whisker's contour at the distance a behind its end`
     ContourAt { to: Wide, whisker: Register, a: Register, quantity: ContourVector },
-    /// `to = a through a first-order low-pass filter with the cutoff b` (Hz); its memory is three registers
+    /// `to = a through a first-order low-pass filter with the cutoff b` (Hz). Its memory is three registers.
     LowPass { to: Register, a: Register, b: Register, memory: Register },
-    /// `to = output of a PID controller` for the error `a`; `gains` are four registers: p, i, d and the output's limit; its
-    /// memory is four registers
+    /// `to = output of a PID controller` for the error `a`. `gains` are four registers: p, i, d and the output limit.
+    /// Its memory is four registers.
     Pid { to: Register, a: Register, gains: Register, memory: Register },
-    /// Forgets the memory of `count` registers from `memory` on.
+    /// Sets `count` registers of memory from `memory` on to zero.
     Clear { memory: Register, count: u16 },
-    /// Goes on at `target` unless `a`; `target` lies ahead.
+    /// Continues at `target` unless `a`. `target` is ahead.
     JumpUnless { a: Register, target: u32 },
-    /// Goes on at `target` unless `a < b`; `target` lies ahead.
+    /// Continues at `target` unless `a < b`. `target` is ahead.
     JumpUnlessLess { a: Register, b: Register, target: u32 },
-    /// Goes on at `target` unless both `a` and `b`; `target` lies ahead.
+    /// Continues at `target` unless both `a` and `b`. `target` is ahead.
     JumpUnlessBoth { a: Register, b: Register, target: u32 },
-    /// Goes on at `target`, which lies ahead.
+    /// Continues at `target`, which is ahead.
     Jump { target: u32 },
-    /// Takes a whisker's tip as a point of the estimated contour.
+    /// Records a whisker's tip as a point of the estimated contour.
     Record { whisker: Register },
-    /// Notes what has become of a whisker's contact.
+    /// Records a mark of a whisker.
     Mark { whisker: Register, mark: Mark },
-    /// Steers the body, facing a heading.
+    /// Moves the body and rotates it to a heading.
     SteerBodyFacing { along: Wide, speed: Register, heading: Register },
-    /// Steers the body, turning at a rate.
+    /// Moves the body and rotates it at a yaw rate.
     SteerBodyTurning { along: Wide, speed: Register, rate: Register },
-    /// Steers a whisker's base, the body facing a heading.
+    /// Moves a whisker's base and rotates the body to a heading.
     SteerWhiskerFacing { whisker: Register, along: Wide, speed: Register, heading: Register },
-    /// Steers a whisker's base, the body turning at a rate.
+    /// Moves a whisker's base and rotates the body at a yaw rate.
     SteerWhiskerTurning { whisker: Register, along: Wide, speed: Register, rate: Register },
-    /// Keeps to the last command.
+    /// Keeps the last command.
     Hold,
-    /// Stands still.
+    /// Stops the platform.
     Stop,
 }

@@ -1,28 +1,28 @@
-//! What an operation reads and writes, and where it may go on: what the loader must know of code to trust it, and the compiler
-//! to shorten it.
+//! Operands, jump targets and effects of operations. The verifier relies on them, and so does the optimiser of the
+//! compiler.
 
 use super::op::{Op, Register};
 
-/// What one operation does with the registers.
+/// The registers that one operation reads and writes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Operands {
-    /// Where the result and what is remembered go.
+    /// Registers of the result and of the memory that are written.
     pub writes: [RegisterSpan; 2],
-    /// Where numbers are read, what is remembered among them.
+    /// Registers of numbers that are read, including the memory.
     pub reads: [RegisterSpan; 3],
-    /// Where the index of a whisker is read.
+    /// Register of the index of a whisker that is read.
     pub whisker: Option<Register>,
 }
 
 impl Operands {
-    /// Where anything is read: numbers, what is remembered, the index of a whisker.
+    /// All registers that are read: numbers, memory and the index of a whisker.
     pub fn all_reads(&self) -> [RegisterSpan; 4] {
         let [a, b, c] = self.reads;
         [a, b, c, self.whisker.map_or_else(RegisterSpan::default, number)]
     }
 }
 
-/// Neighbouring registers; none, by default.
+/// Neighbouring registers. The default is none.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RegisterSpan {
     /// The first register.
@@ -38,37 +38,38 @@ impl RegisterSpan {
     }
 }
 
-/// The place of a number.
+/// The span of a single number.
 pub(super) fn number(first: Register) -> RegisterSpan {
     RegisterSpan { first, width: 1 }
 }
 
-/// What an operation has a register for.
+/// The role of a register in an operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The result goes there and to its neighbours, so many in all.
+    /// The result is written to this many registers.
     Write(u16),
-    /// A number or neighbouring numbers, so many in all, are read there.
+    /// This many neighbouring numbers are read.
     Read(u16),
-    /// What is remembered is there and in its neighbours, so many in all.
+    /// This many registers are the memory of a stateful operation. They are read and written.
     Memory(u16),
-    /// The index of a whisker is read there.
+    /// The index of a whisker is read.
     Whisker,
 }
 
-/// What an operation does besides writing its result.
+/// The effect of an operation besides its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// Nothing, and its result follows from what it reads.
+    /// No effect. The result depends only on the operands.
     Pure,
-    /// Nothing, but it asks perception: the same question has the same answer until a tip is recorded.
+    /// No effect, but the result depends on perception. Until a tip is recorded, the same operation has the same
+    /// result.
     Sensing,
-    /// Something: it remembers, jumps, records or commands.
+    /// A side effect: it changes memory, jumps, records or gives an action.
     SideEffect,
 }
 
 impl Op {
-    /// What the operation does besides writing its result.
+    /// The effect of the operation besides its result.
     pub fn effect(self) -> Effect {
         match self {
             Self::Time { .. }
@@ -98,7 +99,7 @@ impl Op {
         }
     }
 
-    /// What the operation does with the registers.
+    /// The registers that the operation reads and writes.
     pub fn operands(mut self) -> Operands {
         let mut operands = Operands::default();
         let mut reads = 0;
@@ -117,12 +118,12 @@ impl Op {
         operands
     }
 
-    /// Where a jump leads.
+    /// Target of a jump.
     pub fn target(mut self) -> Option<u32> {
         self.target_mut().copied()
     }
 
-    /// Where a jump leads, to be changed.
+    /// Mutable target of a jump.
     pub fn target_mut(&mut self) -> Option<&mut u32> {
         match self {
             Self::JumpUnless { target, .. }
@@ -133,7 +134,7 @@ impl Op {
         }
     }
 
-    /// Goes through the registers of the operation.
+    /// Calls `visit` for every register of the operation.
     #[expect(clippy::too_many_lines, reason = "one arm for operations alike")]
     pub fn visit(&mut self, mut visit: impl FnMut(Role, &mut Register)) {
         use Role::{Memory, Read, Whisker, Write};

@@ -1,4 +1,4 @@
-//! What a policy compiles to.
+//! The compiled program of a policy.
 
 use std::sync::Arc;
 
@@ -10,131 +10,132 @@ use super::contact_estimator_kind::ContactEstimatorKind;
 use super::op::{Block, Op, Register};
 use super::tick::MICROSTEP_LIMIT;
 
-/// The most operations that a program may have.
+/// Maximum number of operations of a program.
 pub const CODE_LIMIT: usize = 50_000;
-/// The most registers that a program may have.
+/// Maximum number of registers of a program.
 pub const REGISTER_LIMIT: usize = 60_000;
-/// How many states may lie in one another, so that a tick has a bounded number of them to see to.
+/// Maximum nesting depth of states. It bounds the work of a tick.
 pub const NESTING_LIMIT: usize = 8;
 
-/// The most bytes that the description of a parameter may have.
+/// Maximum length of the description of a parameter, in bytes.
 pub const DESCRIPTION_LIMIT: usize = 500;
 
 /// A compiled policy.
 ///
-/// Registers hold, in this order, the parameters, then constants, states' arguments and temporaries as the compiler laid
-/// them out; [`Program::initial_registers`] is what they hold at the start of a run. A program that does not come from the compiler or an
-/// [`Artifact`](super::Artifact) is safe to run if it passes [`Program::verify`].
+/// The registers contain first the parameters, then constants, arguments of states and temporaries, as the compiler
+/// arranges them. [`Program::initial_registers`] are their values at the start of a run. A program from another source
+/// than the compiler or an [`Artifact`](super::Artifact) is safe to run if it passes [`Program::verify`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Program {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The whiskers that the policy binds, by their names in the rig.
+    /// Names of the whiskers that the policy binds, as in the rig.
     pub whiskers: Vec<String>,
-    /// The tip model of each of them.
+    /// The contact estimator of each whisker.
     pub contact_estimators: Vec<ContactEstimatorKind>,
-    /// Whether a rig may lack each of them.
+    /// True for each whisker that a rig may lack.
     pub optional: Vec<bool>,
-    /// The parameters; the one with index `i` lives in register `i`.
+    /// The parameters. The parameter with index `i` is in register `i`.
     pub parameters: Vec<Parameter>,
-    /// The states; an outer state comes before the states in it.
+    /// The states. An outer state comes before its inner states.
     pub states: Vec<State>,
-    /// Index of the state that a run starts in.
+    /// Index of the initial state.
     pub initial: usize,
-    /// What is done once, when a run begins: computes what follows from parameters and constants alone.
+    /// Code that runs once at the start of a run. It computes values that depend only on parameters and constants.
     pub start: Block,
-    /// What is done once behind that, before a state is entered: sets the machine's own memory.
+    /// Code that runs once after `start` and before a state is entered. It initialises the memory of the machine.
     pub entry: Block,
-    /// What is done every tick before what the active states do.
+    /// Code that runs in every tick before the bodies of the active states.
     pub body: Block,
-    /// Transitions that are tried first, whatever the state.
+    /// Global transitions. They are tried first in every state.
     pub always: Vec<Transition>,
-    /// Where a state without a failsafe of its own is left to when the machine cannot go on in it.
+    /// Fallback transition for states without their own.
     pub fallback: Option<Target>,
-    /// All code; blocks are ranges of it.
+    /// All code. Blocks are ranges of it.
     pub code: Vec<Op>,
-    /// The register file at the start of a run.
+    /// Values of the registers at the start of a run.
     pub initial_registers: Vec<f64>,
-    /// Number of timers that guards with a duration need; those of `always` come first.
+    /// Number of timers for guards with a duration. Those of `always` come first.
     pub timers: usize,
 }
 
 /// A number that a run may set within a range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// What the policy says about it: one line of at most [`DESCRIPTION_LIMIT`] bytes, which may be empty.
+    /// Description from the policy: one line of at most [`DESCRIPTION_LIMIT`] bytes. It may be empty.
     pub description: String,
-    /// Its dimension.
+    /// Physical dimension of the value.
     pub dimension: Dimension,
-    /// Its value if a run sets none (SI).
+    /// Value if a run does not set it (SI).
     pub default: f64,
-    /// The least and greatest value allowed (SI).
+    /// Smallest and largest allowed value (SI).
     pub range: Option<(f64, f64)>,
 }
 
-/// A state.
+/// A state of a program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Its name.
+    /// Name of the state.
     pub name: Arc<str>,
-    /// Index of the state that it lies in, which is less than its own.
+    /// Index of the outer state. It is less than the index of this state.
     pub parent: Option<usize>,
-    /// Index of the inner state that it begins in, and what computes that one's arguments; `None` if no state lies in it.
+    /// Index of the initial inner state, and the code that computes its arguments. `None` for a state without inner
+    /// states.
     pub initial: Option<(usize, Block)>,
-    /// What it does when it is entered, before anything else: sets its memory.
+    /// Code that runs first when the state is entered. It initialises the state's memory.
     pub entry: Block,
-    /// What it does every tick.
+    /// Code that runs in every tick.
     pub body: Block,
-    /// What it does when it is left.
+    /// Code that runs when the state is left.
     pub exit: Block,
-    /// Its transitions in the order in which they are tried.
+    /// Transitions in the order in which they are tried.
     pub transitions: Vec<Transition>,
-    /// Where it is left to when the machine cannot go on in it: its command is not finite, or a tick wants too many
-    /// transitions.
+    /// Fallback transition: taken if the action is not finite or a tick exceeds the microstep limit.
     pub fallback: Option<Target>,
 }
 
-/// A way out of a state.
+/// A transition of a state, or a global one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Transition {
-    /// When it is taken.
+    /// The condition.
     pub guard: Guard,
-    /// Where it leads.
+    /// The target.
     pub target: Target,
 }
 
-/// When a transition is taken.
+/// The condition under which a transition is taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Guard {
-    /// When a condition holds.
+    /// A condition holds.
     When {
-        /// Computes the condition, behind the guard of the transition that is tried before.
+        /// Code of the condition. It follows the code of the previous guard.
         code: Block,
-        /// Where the condition is afterwards.
+        /// Register of the result.
         truth: Register,
-        /// For how long it must have held without a break (register of a time in s), and the timer that watches.
+        /// Register of the duration (s) for which the condition must hold without interruption, and the timer that
+        /// measures it.
         lasting: Option<(Register, usize)>,
     },
-    /// When the state has been active for a time.
+    /// The state has been active for a time.
     After {
-        /// Computes the time, behind the guard of the transition that is tried before.
+        /// Code of the time. It follows the code of the previous guard.
         code: Block,
-        /// Where the time (s) is afterwards.
+        /// Register of the result (s).
         time: Register,
     },
 }
 
 impl Guard {
-    /// Whether the guard needs a timer.
+    /// True if the guard needs a timer.
     #[must_use]
     pub fn is_timed(&self) -> bool {
         matches!(self, Self::When { lasting: Some(_), .. })
     }
 }
 
-/// The code of the guards of a list of transitions. One lies behind the other, so that a tick runs them in one go.
+/// The code of the guards of a list of transitions. It is contiguous, so that a tick evaluates all of them in one run.
 #[inline]
 pub(super) fn guards(transitions: &[Transition]) -> Block {
     match transitions {
@@ -144,31 +145,31 @@ pub(super) fn guards(transitions: &[Transition]) -> Block {
     }
 }
 
-/// Where a transition leads.
+/// The target of a transition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
-    /// Into a state.
+    /// A state is entered.
     State {
-        /// Its index.
+        /// Index of the state.
         state: usize,
-        /// Computes the arguments, of outer states that are entered with it too, and puts them where the states read them.
+        /// Code that computes the arguments of all entered states and writes them to their registers.
         arguments: Block,
-        /// Whether it goes on in the inner state that was active last, if there was one, and not in its initial one.
+        /// True if the last active inner state is entered (history), false for the initial one.
         resume: bool,
     },
-    /// To the end of the run, in failure, for this reason.
+    /// The run ends as a failure for this reason.
     Failure(Arc<str>),
 }
 
-/// Why a parameter cannot be set.
+/// The reason for which a parameter cannot be set.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SetError {
-    /// There is no such parameter.
+    /// The policy has no such parameter.
     #[error("the policy has no parameter `{name}`; it has {known}")]
     Unknown {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// The parameters that there are.
+        /// Existing parameters.
         known: String,
     },
     /// The value has the wrong dimension.
@@ -206,7 +207,7 @@ fn article(noun: &str) -> &'static str {
 }
 
 impl Guard {
-    /// What computes it.
+    /// The code of the guard.
     pub fn code(&self) -> &Block {
         match self {
             Self::When { code, .. } | Self::After { code, .. } => code,
@@ -215,16 +216,16 @@ impl Guard {
 }
 
 impl Program {
-    /// Where the state with this index is left to when the machine cannot go on in it: by its own failsafe, or else by the
-    /// machine's, given with the state that it belongs to.
+    /// The fallback transition for a state, and the state to which it belongs. It is the transition of the state
+    /// itself, of the nearest outer state, or else of the program (`None`).
     #[must_use]
     pub fn fallback_of(&self, state: usize) -> Option<(Option<usize>, &Target)> {
         let own = |state: usize| Some((Some(state), self.states[state].fallback.as_ref()?));
         self.outward(state).find_map(own).or_else(|| Some((None, self.fallback.as_ref()?)))
     }
 
-    /// The most operations that a tick in the state with this index does without leaving it: all guards, and what the machine and
-    /// the state do, with those of its outer states. Jumps only lead forward, so that a block never does more operations than it has.
+    /// Maximum number of operations of a tick that stays in a state: all guards and bodies of the program, the state
+    /// and its outer states. Jumps only go forward, so a block never runs more operations than it contains.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
         let guards = |transitions: &[Transition]| guards(transitions).len();
@@ -233,8 +234,8 @@ impl Program {
         own + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
 
-    /// A bound on the operations of any tick: what a run begins with, eight transitions, each with the most that one can do, guards before and behind
-    /// each, a failsafe, and what the machine and the states do.
+    /// Upper bound of the operations of any tick. It includes the start of a run, the maximum number of transitions
+    /// with all guards, a fallback transition and all bodies.
     #[must_use]
     pub fn most_operations(&self) -> usize {
         let most = |of: &dyn Fn(usize) -> usize| (0..self.states.len()).map(of).max().unwrap_or(0);
@@ -256,44 +257,44 @@ impl Program {
         once + (MICROSTEP_LIMIT + 1) * (look + transition) + 2 * act
     }
 
-    /// Bytes that a running machine keeps: registers, times, and which state was last active in which.
+    /// Bytes of memory of a running machine: registers, times and last active inner states.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let (number, index, time) = (size_of::<f64>(), size_of::<Option<usize>>(), size_of::<Option<f64>>());
         self.initial_registers.len() * number + self.states.len() * (number + index) + self.timers * time
     }
 
-    /// The state with this index and those that it lies in, the innermost first.
+    /// The state and all its outer states, the innermost first.
     pub fn outward(&self, state: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(state), |&state| self.states[state].parent)
     }
 
-    /// Whether the state `inner` is the state `outer` or lies in it.
+    /// True if `inner` is `outer` or one of its inner states.
     #[must_use]
     pub fn contains(&self, outer: usize, inner: usize) -> bool {
         self.outward(inner).any(|state| state == outer)
     }
 
-    /// The innermost of the states that stay active when a transition of the state `from`, or of any state, leads to `target`:
-    /// it contains both, and is not the target.
+    /// The innermost state that stays active in a transition of the state `from` to `target`. It contains both and is
+    /// not the target. `None` for a global transition.
     #[must_use]
     pub fn common_ancestor(&self, from: Option<usize>, target: usize) -> Option<usize> {
         let from = from?;
         self.outward(target).skip(1).find(|&outer| self.contains(outer, from))
     }
 
-    /// Whether a transition of the state `from`, or of any state, has led where it leads already while the innermost active
-    /// state is `active`: it stands outside of its target, and that is active.
+    /// True if a transition would enter a target that is already active, and its own state is outside of the target.
+    /// `active` is the innermost active state, and `from` is `None` for a global transition.
     #[must_use]
     pub fn is_target_active(&self, from: Option<usize>, target: usize, active: usize) -> bool {
         let from_outside = from.is_none_or(|from| from != target && self.contains(from, target));
         from_outside && self.contains(target, active)
     }
 
-    /// Sets the parameter `name` to `value` (SI), which has the dimension `dimension`.
+    /// Sets the parameter `name` to `value` (SI) of the given dimension.
     ///
     /// # Errors
-    /// [`SetError`] when there is no such parameter, its dimension or range is another, or the value is not finite.
+    /// [`SetError`] if there is no such parameter, the dimension differs, or the value is out of range or not finite.
     pub fn set(&mut self, name: &str, value: f64, dimension: Dimension) -> Result<(), SetError> {
         let Some(index) = self.parameters.iter().position(|parameter| parameter.name == name) else {
             let known = self.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect::<Vec<_>>();
@@ -308,10 +309,10 @@ impl Program {
 }
 
 impl Parameter {
-    /// Whether it can be set to `value` (SI), which has the dimension `dimension`.
+    /// Checks that the parameter can be set to `value` (SI) of the given dimension.
     ///
     /// # Errors
-    /// [`SetError`] when its dimension or range is another, or the value is not finite.
+    /// [`SetError`] if the dimension differs, or the value is out of range or not finite.
     pub fn check(&self, value: f64, dimension: Dimension) -> Result<(), SetError> {
         let name = self.name.clone();
         if self.dimension != dimension {

@@ -16,23 +16,23 @@ pub struct Position {
 /// Positions of a policy's states and transitions in its text, in the program's order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SourceMap {
-    /// The conditions of the transitions that are tried whatever the state.
+    /// Conditions of the global transitions.
     pub always: Vec<Position>,
     /// The states.
     pub states: Vec<StatePosition>,
 }
 
-/// Where in its text a state is.
+/// Positions of a state and its transitions.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StatePosition {
-    /// Its name.
+    /// Position of the name.
     pub name: Position,
-    /// The conditions of its transitions.
+    /// Positions of the conditions of its transitions.
     pub transitions: Vec<Position>,
 }
 
 impl SourceMap {
-    /// Whether there is a place for every state and every transition of `program`, and no other.
+    /// True if there is exactly one position for every state and transition of `program`.
     pub(super) fn fits(&self, program: &Program) -> bool {
         let counts =
             |(position, state): (&StatePosition, &super::State)| position.transitions.len() == state.transitions.len();

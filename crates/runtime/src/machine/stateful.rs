@@ -1,20 +1,19 @@
-//! Operations that remember: a low-pass filter, a PID controller.
+//! Operations with memory: a low-pass filter and a PID controller.
 //!
-//! Their memory is registers that hold zero until the first use, and again whenever their state is entered. Each takes the
-//! time from the last use to this one, so that a late tick is filtered as what it is. What is not a finite number shows in the
-//! value and goes no further: the memory stays as it was.
+//! The memory is registers that are zero before the first use and after every entry of the state. Each operation uses
+//! the time since its last use, so late ticks are filtered correctly. A non-finite value appears in the result but does
+//! not change the memory.
 
 /// Started (1) or not (0), time of the last use (s), filtered value.
 type LowPassMemory = [f64; 3];
 /// Started (1) or not (0), time of the last use (s), integrated error, last error.
 type PidMemory = [f64; 4];
 
-/// One step of a first-order low-pass filter with its −3 dB point at `cutoff` (Hz); it starts at the first value that it
-/// gets.
+/// One step of a first-order low-pass filter with its −3 dB point at `cutoff` (Hz). It starts at the first value.
 pub(super) fn low_pass(memory: LowPassMemory, now: f64, value: f64, cutoff: f64) -> (LowPassMemory, f64) {
     let [started, before, filtered] = memory;
     let filtered = if started > 0.5 {
-        // Exact for a value that stays as it is between two uses.
+        // This step is exact for a value that is constant between two uses.
         let share = -(-std::f64::consts::TAU * cutoff * (now - before)).exp_m1();
         filtered + share * (value - filtered)
     } else {
@@ -23,8 +22,8 @@ pub(super) fn low_pass(memory: LowPassMemory, now: f64, value: f64, cutoff: f64)
     if filtered.is_finite() { ([1.0, now, filtered], filtered) } else { (memory, filtered) }
 }
 
-/// One step of a PID controller with the gains `[p, i, d, limit]`. The output stays within ± `limit`; while it is at the
-/// limit the integral does not grow. Over a gap, in which the output is not a finite number, nothing is integrated.
+/// One step of a PID controller with the gains `[p, i, d, limit]`. The output is limited to ± `limit`. At the limit the
+/// integral does not grow. The time of a non-finite output is not integrated.
 pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f64; 4]) -> (PidMemory, f64) {
     let [started, before, integral, last] = memory;
     let passed = if started > 0.5 { now - before } else { 0.0 };
@@ -32,7 +31,7 @@ pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f6
     let change = if passed > 0.0 { (error - last) / passed } else { 0.0 };
     let output = p * error + i * grown + d * change;
     let integral = if output.abs() <= limit.abs() { grown } else { integral };
-    // Not `clamp`, which panics on a limit that is not a number; that one must show in the output.
+    // `clamp` panics on a NaN limit. A NaN must appear in the output.
     let limited = if output.abs() <= limit.abs() { output } else { limit.abs() * output.signum() };
     if limited.is_finite() && integral.is_finite() && error.is_finite() {
         ([1.0, now, integral, error], limited)

@@ -1,4 +1,4 @@
-//! A machine at work: memory, transitions, one action a tick.
+//! The execution of a machine: one action per tick.
 
 use std::sync::Arc;
 
@@ -8,10 +8,11 @@ use super::fallback::Fallback;
 use super::program::Program;
 use super::senses::Senses;
 
-/// The most transitions that one tick takes; a policy that wants more fails.
+/// Maximum number of transitions in one tick (microsteps). A policy that exceeds it fails or takes its fallback
+/// transition.
 pub const MICROSTEP_LIMIT: usize = 8;
 
-/// A running machine: a program and its memory.
+/// A running machine: a program and its state of execution.
 #[derive(Debug, Clone)]
 pub struct Machine {
     program: Arc<Program>,
@@ -19,92 +20,93 @@ pub struct Machine {
     failure: Option<Failure>,
 }
 
-/// Why a machine has failed.
+/// The reason for which a machine has failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
-    /// The policy went to `Failure` and gave this reason.
+    /// The policy took a transition to `Failure` with this reason.
     #[error("{0}")]
     Policy(Arc<str>),
-    /// A number of a command was not finite.
+    /// A number of an action was not finite.
     #[error("state {state} gave a command that is not finite: {non_finite}")]
     NotFinite {
-        /// The state that gave it.
+        /// The state that gave the action.
         state: Arc<str>,
         /// The number.
         non_finite: NonFinite,
     },
-    /// One tick took more than [`MICROSTEP_LIMIT`] transitions.
+    /// A transition was enabled after [`MICROSTEP_LIMIT`] transitions in one tick.
     #[error("more than {MICROSTEP_LIMIT} transitions in one tick, the last one taken into {state}")]
     MicrostepLimit {
-        /// The state that the last one taken led into.
+        /// The innermost state after these transitions.
         state: Arc<str>,
     },
 }
 
-/// What a tick gave.
+/// The result of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tick {
-    /// What the platform is asked to do.
+    /// The action for the platform.
     pub action: Action,
-    /// Whether the machine goes on.
+    /// The status of the machine after the tick.
     pub status: Status,
-    /// The state that was left by its failsafe, if one was.
+    /// The fallback transition that was taken, if any.
     pub fallback: Option<Fallback>,
 }
 
-/// Whether a machine goes on.
+/// The status of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// It goes on.
+    /// The machine runs.
     Running,
-    /// It has failed, for the reason that [`Machine::failure`] gives, and stands still for good.
+    /// The machine has failed for the reason given by [`Machine::failure`]. It stops for the rest of the run.
     Failed,
 }
 
 impl Machine {
-    /// A machine at the start of `program`.
+    /// Creates a machine at the start of `program`.
     #[must_use]
     pub fn new(program: Arc<Program>) -> Self {
         let activity = Activity::new(&program, program.initial, program.initial_registers.clone());
         Self { activity, failure: None, program }
     }
 
-    /// A machine that is about to enter a state, with `registers` as its memory.
+    /// Creates a machine that is about to enter a state, with the given registers.
     pub fn entering(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
         Self { activity: Activity::new(&program, state, registers), failure: None, program }
     }
 
-    /// The program that it runs.
+    /// The program of the machine.
     #[must_use]
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// Index of the active state, the innermost one.
+    /// Index of the innermost active state.
     #[must_use]
     pub fn state(&self) -> usize {
         self.activity.state()
     }
 
-    /// Name of the active state, the innermost one; `Failure` after a failure.
+    /// Name of the innermost active state, or `Failure` after a failure.
     #[must_use]
     pub fn state_name(&self) -> &str {
         if self.failure.is_some() { "Failure" } else { &self.program.states[self.state()].name }
     }
 
-    /// Why the machine has failed, if it has.
+    /// The reason of the failure, if the machine has failed.
     #[must_use]
     pub fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }
 
-    /// One tick: first the rules that hold always, then the active states' transitions, from the outermost state to the
-    /// innermost and in their written order (and again after each one taken, up to [`MICROSTEP_LIMIT`]), then what the machine
-    /// itself does, and what the active states do, from the outermost to the innermost.
+    /// Executes one tick. It tries the global transitions first, and then those of the active states, from the
+    /// outermost to the innermost and in their written order. After each one taken it tries again, up to
+    /// [`MICROSTEP_LIMIT`] times. Then the body of the program runs, and the bodies of the active states, from the
+    /// outermost to the innermost.
     ///
-    /// An action with a number that is not finite is never given. Instead, and where a tick wants too many transitions, the
-    /// active state is left by its failsafe, or else by the program's, and what the state entered does counts; without a
-    /// failsafe, or if that state's action is not finite either, the machine fails.
+    /// A non-finite action is never returned. In that case, or if the tick exceeds the microstep limit, the fallback
+    /// transition of the state is taken, or else that of the program. The entered state then gives the action. The
+    /// machine fails if there is no fallback transition or the new action is not finite either.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
         if self.failure.is_some() {
             return Tick { action: Action::Stop, status: Status::Failed, fallback: None };

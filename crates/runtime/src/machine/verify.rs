@@ -1,4 +1,4 @@
-//! What a program must keep to, so that running it cannot go wrong: wherever the program comes from.
+//! Verification of programs from untrusted sources.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,107 +10,110 @@ use super::program::{
     CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
 };
 
-/// The most states that a program may have, and the most transitions.
+/// Maximum number of states, and of transitions, of a program.
 const STRUCTURE_LIMIT: usize = 50_000;
-/// The most registers that one operation may clear, as many as the largest memory has: operations do a bounded amount of work.
+/// Maximum number of registers that one operation may clear, equal to the largest memory. It bounds the work of an
+/// operation.
 const CLEAR_LIMIT: u16 = 4;
 
-/// Why a program is not safe to run.
+/// The reason for which a program is not safe to run.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Unsound {
-    /// There is too much of something.
+    /// The number of something exceeds its limit.
     #[error("it has {count} {what}, {limit} at most are allowed")]
     TooMany {
-        /// Of what.
+        /// The things counted.
         what: &'static str,
-        /// How much there is.
+        /// Their number.
         count: usize,
-        /// How much there may be.
+        /// The limit.
         limit: usize,
     },
-    /// Something is named by an index that nothing has.
+    /// An index is out of range.
     #[error("it names {what} {index} of {count}")]
     Index {
-        /// What is named.
+        /// The kind of thing indexed.
         what: &'static str,
-        /// Its index.
+        /// The index.
         index: usize,
-        /// How many there are.
+        /// Number of existing things of this kind.
         count: usize,
     },
-    /// A block is no part of the code, or shares a part with another block.
+    /// A block is outside of the code, or overlaps another block.
     #[error("its block of code from {start} to {end} lies outside of the code or crosses another block")]
     Block {
         /// The first operation.
         start: u32,
-        /// The one behind the last.
+        /// The end, exclusive.
         end: u32,
     },
-    /// A jump leads back or out of its block.
+    /// A jump goes back or out of its block.
     #[error("its jump at {at} leads to {target}, which is not ahead in the same block")]
     Jump {
-        /// Where the jump is.
+        /// Index of the jump.
         at: u32,
-        /// Where it leads.
+        /// Its target.
         target: u32,
     },
-    /// A tick in a state would do the same code more than once.
+    /// A tick in a state would execute the same code more than once.
     #[error("its state {state} does {operations} operations a tick, more than there are")]
     Work {
         /// Index of the state.
         state: usize,
-        /// Operations of all its blocks, of those of the states around it, and of the machine's own.
+        /// Operations of all blocks of the state, its outer states and the program.
         operations: usize,
     },
-    /// A state lies in one that does not come before it, or too deep.
+    /// An outer state does not come before its inner state, or the nesting is too deep.
     #[error("its state {0} lies in no state before it, or more than {NESTING_LIMIT} deep")]
     Nesting(usize),
-    /// A state begins or is resumed where it cannot.
+    /// The initial state of a state is missing or is not one of its inner states, or a state without inner states is
+    /// resumed.
     #[error("its state {0} cannot begin where it does")]
     InitialState(usize),
-    /// A timer of a rule that holds always is used by a state, or the other way round.
+    /// A timer of a global transition is used by a state, or the reverse.
     #[error("its timer {0} belongs to another guard")]
     Timer(usize),
-    /// A register that is read as a whisker can hold something else.
+    /// A register that is read as a whisker can contain something else.
     #[error("its register {0} is read as a whisker, but can hold something else")]
     Whisker(Register),
-    /// Whiskers are read, and none is bound.
+    /// Whiskers are read, but none is bound.
     #[error("it reads whiskers, but binds none; bind one, as in `whisker r0`")]
     NoWhisker,
     /// The code changes a parameter.
     #[error("its code changes the parameter `{0}`")]
     ParameterWritten(String),
-    /// A number at the start of a run is infinite or not a number.
+    /// An initial register is not finite.
     #[error("its register {0} starts with a number that is not finite")]
     NotFinite(usize),
-    /// A parameter's range is none, or its value is outside of it.
+    /// The range of a parameter is invalid, or its value is outside of the range.
     #[error("its parameter `{0}` is outside of its range")]
     OutOfRange(String),
-    /// A parameter's description is long or not one line of plain text.
+    /// The description of a parameter is too long or not one line of plain text.
     #[error("the description of its parameter `{0}` is longer than {DESCRIPTION_LIMIT} bytes or no single line")]
     Description(String),
-    /// A name is not one that the language could give.
+    /// A name is not an identifier of the language.
     #[error("{0:?} is no name")]
     Name(String),
-    /// Two things have one name.
+    /// Two things have the same name.
     #[error("the name `{0}` is given twice")]
     SameName(String),
-    /// A reason for a failure is not one line of plain text.
+    /// The reason of a failure is not one line of plain text.
     #[error("the reason {0:?} has characters that cannot be shown; reword it")]
     Reason(String),
 }
 
 impl Program {
-    /// Checks all that running the program relies on.
+    /// Checks everything that the execution of the program relies on.
     ///
-    /// A program that passes does no more work in a tick than its code is long, for each transition taken (a failsafe among them), and touches only
-    /// registers, states, timers and whiskers that there are; its parameters stay what they were set to. That its commands are
-    /// finite is seen to by [`Machine::tick`](super::Machine::tick), that they are bounded by steering.
+    /// The work of a tick in a verified program is bounded by the length of its code for each transition taken,
+    /// including a fallback transition. It accesses only existing registers, states, timers and whiskers, and never
+    /// changes a parameter. [`Machine::tick`](super::Machine::tick) ensures that actions are finite, and steering
+    /// limits the commands.
     ///
     /// # Errors
-    /// [`Unsound`] with the first thing that is wrong. No policy that compiles gives such a program.
+    /// [`Unsound`] with the first problem found. The compiler never produces such a program.
     pub fn verify(&self) -> Result<(), Unsound> {
-        // Taken apart, so that a field that is new is not forgotten.
+        // Without `..`, the compiler reports a new field that is not checked here.
         let Self {
             name,
             whiskers,
@@ -177,8 +180,8 @@ impl Program {
         Ok(())
     }
 
-    /// Checks that states lie in states that come before them, so that there is an outermost, and begin in a state directly in
-    /// them wherever there is one.
+    /// Checks that outer states come before their inner states, which excludes cycles, and that every state with inner
+    /// states has an initial one among them.
     fn verify_hierarchy(&self) -> Result<(), Unsound> {
         let mut depths: Vec<usize> = Vec::with_capacity(self.states.len());
         for (index, state) in self.states.iter().enumerate() {
@@ -206,8 +209,8 @@ impl Program {
         Ok(())
     }
 
-    /// Checks what guards and targets name. Entering a state starts its timers anew and leaves those of `always`, which come
-    /// first, running.
+    /// Checks the registers, timers and targets of transitions. Timers of `always` come first. Entering a state resets
+    /// only the timers of that state.
     fn verify_transitions(&self) -> Result<(), Unsound> {
         let timed = |transitions: &[Transition]| transitions.iter().filter(|one| one.guard.is_timed()).count();
         let lasting = timed(&self.always);
@@ -295,7 +298,7 @@ impl Program {
                 }
             }
         }
-        // Between two transitions each block of the active states is done once at most.
+        // Between two transitions, each block of the active states runs at most once.
         let sum = |blocks: &[Block]| blocks.iter().map(ExactSizeIterator::len).sum::<usize>();
         let mut sums: Vec<usize> = Vec::with_capacity(states.len());
         for (index, state) in states.iter().enumerate() {
@@ -309,9 +312,10 @@ impl Program {
         Ok(())
     }
 
-    /// Checks that every operand is in a register that there is, that no parameter is written, and that registers that are
-    /// read as whiskers only ever hold the index of one: they start with one, and nothing but copies of such registers goes
-    /// into them.
+    /// Checks that every operand is an existing register and that no parameter is written.
+    ///
+    /// Registers that are read as whiskers must always contain the index of a whisker. They start with one, and only
+    /// copies of such registers are written to them.
     fn verify_operands(&self) -> Result<(), Unsound> {
         let mut copied_from: HashMap<Register, Vec<Register>> = HashMap::new();
         let mut pending = Vec::new();
@@ -378,7 +382,7 @@ fn within(what: &'static str, index: usize, count: usize) -> Result<(), Unsound>
     if index < count { Ok(()) } else { Err(Unsound::Index { what, index, count }) }
 }
 
-/// Names are letters, digits and underscores, and do not start with a digit.
+/// Checks that a name consists of letters, digits and underscores and does not start with a digit.
 fn is_name(name: &str) -> Result<(), Unsound> {
     let holds = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
         && name.bytes().next().is_some_and(|first| !first.is_ascii_digit());
