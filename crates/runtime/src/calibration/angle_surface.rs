@@ -1,4 +1,4 @@
-//! The base angle as a polynomial in the place of the touch.
+//! The base angle as a polynomial in the contact position.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -10,38 +10,39 @@ use crate::geometry::Vector2;
 
 /// The order of the polynomial.
 const ORDER: usize = 5;
-/// Its coefficients.
+/// Number of its coefficients.
 const COUNT: usize = (ORDER + 1) * (ORDER + 2) / 2;
-/// How much nearer than a mesh is wide a place may be to another to be left out.
+/// Distance to another position, as a share of the mesh width, below which a position is omitted.
 const APART: f64 = 0.25;
 
-/// The base angle that a touch by the tip makes, as a polynomial of order five in its place: `z = f(x, y)`, for a bend to the left.
+/// The base angle of a tip contact as a polynomial of order five in its position: `z = f(x, y)`, for a bend to the
+/// left.
 ///
-/// For a touch by the tip the place says all, since a place has one shape of the shaft. It holds between the places that it was fitted to,
-/// which fill a crescent and not their hull: where a place lies in the hull of those that are within reach of it. A straight way to all of
-/// them leads along a net, whose meshes are no wider than a step from place to place that cannot be avoided; who reaches from corner to
-/// corner of such a mesh, and no farther, leaves no hole between them, and does not go beyond the outermost.
+/// For a tip contact, each position has one shape of the shaft and so one base angle. The fit is valid between the
+/// positions of the contacts. They fill a crescent, so their convex hull is too large. A position is valid if it is in
+/// the convex hull of those positions that are within `reach` of it. The positions form a net, and `reach` is the
+/// diagonal of its widest mesh. This closes all holes of the net and does not extend beyond it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AngleSurface {
-    /// The middle of the places (m, frame of the base), and the distance (m) that is taken for 1.
+    /// Mean of the positions (m, frame of the base): the origin of the polynomial.
     pub centre: [f64; 2],
-    /// See `centre`.
+    /// Distance (m) that corresponds to 1 in the polynomial.
     pub scale: f64,
-    /// Coefficients (rad) of 1, v, v², …, u, u v, …, u⁵ for the place (u, v) from the centre.
+    /// Coefficients (rad) of 1, v, v², …, u, u v, …, u⁵ for the position (u, v) relative to the centre.
     pub coefficients: [f64; COUNT],
-    /// Standard deviation of the sets' base angles about it (rad).
+    /// Standard deviation of the residual base angles (rad).
     #[serde(rename = "spread")]
     pub deviation: f64,
-    /// How far off (m) the places are that one between them needs: the diagonal of the widest mesh of their net.
+    /// Distance (m) within which a valid position needs measured ones: the diagonal of the widest mesh of their net.
     pub reach: f64,
-    /// The places (m, frame of the base), but for those that are nearer to another than a quarter of a mesh.
+    /// Positions (m, frame of the base) of the contacts, without those nearer to another one than a quarter of a mesh.
     #[serde(rename = "places")]
     pub positions: Vec<[f64; 2]>,
 }
 
 impl AngleSurface {
-    /// The polynomial that comes nearest to sets of touches by the tip. `None` if they are too few, or all near one line.
+    /// Fits the polynomial to tip contacts by least squares. `None` if there are too few, or all are near one line.
     #[must_use]
     pub fn fit(sets: &[ContactSet]) -> Option<Self> {
         let positions: Vec<Vector2> = sets.iter().map(|set| set.contact_base).collect();
@@ -66,7 +67,7 @@ impl AngleSurface {
         Some(surface)
     }
 
-    /// The base angle (rad) of a touch at a place (m, frame of the base), and its change with the place (rad/m).
+    /// The base angle (rad) of a contact at a position (m, frame of the base), and its gradient (rad/m).
     #[must_use]
     pub fn at(&self, position: Vector2) -> (f64, Vector2) {
         let mut sums = [0.0; 3];
@@ -78,12 +79,12 @@ impl AngleSurface {
         (sums[0], Vector2::new(sums[1], sums[2]) / self.scale)
     }
 
-    /// Whether it holds at a place (m, frame of the base): between places within reach of it, or as near to one as those that were left out.
+    /// True if the fit is valid at a position (m, frame of the base): between measured positions, or very near to one.
     #[must_use]
     pub fn contains(&self, position: Vector2) -> bool {
         let (far, near) = (self.reach.powi(2), (APART / SQRT_2 * self.reach).powi(2));
-        // Seen from the place, how far to the left and to the right of the first the others are: it is in their hull if that is half a
-        // turn together.
+        // The largest angles of other positions to the left and to the right of the first one, seen from the position.
+        // Their sum is at least half a rotation if the position is in their convex hull.
         let mut seen: Option<(Vector2, f64, f64)> = None;
         for &known in &self.positions {
             let off = Vector2::from(known) - position;
@@ -104,7 +105,7 @@ impl AngleSurface {
         false
     }
 
-    /// The terms of the polynomial with their changes by u and v.
+    /// The terms of the polynomial with their derivatives by u and v.
     fn basis(&self, position: Vector2) -> [[f64; 3]; COUNT] {
         let [u, v] = <[f64; 2]>::from((position - Vector2::from(self.centre)) / self.scale);
         let powers = |value: f64| {
@@ -115,7 +116,7 @@ impl AngleSurface {
             powers
         };
         let (us, vs) = (powers(u), powers(v));
-        // The change of a power.
+        // The derivative of a power.
         let slope = |powers: &[f64], order: usize| order.checked_sub(1).map_or(0.0, |less| order as f64 * powers[less]);
         let mut terms = [[0.0; 3]; COUNT];
         let orders = (0..=ORDER).flat_map(|i| (0..=ORDER - i).map(move |j| (i, j)));
@@ -125,7 +126,7 @@ impl AngleSurface {
         terms
     }
 
-    /// Whether it is a surface: finite, and near places that are.
+    /// True if all numbers are finite and in their valid ranges.
     pub(super) fn is_sound(&self) -> bool {
         let numbers = self.coefficients.iter().chain(&self.centre).chain(self.positions.iter().flatten());
         let positive = |number: f64| number.is_finite() && number > 0.0;
@@ -138,8 +139,8 @@ impl AngleSurface {
     }
 }
 
-/// The longest step of the net of the shortest ways from place to place that holds all of them together (Prim, Bell System Technical
-/// Journal 36 (1957), 1389).
+/// The longest edge of the minimum spanning tree of the positions (Prim, Bell System Technical Journal 36 (1957),
+/// 1389).
 fn widest_mesh(positions: &[Vector2]) -> f64 {
     let mut outside: Vec<(Vector2, f64)> = positions.iter().map(|position| (*position, f64::INFINITY)).collect();
     let (mut newest, mut widest) = (outside.pop().map(|(position, _)| position), 0.0_f64);

@@ -3,7 +3,7 @@
 use super::angle_surface::AngleSurface;
 use super::contact_curve::ContactCurve;
 
-/// Measured properties of a whisker. Perception takes those that are missing from the mechanics.
+/// Measured properties of a whisker. Perception derives missing ones from the mechanics.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Calibration {
     /// A description of the measurement, for people.

@@ -1,4 +1,4 @@
-//! The place of a touch as polynomials in the base angle.
+//! The contact position as polynomials in the base angle.
 
 use nalgebra::Matrix2;
 use serde::Deserialize;
@@ -10,22 +10,24 @@ use crate::geometry::Vector2;
 /// Coefficients of a polynomial of order five.
 const COUNT: usize = 6;
 
-/// The place of a touch as polynomials of order five in the base angle, for a bend to the left: what one channel can tell.
+/// The contact position as polynomials of order five in the base angle, for a bend to the left. The contact estimator
+/// `one_channel` uses it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactCurve {
-    /// The least and the greatest base angle (rad) that it was fitted to.
+    /// Smallest and largest base angle (rad) of the contacts.
     pub range: [f64; 2],
-    /// Coefficients (m) of the place's x, in the frame of the base, by powers of the base angle over the end of the range.
+    /// Coefficients (m) of x in the frame of the base, by powers of the base angle over the end of the range.
     pub x: [f64; COUNT],
-    /// The same of its y.
+    /// Coefficients (m) of y, in the same form.
     pub y: [f64; COUNT],
-    /// Covariance of the place (m²): xx, xy, yy; that of the sets about the curve.
+    /// Covariance of the residual positions (m²): xx, xy, yy.
     pub covariance: [f64; 3],
 }
 
 impl ContactCurve {
-    /// The curve that comes nearest to sets, each with a weight. `None` if they are too few, or of too few base angles.
+    /// Fits the curve to contacts with weights by least squares. `None` if there are too few contacts or too few
+    /// different base angles.
     #[must_use]
     pub fn fit(sets: &[(ContactSet, f64)]) -> Option<Self> {
         let angles = || sets.iter().map(|(set, _)| set.base_angle);
@@ -47,7 +49,7 @@ impl ContactCurve {
         Some(curve)
     }
 
-    /// The place (m, frame of the base) at a base angle (rad) within the range.
+    /// The contact position (m, frame of the base) at a base angle (rad) within the range.
     #[must_use]
     pub fn at(&self, base_angle: f64) -> Vector2 {
         let powers = powers(base_angle / self.range[1]);
@@ -55,7 +57,7 @@ impl ContactCurve {
         Vector2::new(value(&self.x), value(&self.y))
     }
 
-    /// Whether it is a curve: finite, over a range that is one, with a covariance that is one.
+    /// True if all numbers are finite, the range is valid and the covariance is positive semidefinite.
     pub(super) fn is_sound(&self) -> bool {
         let [xx, xy, yy] = self.covariance;
         let numbers = self.x.iter().chain(&self.y).chain(&self.covariance).chain(&self.range);

@@ -1,27 +1,27 @@
-//! One contact at a known position.
+//! A contact at a known position.
 
 use std::f64::consts::PI;
 
 use crate::geometry::Vector2;
 
-/// The reading of a whisker that was touched at a known position.
+/// The reading of a whisker during a contact at a known position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSet {
-    /// The contact position on the surface (m, frame of the base: along the undeflected shaft, and to its left).
+    /// Contact position on the surface (m, frame of the base: along the undeflected shaft, and to its left).
     pub contact_base: Vector2,
     /// Base angle (rad).
     pub base_angle: f64,
-    /// Direction of the surface's normal, to the whisker's side (rad, frame of the base), if it is known.
+    /// Direction of the surface normal, towards the whisker (rad, frame of the base), if it is known.
     pub normal: Option<f64>,
-    /// Whether the shaft was touched, not the tip.
+    /// True for a contact of the shaft, false for a tip contact.
     pub on_shaft: bool,
 }
 
 impl ContactSet {
-    /// The most sets that a calibration may use. The time of a fit grows with the square of their number.
+    /// Maximum number of contacts in a calibration. The time of a fit grows with the square of their number.
     pub const MOST: usize = 10_000;
 
-    /// The set as one of a bend to the left: itself or its mirror image, with a normal from 0 to 2π.
+    /// Returns the contact for a bend to the left: itself or its mirror image, with a normal from 0 to 2π.
     #[must_use]
     pub fn to_left(self) -> Self {
         let sign = if self.base_angle < 0.0 { -1.0 } else { 1.0 };

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Basis functions with a singular value below this share of the greatest cannot be told apart by the rows.
+/// Smallest singular value, as a share of the largest, at which the rows determine all coefficients.
 const RANK: f64 = 1e-9;
 
-/// The coefficients of `N` basis functions whose sum comes nearest to the values: `rows` gives the functions' values, the value to be
-/// met and the weight of each. `None` where they do not settle every coefficient, as with fewer rows than functions.
+/// Returns the coefficients of `N` basis functions by weighted least squares. Each row has the values of the functions,
+/// the value of the sum and the weight. `None` if the rows do not determine all coefficients, for example if there are
+/// fewer rows than functions.
 pub(super) fn fit<const N: usize>(rows: &[([f64; N], f64, f64)]) -> Option<[f64; N]> {
     if rows.len() < N {
         return None;

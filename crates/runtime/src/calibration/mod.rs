@@ -1,4 +1,4 @@
-//! The calibration of a whisker: contacts measured at known positions, and functions fitted to them.
+//! The calibration of a whisker: contacts at known positions, and functions fitted to them.
 
 mod angle_surface;
 mod calibration;

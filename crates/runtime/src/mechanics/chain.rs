@@ -1,19 +1,19 @@
-//! The static equilibrium of a whisker's shaft under a force at its tip.
+//! The static equilibrium of a chain of links under a force at its tip.
 
 use nalgebra::{Matrix2, Vector2};
 
 use crate::geometry::unit;
 use crate::rig::Whisker;
 
-/// A whisker's shaft as a chain of rigid links on planar springs, the very chain that the simulator holds.
+/// A whisker's shaft as a chain of rigid links with planar springs. The simulators use the same chain.
 ///
-/// The frame is that of the whisker's base: origin at the base, first axis along the undeflected shaft, second axis to its
-/// left.
+/// The frame is that of the whisker's base: origin at the base, first axis along the undeflected shaft, second axis to
+/// its left.
 #[derive(Debug, Clone)]
 pub struct ShaftChain {
     link_length: f64,
     hinge_stiffness: f64,
-    /// From the root to the tip (N m/rad).
+    /// Joint stiffnesses from the base to the tip (N m/rad).
     joint_stiffnesses: Vec<f64>,
 }
 
@@ -26,27 +26,26 @@ pub struct Equilibrium {
     pub tip_angle: f64,
     /// Magnitude of the force at the tip (N).
     pub force: f64,
-    /// Place of the tip's centre (m).
+    /// Position of the tip's centre (m).
     pub tip_base: Vector2<f64>,
 }
 
-/// An equilibrium that is sought: the base angle (rad), the direction of the force at the tip (rad), and the neighbouring solution to
-/// start from.
+/// The conditions of an equilibrium, and an initial guess.
 #[derive(Debug, Clone, Copy)]
 pub struct EquilibriumProblem {
     /// The base angle (rad).
     pub base_angle: f64,
     /// The direction of the force at the tip (rad).
     pub force_direction: f64,
-    /// A shape to begin the iteration with.
+    /// Initial guess of the iteration: a neighbouring solution.
     pub guess: Equilibrium,
 }
 
-/// Steps of Newton's method after which a solution is given up.
+/// Maximum number of Newton steps.
 const NEWTON_STEPS: usize = 30;
 
 impl ShaftChain {
-    /// The chain of `whisker`.
+    /// Creates the chain of `whisker`.
     #[must_use]
     pub fn new(whisker: &Whisker) -> Self {
         Self {
@@ -56,19 +55,21 @@ impl ShaftChain {
         }
     }
 
-    /// Solves for the equilibrium in which the base angle is `base_angle` (rad) under a tip force in the direction
-    /// `force_direction` (rad), starting from the neighbouring solution `guess`; `None` if Newton's method does not settle.
+    /// Solves for the equilibrium with the base angle `base_angle` (rad) under a tip force in the direction
+    /// `force_direction` (rad). `guess` is a neighbouring solution. `None` if Newton's method does not converge.
     ///
-    /// The unknowns are the angle of the last link and the magnitude of the force. Given both, the chain follows from its
-    /// free end: the moment about each joint turns the link before it back by moment over stiffness. Two conditions remain
-    /// at the base: the hinge's own angle is the moment over the hinge's stiffness, and it is the one asked for.
+    /// The unknowns are the angle of the last link and the magnitude of the force. They determine the chain from its
+    /// free end: the moment about each joint, divided by its stiffness, is the rotation between its links. Two
+    /// conditions remain at the base. The hinge angle must be the moment over the hinge stiffness, and must equal
+    /// `base_angle`.
     #[must_use]
     pub fn solve(&self, base_angle: f64, force_direction: f64, guess: &Equilibrium) -> Option<Equilibrium> {
         let [found] = self.solve_each([Some(EquilibriumProblem { base_angle, force_direction, guess: *guess })]);
         found
     }
 
-    /// The same for several, as far as they are sought. None waits for another, so that a processor follows their chains side by side.
+    /// Solves several problems like [`solve`](Self::solve). They are independent, so a processor can execute their
+    /// chains in parallel.
     pub fn solve_each<const N: usize>(&self, sought: [Option<EquilibriumProblem>; N]) -> [Option<Equilibrium>; N] {
         let mut unknowns = sought
             .map(|sought| sought.map_or((0.0, 0.0), |EquilibriumProblem { guess, .. }| (guess.tip_angle, guess.force)));
@@ -108,7 +109,7 @@ impl ShaftChain {
         Equilibrium { base_angle: 0.0, tip_angle: 0.0, force: 0.0, tip_base: Vector2::new(length, 0.0) }
     }
 
-    /// Follows chains from their free ends to the base, for the angle of each last link and each force.
+    /// Shoots chains from their free ends to the base, for given angles of the last link and forces.
     fn shoot<const N: usize>(&self, unknowns: [(f64, f64); N], directions: [Vector2<f64>; N]) -> [Shot; N] {
         let mut shots = unknowns.map(|(tip_angle, _)| Shot {
             root: Dual { value: tip_angle, by_angle: 1.0, by_force: 0.0 },
@@ -121,7 +122,8 @@ impl ShaftChain {
             {
                 let (sin, cos) = angle.value.sin_cos();
                 *tip_base += self.link_length * Vector2::new(cos, sin);
-                // The link's share of the lever, crossed with the force, and its change with the link's angle.
+                // The link's contribution to the lever, as a cross product with the force, and its derivative by the
+                // link's angle.
                 let lever = self.link_length * (cos * direction.y - sin * direction.x);
                 let turned = -self.link_length * force * (sin * direction.y + cos * direction.x);
                 moment.value += force * lever;
@@ -149,18 +151,18 @@ struct Dual {
     by_force: f64,
 }
 
-/// What following the chain gives at the base.
+/// The result of shooting at the base.
 struct Shot {
-    /// The angle that the base would have to have.
+    /// Direction of the chain at the base (rad).
     root: Dual,
-    /// The angle that the moment gives the base hinge; on the way there, the moment (N m).
+    /// Hinge angle that follows from the moment (rad). During the shooting it is the moment (N m).
     hinge: Dual,
-    /// Place of the tip.
+    /// Position of the tip's centre (m).
     tip_base: Vector2<f64>,
 }
 
 impl Shot {
-    /// The step of Newton's method towards the base angle (rad): by how much less the tip's angle and the force are to be.
+    /// The Newton step for a base angle (rad), to be subtracted from the tip angle and the force.
     fn step(&self, base_angle: f64) -> Option<Vector2<f64>> {
         let residual = Vector2::new(self.root.value - self.hinge.value, self.hinge.value - base_angle);
         let slope = Matrix2::new(
@@ -195,7 +197,7 @@ mod tests {
         assert!(found.iter().flatten().count() >= 2, "{found:?}");
     }
 
-    /// The energy (J) of a chain whose hinge and links have these angles (rad), and of the force at its tip (N) that bends it.
+    /// Energy (J) of a chain whose hinge and links have these angles (rad), including that of the tip force (N).
     fn energy(chain: &ShaftChain, angles: &[f64], force: Vector2<f64>) -> f64 {
         let springs = std::iter::once(&chain.hinge_stiffness).chain(&chain.joint_stiffnesses);
         let before = std::iter::once(&0.0).chain(angles);

@@ -1,13 +1,13 @@
-//! Following a solution from a known case to the one asked for.
+//! Numerical continuation: tracing a solution from a known problem to another one.
 
-/// The least part of the way that is tried.
+/// Smallest step of the continuation parameter.
 const LEAST_STRIDE: f64 = 1e-5;
 
-/// Follows a solution from `start`, at the share 0 of a way, to its end at 1: `solve` finds the one at a share from a
-/// neighbouring one. In one go if it can be, else in smaller strides.
+/// Traces a solution from `start`, at the parameter 0, to the parameter 1. `solve` finds the solution at a parameter
+/// from a neighbouring one. The step is halved where that fails.
 ///
 /// # Errors
-/// The last solution on the way, where there is none near behind it.
+/// The last solution found, if no solution exists near it.
 pub(super) fn continuation<T>(start: T, solve: impl Fn(f64, &T) -> Option<T>) -> Result<T, T> {
     let (mut solution, mut done, mut stride) = (start, 0.0, 1.0_f64);
     while done < 1.0 {

@@ -1,4 +1,4 @@
-//! The planar elastica: a whisker's shaft as the exact theory of bending has it.
+//! The planar elastica.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,26 +12,27 @@ use super::newton::{self, Residual};
 use super::shaft_shape::ShaftShape;
 use super::shot::{Load, Shot};
 
-/// A whisker's shaft as a planar elastica on its base hinge: inextensible, bent by `M = EI θ'` however far, without mass.
+/// A whisker's shaft as a planar elastica on its base hinge. It is inextensible and massless, and bends by `M = EI θ'`
+/// at any deflection.
 ///
-/// One force bends it, at the tip or anywhere on the shaft; from there on the shaft is straight. What is solved is exact to
-/// 1e-9 of the length. Of several shapes in balance under one force it takes those that bend to one side all along.
+/// One force acts at the tip or on the shaft. Beyond it the shaft is straight. Solutions are exact to 1e-9 of the
+/// length. If one force has several equilibria, only those that bend to one side everywhere are found.
 ///
-/// The equations and their closed solutions for a uniform shaft: Love, A Treatise on the Mathematical Theory of Elasticity
-/// (1927), chapter XIX; Bisshopp and Drucker, Quarterly of Applied Mathematics 3 (1945), 272.
+/// The equations and their closed solutions for a uniform shaft: Love, A Treatise on the Mathematical Theory of
+/// Elasticity (1927), chapter XIX; Bisshopp and Drucker, Quarterly of Applied Mathematics 3 (1945), 272.
 #[derive(Debug, Clone)]
 pub struct Elastica {
     /// Length (m).
     pub(super) length: f64,
-    /// The unit of force (N): `EI / L²`.
+    /// Unit of force (N): `EI / L²`.
     pub(super) force_unit: f64,
-    /// The base angle (rad) that a base moment of `EI / L` makes.
+    /// Base angle (rad) under a base moment of `EI / L`.
     pub(super) hinge_compliance: f64,
-    /// Radius at the tip over that at the base.
+    /// Ratio of the radii at the tip and at the base.
     pub(super) taper: f64,
 }
 
-/// What a solution is to have, in the units of [`Load`].
+/// The conditions of a solution, in the units of [`Load`].
 #[derive(Debug, Clone, Copy)]
 struct Aim {
     contact: f64,
@@ -41,13 +42,13 @@ struct Aim {
     direction: f64,
 }
 
-/// How far a step of Newton's method may change an angle (rad) or the force.
+/// Largest Newton step of an angle (rad) or of the force.
 const REACH: f64 = 0.5;
-/// A direction of the force (rad) in which it surely bends a straight shaft to the left.
+/// A direction of the force (rad) that bends a straight shaft to the left in any case.
 const SIDEWAYS: f64 = 2.0;
 
 impl Elastica {
-    /// The elastica of `whisker`.
+    /// Creates the elastica of `whisker`.
     #[must_use]
     pub fn new(whisker: &Whisker) -> Self {
         let (length, stiffness) = (whisker.shaft.length, whisker.shaft.bending_stiffness());
@@ -65,7 +66,7 @@ impl Elastica {
         self.unbent(self.length, FRAC_PI_2)
     }
 
-    /// The straight shaft under no force at a length (m), in a direction (rad).
+    /// The straight shaft without force, for a contact at a length (m) and a force direction (rad).
     fn unbent(&self, contact_length: f64, force_direction: f64) -> ShaftShape {
         ShaftShape {
             base_angle: 0.0,
@@ -80,11 +81,11 @@ impl Elastica {
         }
     }
 
-    /// The shape under a force of magnitude `force` (N) at the length `contact_length` (m), in a direction counted from that
-    /// of the shaft where the force is (`force_angle`, rad): π/2 for a force square to the shaft that bends it to the left.
-    /// `None` if it does not bend the shaft to one side all along.
+    /// The shape under a force of magnitude `force` (N) at the length `contact_length` (m). Its direction `force_angle`
+    /// (rad) is counted from that of the shaft at the force. A force at π/2 is perpendicular to the shaft and bends it
+    /// to the left. `None` if the force does not bend the shaft to one side everywhere.
     ///
-    /// There is nothing to be solved for: the shape follows from the force.
+    /// This needs no iteration, because the shape follows from the force.
     #[must_use]
     pub fn under(&self, contact_length: f64, force_angle: f64, force: f64) -> Option<ShaftShape> {
         let load = Load { contact: contact_length / self.length, angle: force_angle, force: force / self.force_unit };
@@ -94,18 +95,18 @@ impl Elastica {
         self.shape(&load, &Shot::of(&load, self.taper)?)
     }
 
-    /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the tip in the direction
-    /// `force_direction` (rad, frame of the base); see [`solve_at`](Self::solve_at).
+    /// The equilibrium with the base angle `base_angle` (rad) under a force at the tip in the direction
+    /// `force_direction` (rad, frame of the base). See [`solve_at`](Self::solve_at).
     #[must_use]
     pub fn solve_tip(&self, base_angle: f64, force_direction: f64, guess: &ShaftShape) -> Option<ShaftShape> {
         self.solve_at(self.length, base_angle, force_direction, guess)
     }
 
-    /// The equilibrium in which the base angle is `base_angle` (rad) under a force at the length `contact_length` (m, above
-    /// 0, to the tip at most) in the direction `force_direction` (rad, frame of the base).
+    /// The equilibrium with the base angle `base_angle` (rad) under a force in the direction `force_direction` (rad,
+    /// frame of the base). It acts at the length `contact_length` (m), above 0 and up to the tip.
     ///
-    /// It is sought from `guess` on, in as many steps as that takes; the [`straight`](Self::straight) shaft is a guess for
-    /// all directions up to π, and beyond for some. `None` if none is found.
+    /// The solution is traced from `guess` by continuation. The [`straight`](Self::straight) shaft is a valid guess for
+    /// all directions up to π and for some beyond. `None` if no solution is found.
     #[must_use]
     pub fn solve_at(
         &self,
@@ -127,11 +128,12 @@ impl Elastica {
             moment: base_angle / self.hinge_compliance,
             direction: force_direction,
         };
-        // A guess that does not bend, or to the other side, says nothing.
+        // A straight guess, or one that bends to the other side, has no information.
         let start = if guess.base_angle > 0.0 {
             ShaftShape { force_direction: force_direction + wrap(guess.force_direction - force_direction), ..*guess }
         } else {
-            // Towards the head of the shaft a small force does not bend it, and turns there once it does.
+            // A small force towards the base does not bend the straight shaft. The direction is rotated there once the
+            // shaft is bent.
             self.unbent(contact_length, force_direction.min(SIDEWAYS))
         };
         let from = Aim {
@@ -142,7 +144,7 @@ impl Elastica {
         continuation(start, |share, near| self.balance(&from.towards(&aim, share), near)).ok()
     }
 
-    /// The equilibrium that meets an aim, from a neighbouring one on.
+    /// The equilibrium for the conditions `aim`, by Newton's method from a neighbouring one.
     fn balance(&self, aim: &Aim, near: &ShaftShape) -> Option<ShaftShape> {
         let guess = Vector2::new(near.force_direction - near.tip_angle, near.force / self.force_unit);
         let load = |unknowns: Vector2<f64>| Load { contact: aim.contact, angle: unknowns.x, force: unknowns.y };
@@ -159,7 +161,7 @@ impl Elastica {
         self.shape(&load, &Shot::of(&load, self.taper)?)
     }
 
-    /// The shape under a load, in the whisker's units; `None` if it does not bend to the left all along.
+    /// The shape under a load. `None` if it does not bend to the left everywhere.
     pub(super) fn shape(&self, load: &Load, shot: &Shot) -> Option<ShaftShape> {
         if !shot.bends_left || load.force <= 0.0 {
             return None;
@@ -187,9 +189,9 @@ impl Elastica {
 }
 
 impl Aim {
-    /// The aim at a share of the way to another.
+    /// Linear interpolation to other conditions.
     fn towards(&self, other: &Self, share: f64) -> Self {
-        // Exact at the end, where the force may be just at the tip.
+        // This form is exact at the end, where the force may be exactly at the tip.
         let between = |from: f64, to: f64| (1.0 - share) * from + share * to;
         Self {
             contact: between(self.contact, other.contact),

@@ -1,16 +1,17 @@
-//! Smooth initial value problems, to nearly the precision of the numbers.
+//! An extrapolation method for smooth initial value problems, nearly to machine precision.
 
-/// Substeps of the columns: the midpoint rule with each of these, extrapolated to none (Gragg, Bulirsch and Stoer).
+/// Substeps of the columns. The midpoint rule with each of these is extrapolated to the substep zero (Gragg, Bulirsch
+/// and Stoer).
 const SUBSTEPS: [u32; 7] = [2, 4, 6, 8, 10, 12, 14];
-/// The error that a step may make, relative to 1 or to the value, whichever is greater.
+/// Error tolerance of a step, relative to 1 or to the value if that is greater.
 const TOLERANCE: f64 = 1e-13;
-/// The greatest step; so that who looks at the states between steps misses little.
+/// Largest step, so that a callback that checks the states between steps misses little.
 const GREATEST_STEP: f64 = 0.25;
-/// Steps after which a problem is given up.
+/// Maximum number of steps.
 const MOST_STEPS: usize = 400;
 
-/// Follows `state' = slope(t, state)` from `t = 0` to 1 in steps of order 14 that fit themselves to the problem, and shows
-/// the state after each step to `look`; `None` if that takes too many steps, as where it is not smooth or not finite.
+/// Integrates `state' = slope(t, state)` from `t = 0` to 1 in adaptive steps of order 14, and calls `look` with the
+/// state after each step. `None` if that takes too many steps, as for a problem that is not smooth or not finite.
 pub(super) fn integrate<const N: usize>(
     mut state: [f64; N],
     slope: impl Fn(f64, &[f64; N]) -> [f64; N],
@@ -36,7 +37,7 @@ pub(super) fn integrate<const N: usize>(
     None
 }
 
-/// One step from `t` on, and its error.
+/// One step from `t`, and its error estimate.
 fn extrapolated<const N: usize>(
     t: f64,
     state: &[f64; N],
@@ -44,7 +45,7 @@ fn extrapolated<const N: usize>(
     slope: &impl Fn(f64, &[f64; N]) -> [f64; N],
 ) -> ([f64; N], f64) {
     let first_slope = slope(t, state);
-    // The newest row of the tableau of Aitken and Neville, from the rule itself to the highest order.
+    // The newest row of the Aitken-Neville tableau, from the rule itself to the highest order.
     let mut row = [[0.0; N]; SUBSTEPS.len()];
     for (index, &substeps) in SUBSTEPS.iter().enumerate() {
         let mut better = midpoint(t, state, &first_slope, step, substeps, slope);
@@ -65,7 +66,7 @@ fn extrapolated<const N: usize>(
     (*best, error)
 }
 
-/// The midpoint rule with an even number of substeps; its error has even powers of the substep alone.
+/// The midpoint rule with an even number of substeps. Its error has only even powers of the substep.
 fn midpoint<const N: usize>(
     t: f64,
     state: &[f64; N],

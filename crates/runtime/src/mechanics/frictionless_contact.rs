@@ -1,4 +1,4 @@
-//! A touch without friction, as two numbers.
+//! A frictionless contact in two coordinates.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,17 +10,18 @@ use super::elastica::Elastica;
 use super::shaft_shape::ShaftShape;
 use super::shot::{Load, Shot, Varied};
 
-/// A touch without friction as two numbers, so that all touches are one plane without a gap.
+/// A frictionless contact in two coordinates. In them, contacts of the shaft and of the tip form one continuous plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionlessContact {
-    /// Below 0 the logarithm of the length to the touch, over that of the shaft; from 0 on the tip is touched, and it tells how far the
-    /// force is from straight against the shaft: by π/2 at 0, and by a part e less for every π/2.
+    /// Below 0 it is the logarithm of the length to the contact over that of the shaft. From 0 on the contact is at the
+    /// tip, and the coordinate is the force direction. Its angle to the force straight against the shaft is π/2 at 0
+    /// and decreases by a factor e per π/2.
     pub(super) position: f64,
     /// Logarithm of the force, in the unit of [`Load`].
     pub(super) force: f64,
 }
 
-/// A quantity of a touch, with its changes with the two numbers.
+/// A quantity of a contact with its derivatives by the two coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     pub(super) value: f64,
@@ -28,17 +29,17 @@ pub(super) struct Change {
     pub(super) by_force: f64,
 }
 
-/// A touch, and what it makes of a shaft.
+/// A contact and the state of the shaft under it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedContact {
     pub(super) contact: FrictionlessContact,
     pub(super) shot: Shot,
-    /// Bending moment at the base, and force across the shaft there.
+    /// Bending moment and shear at the base.
     pub(super) moment: Change,
     pub(super) shear: Change,
     /// Direction of the force in the frame of the base (rad).
     direction: Change,
-    /// Place of the touch, in a frame with its origin at the base and its first axis in the direction that the force has here.
+    /// Position of the contact, in a frame at the base whose first axis has the direction of the force.
     along: Change,
     left: Change,
 }
@@ -55,15 +56,17 @@ impl FrictionlessContact {
         Self { position, force: (shape.force / elastica.force_unit).ln() }
     }
 
-    /// About the touch with a moment, and a shear of so many times that: that of a uniform shaft that hardly bends, which is
-    /// a cantilever on the shaft, and a strut at the tip, for which shear over moment is `k cot k` with the square `k²` of the force.
+    /// An approximation of the contact with a base moment, and with the given ratio of shear to moment. It is that of a
+    /// uniform shaft with a small bend: a cantilever for a contact of the shaft, and a strut for a tip contact. For the
+    /// strut the ratio is `k cot k` with the square `k²` of the force.
     pub(super) fn about(moment: f64, ratio: f64, taper: f64) -> Self {
         let softer = taper * taper;
         if ratio >= 1.0 {
             let contact = ratio.recip().min(softer / moment);
             return Self { position: contact.ln(), force: (moment / contact).ln() };
         }
-        // 1 − π² k² / 3 / (π² − k²) has the same value and slope at 0 and the same pole, and is 0.1 off at most above −1.
+        // 1 − π² k² / 3 / (π² − k²) has the same value and slope at 0 and the same pole. Its error is at most 0.1 above
+        // −1.
         let square = PI * PI * (1.0 - ratio) / (PI * PI / 3.0 + 1.0 - ratio);
         let k = square.sqrt();
         let from_against = moment / (k * k.sin() * softer);
@@ -77,7 +80,7 @@ impl FrictionlessContact {
 }
 
 impl Elastica {
-    /// What a touch makes of the shaft; `None` if it does not bend it to the left all along.
+    /// The state of the shaft under a contact. `None` if the contact does not bend it to the left everywhere.
     pub(super) fn loaded(&self, contact: FrictionlessContact) -> Option<LoadedContact> {
         let load = contact.load();
         let shot = Shot::of(&load, self.taper)?;
@@ -93,7 +96,7 @@ impl Elastica {
         };
         let (root, moment, lever) = (change(&shot.root), change(&shot.moment), change(&shot.lever));
         let angle_by_position = if is_at_tip { by_position } else { 0.0 };
-        // The angle of the force to the shaft at the base.
+        // The angle from the shaft at the base to the force.
         let at_base = Change {
             value: load.angle - root.value,
             by_position: angle_by_position - root.by_position,
@@ -122,7 +125,7 @@ impl Elastica {
 }
 
 impl LoadedContact {
-    /// Changes of the place in the direction that the force has here and to the left of that, by the two numbers.
+    /// Derivatives of the contact position by the two coordinates, along the direction of the force and to its left.
     fn moved(&self) -> Matrix2<f64> {
         let Self { along, left, direction, .. } = self;
         Matrix2::new(
@@ -133,9 +136,10 @@ impl LoadedContact {
         )
     }
 
-    /// Whether it stays if what touches stays where it is. It does up to where it could move away without that: of the tip the direction of
-    /// a surface and its distance along that are kept, on the shaft a point. From the unbent shaft on these have changed with the two
-    /// numbers by a matrix whose determinant is above 0.
+    /// True if the contact is stable while the object stays fixed. A contact becomes unstable where it could move
+    /// without a motion of the object. At the tip, the direction of a straight surface and its distance are fixed, and
+    /// on the shaft a point. Their derivatives by the two coordinates form a matrix. Its determinant is positive from
+    /// the straight shaft up to the limit of stability.
     pub(super) fn is_stable(&self) -> bool {
         if self.contact.position >= 0.0 {
             let Self { along, direction, .. } = self;
@@ -145,7 +149,7 @@ impl LoadedContact {
         }
     }
 
-    /// See [`Elastica::changes`]; `shape` is the touch itself.
+    /// See [`Elastica::changes`]. `shape` is that of this contact.
     pub(super) fn by_readings(&self, elastica: &Elastica, shape: &ShaftShape) -> Option<Matrix3x2<f64>> {
         let readings = Matrix2::new(
             elastica.hinge_compliance * self.moment.by_position,

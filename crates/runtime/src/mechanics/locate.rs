@@ -1,4 +1,4 @@
-//! Where something touches a whisker, from the moment and the shear at its base.
+//! The contact position from the moment and the shear at the base.
 
 use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
@@ -8,16 +8,16 @@ use super::frictionless_contact::{FrictionlessContact, LoadedContact};
 use super::newton::{self, Residual};
 use super::shaft_shape::ShaftShape;
 
-/// Why nothing can be said of where a whisker is touched.
+/// The reason for which no contact is found.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LocateError {
-    /// A reading is not a number.
+    /// A reading is not finite.
     #[error("the base angle or the shear is not a finite number; leave the reading out")]
     NotFinite,
-    /// Neither moment nor shear: nothing touches.
+    /// Moment and shear are zero: there is no contact.
     #[error("neither a base angle nor a shear: nothing touches the whisker")]
     NoContact,
-    /// No place on the whisker fits the readings.
+    /// No contact fits the readings.
     #[error(
         "no touch without friction by something that stays has this shear with this base angle: the shaft would spring over; leave \
          the readings out"
@@ -25,17 +25,19 @@ pub enum LocateError {
     NoSolution,
 }
 
-/// How far a step of Newton's method may change the place, the angle (rad) or the force, as powers of e.
+/// Largest Newton step of the position, of the angle (rad), and of the force as powers of e.
 const REACH: f64 = 0.5;
-/// A touch that stays has a shear, in units of `EI / L²`, above minus this, or, on the shaft, above minus the second times the square of
-/// the base moment in those of `EI / L`. At the tip no touch has less, for then the shaft would bend to the other side where it is held:
-/// for a uniform shaft the first is `4 K(1/√2)²`. One that tapers is softer.
+/// Limits of the shear of a stable contact, in units of `EI / L²`.
+///
+/// At the tip the shear is above minus the first. For a smaller shear the shaft would bend to the other side at the
+/// contact. For a uniform shaft the first is `4 K(1/√2)²`, and a tapered one is softer. On the shaft the shear is also
+/// allowed down to minus the second times the square of the base moment, in units of `EI / L`.
 const LEAST_SHEAR: (f64, f64) = (13.76, 4.0);
-/// How many times the length of the shaft, or its inverse, moment over shear and their like may be.
+/// Largest ratio of moment over shear, and of similar quantities, to the length of the shaft, and of its inverse.
 const ABSURD: f64 = 1e6;
 
-/// What a touch is to have: the logarithm of the moment at the base, in units of `EI / L`, and shear over moment, in units of `1 / L`.
-/// All touches that bend a shaft to one side fill the plane of the two, once.
+/// The conditions of a contact: the logarithm of the base moment, in units of `EI / L`, and shear over moment, in units
+/// of `1 / L`. Each point of their plane has exactly one contact that bends the shaft to one side.
 #[derive(Debug, Clone, Copy)]
 struct Aim {
     moment: f64,
@@ -43,25 +45,27 @@ struct Aim {
 }
 
 impl Elastica {
-    /// The bend that has the base angle `base_angle` (rad) and the shear `shear` (N, across the shaft at the base, positive to
-    /// its left), if what touches does so at one point and without friction.
+    /// Finds the shape with the base angle `base_angle` (rad) and the shear `shear` (N, perpendicular to the shaft at
+    /// the base, positive to its left), assuming one frictionless contact.
     ///
-    /// Such a touch is one of two kinds. On the shaft the force is square to the shaft, and its place is unknown
-    /// (`contact_length` below the length). At the tip, which is a half sphere, the place is known
-    /// (`contact_length` is the length), and the direction unknown, from square to the shaft to straight against it. Both have two
-    /// unknowns for two readings, and they meet where a force is at the tip and square. In small bends a touch
-    /// is on the shaft where moment over shear is less than the length, and at the tip where it is more, the force along the
-    /// shaft adding to the moment. No two touches have the same readings.
+    /// There are two kinds of contact. On the shaft the force is perpendicular to the shaft, and its position is
+    /// unknown (`contact_length` below the length). The tip is a hemisphere, so there the position is known
+    /// (`contact_length` is the length). Its unknown is the direction, from perpendicular to the shaft to straight
+    /// against it. Both kinds have two unknowns for two readings. They meet at a perpendicular force at the tip. For a
+    /// small bend, the contact is on the shaft if moment over shear is less than the length. If it is greater, the
+    /// contact is at the tip, where the force along the shaft adds to the moment. No two contacts have the same
+    /// readings.
     ///
-    /// Taken for a touch is only what stays if what touches stays where it is: at the tip a straight surface, along which it may slide,
-    /// and a point on the shaft. A bent whisker is held by a surface that would push an unbent one to the other side, so that the shear
-    /// changes its sign, down to a limit; then it springs over, and there is no solution.
+    /// Only stable contacts with a fixed object are found. At the tip the object is a straight surface along which the
+    /// tip may slide, and on the shaft it is a point. A bent whisker can be held by a surface that would push a
+    /// straight one to the other side. Its shear then has the opposite sign, down to a limit. Beyond it the shaft snaps
+    /// through, and there is no solution.
     ///
-    /// A neighbouring touch as `guess` makes it several times as fast; any other, such as the [`straight`](Self::straight) shaft,
-    /// does no harm.
+    /// A neighbouring contact as `guess` makes the search several times faster. Any other guess, such as the
+    /// [`straight`](Self::straight) shaft, gives the same result.
     ///
     /// # Errors
-    /// [`LocateError`].
+    /// [`LocateError`] if a reading is not finite, or if no contact fits the readings.
     pub fn locate(&self, base_angle: f64, shear: f64, guess: &ShaftShape) -> Result<ShaftShape, LocateError> {
         if !(base_angle.is_finite() && shear.is_finite()) {
             return Err(LocateError::NotFinite);
@@ -74,21 +78,22 @@ impl Elastica {
         self.find(moment, shear, &side(*guess)).map(side).ok_or(LocateError::NoSolution)
     }
 
-    /// How the place of a touch (m) and the direction of its force (rad), both in the frame of the base, change with the base angle (rad)
-    /// and the shear (N): a row each of x, y and the direction. `None` of a straight shaft, and of what is no touch.
+    /// Derivatives of the contact position (m) and the force direction (rad), both in the frame of the base, by the
+    /// base angle (rad) and the shear (N). The rows are x, y and the direction. `None` for a straight shaft and for a
+    /// shape that is not a contact.
     #[must_use]
     pub fn changes(&self, shape: &ShaftShape) -> Option<Matrix3x2<f64>> {
         let is_left = shape.base_angle > 0.0;
         let left = if is_left { *shape } else { shape.mirrored() };
         let mut changes = self.loaded(FrictionlessContact::of(&left, self))?.by_readings(self, &left)?;
         if !is_left {
-            // x is the same function of both readings with the other sign; all else changes its sign with them.
+            // For mirrored readings x is equal, while all other quantities change their sign.
             changes.row_mut(0).neg_mut();
         }
         Some(changes)
     }
 
-    /// The bend to the left with a moment and a shear at its base, in the units of [`Load`](super::shot::Load).
+    /// The shape, bent to the left, with a moment and a shear at its base, in the units of [`Load`](super::shot::Load).
     fn find(&self, moment: f64, shear: f64, guess: &ShaftShape) -> Option<ShaftShape> {
         let aim = Aim { moment: moment.ln(), ratio: shear / moment };
         let is_absurd = moment.max(moment.recip()).max(aim.ratio.abs()) > ABSURD;
@@ -111,7 +116,7 @@ impl Elastica {
         if contact.is_stable() { self.shape(&contact.contact.load(), &contact.shot) } else { None }
     }
 
-    /// The touch with a moment and a shear, from a neighbouring one on.
+    /// The contact with a moment and a shear, by Newton's method from a neighbouring one.
     fn contact(&self, aim: Aim, near: FrictionlessContact) -> Option<LoadedContact> {
         let at = |unknowns: Vector2<f64>| self.loaded(FrictionlessContact { position: unknowns.x, force: unknowns.y });
         let solution = newton::solve(Vector2::new(near.position, near.force), REACH, |unknowns| {

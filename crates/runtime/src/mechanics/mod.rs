@@ -1,5 +1,5 @@
-//! The statics of a whisker: its shaft as the exact elastica, and as the chain of links that the simulator holds; where it is
-//! touched, from what its base feels.
+//! The statics of a whisker: its shaft as the exact elastica and as a chain of links, and the contact position from the
+//! readings at its base.
 
 mod chain;
 mod continuation;

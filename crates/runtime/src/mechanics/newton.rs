@@ -2,20 +2,21 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// Steps after which a solution is given up.
+/// Maximum number of steps.
 const STEPS: usize = 25;
-/// The change, relative to 1 or to the unknown, after which a solution has settled: the next would be about its square. Behind a
-/// change of an unknown's sign it would be about as great, if the equations have a kink there: then its square has to be reached.
+/// Relative change of the unknowns at which the iteration has converged, because the next change is about its square.
+/// If an unknown has changed its sign and the equations have a kink there, convergence is only linear. The change must
+/// then reach the square of this value.
 const SETTLED: f64 = 1e-6;
 
-/// What two unknowns leave of two equations, and its derivatives by them, a row for each equation.
+/// The residuals of two equations and their derivatives by the two unknowns, one row per equation.
 pub(super) struct Residual {
     pub(super) value: Vector2<f64>,
     pub(super) slope: Matrix2<f64>,
 }
 
-/// Solves two equations from `guess` on, no step changing an unknown by more than `reach` times itself, or `reach` if it is
-/// below 1, and half of a step where there is nothing at its end; `None` if the method does not settle.
+/// Solves two equations from `guess`. A step changes an unknown by at most `reach` times its magnitude, or `reach` if
+/// that is below 1. Where the residual is undefined, the step is halved. `None` if the method does not converge.
 pub(super) fn solve(
     guess: Vector2<f64>,
     reach: f64,

@@ -6,33 +6,34 @@ use nalgebra::Vector2;
 
 use crate::rig::Whisker;
 
-/// A whisker's shaft under a force square to it, as a corner without friction makes it, in a closed form that takes some ten
-/// nanoseconds where [`Elastica`](super::Elastica) takes microseconds.
+/// A whisker's shaft under a force perpendicular to it, as from a frictionless corner. The closed form takes some ten
+/// nanoseconds, where [`Elastica`](super::Elastica) takes microseconds.
 ///
-/// With the bend `δ` of a uniform shaft between its base and the force, the curvature `κ` at the base and the length `c` to the force,
-/// `c κ = √(sin δ) ∫ dθ / √(sin θ)`. Along the shaft's direction at the force the base is `2 sin δ / κ` away, and across it
-/// `√(sin δ) ∫ √(sin θ) dθ / κ`, with integrals from 0 to `δ`. They are taken as series, exact to 0.1 % up to `δ = π/2`. A shaft that
-/// tapers bends as a uniform one of a stiffness that is less by the ratio of its radii at the force and at the base: exactly so where
-/// it bends little.
+/// Let `δ` be the rotation of a uniform shaft between its base and the force, `κ` the curvature at the base and `c` the
+/// length to the force. Then `c κ = √(sin δ) ∫ dθ / √(sin θ)`. Along the shaft's direction at the force, the distance
+/// from the base is `2 sin δ / κ`. Perpendicular to it the distance is `√(sin δ) ∫ √(sin θ) dθ / κ`. The integrals are
+/// from 0 to `δ`. They are evaluated as series, exact to 0.1 % up to `δ = π/2`. A tapered shaft bends like a uniform
+/// one whose stiffness is smaller by the ratio of the radii at the force and at the base. This is exact for small
+/// bends.
 #[derive(Debug, Clone, Copy)]
 pub struct Pivot {
     /// Length of the shaft (m).
     length: f64,
-    /// The base angle (rad) that a curvature of 1/m at the base makes.
+    /// Base angle (rad) per curvature at the base (1/m).
     hinge_compliance: f64,
-    /// Radius at the tip over that at the base.
+    /// Ratio of the radii at the tip and at the base.
     taper: f64,
 }
 
-/// The greatest bend (rad) of the series.
+/// Largest rotation `δ` (rad) of the series.
 const MAX_BENDING_ANGLE: f64 = FRAC_PI_2;
-/// Newton steps, which settle for every bend within the series.
+/// Number of Newton steps. It suffices for every rotation within the range of the series.
 const NEWTON_STEPS: usize = 3;
-/// A shaft that is within this angle (rad) of a surface is taken to lie along it.
+/// Angle (rad) to a surface below which a shaft is taken to lie along it.
 const NEARLY_FLAT: f64 = 0.03;
 
 impl Pivot {
-    /// The shaft of `whisker`.
+    /// Creates the closed form for the shaft of `whisker`.
     #[must_use]
     pub fn new(whisker: &Whisker) -> Self {
         let shaft = &whisker.shaft;
@@ -43,8 +44,8 @@ impl Pivot {
         }
     }
 
-    /// The place (m, frame of the base) at which a shaft that rests on it at the length `contact_length` (m) has the base angle
-    /// `base_angle` (rad). `None` if it bends farther than the closed form goes.
+    /// The contact position (m, frame of the base) of a shaft that rests at the length `contact_length` (m) and has the
+    /// base angle `base_angle` (rad). `None` if the bend exceeds the range of the closed form.
     #[must_use]
     pub fn contact_base(&self, base_angle: f64, contact_length: f64) -> Option<Vector2<f64>> {
         let bending_angle = self.bending_angle(base_angle, contact_length)?;
@@ -55,8 +56,8 @@ impl Pivot {
         Some(Vector2::new(contact_base.x, base_angle.signum() * contact_base.y))
     }
 
-    /// Whether a shaft with the base angle `base_angle` (rad) lies along a surface, rather than touch it with its tip alone. The
-    /// surface's normal has the direction `normal` (rad, frame of the base), for a bend to the left.
+    /// True if a shaft with the base angle `base_angle` (rad) lies along a surface, and does not touch it with its tip
+    /// alone. `normal` is the direction of the surface normal (rad, frame of the base), for a bend to the left.
     #[must_use]
     pub fn lies_flat(&self, base_angle: f64, normal: f64) -> bool {
         let square = self
@@ -65,7 +66,8 @@ impl Pivot {
         square.is_none_or(|square| normal < square + NEARLY_FLAT)
     }
 
-    /// The bend (rad, not 0) of a shaft with a base angle (rad) between its base and a force at the length `contact_length` (m).
+    /// The rotation `δ` (rad, not 0) between the base and a force at the length `contact_length` (m), for a base angle
+    /// (rad).
     fn bending_angle(&self, base_angle: f64, contact_length: f64) -> Option<f64> {
         let turn = contact_length * base_angle.abs() / self.softened_compliance(contact_length);
         let mut bending_angle = (0.5 * turn).max(f64::EPSILON);
@@ -75,8 +77,8 @@ impl Pivot {
         (bending_angle <= MAX_BENDING_ANGLE).then_some(bending_angle.max(f64::EPSILON))
     }
 
-    /// The base angle (rad) of a shaft, long enough, that rests on a place (m, frame of the base). `None` if that bends it farther than
-    /// the closed form goes.
+    /// The base angle (rad) of a sufficiently long shaft that rests on a position (m, frame of the base). `None` if the
+    /// bend exceeds the range of the closed form.
     #[must_use]
     pub fn base_angle(&self, contact_base: Vector2<f64>) -> Option<f64> {
         let (distance, direction) = (contact_base.norm(), contact_base.y.abs().atan2(contact_base.x));
@@ -88,7 +90,7 @@ impl Pivot {
             let (along, across) = lever(bending_angle);
             (compliance * along.hypot(across), bending_angle - across.atan2(along))
         };
-        // The direction from the base is that of the hinge and two thirds of the bend, to the first order.
+        // To first order, the direction from the base is the hinge angle plus two thirds of the rotation.
         let mut bending_angle = direction / (2.0 / 3.0 + 2.0 * compliance);
         for _ in 0..NEWTON_STEPS {
             let (hinge, turned) = angle(bending_angle);
@@ -97,20 +99,20 @@ impl Pivot {
         (bending_angle <= MAX_BENDING_ANGLE).then(|| angle(bending_angle).0 * contact_base.y.signum())
     }
 
-    /// The base angle (rad) that a curvature of 1/m at the base makes, of the uniform shaft that stands for this one under a force at
-    /// the length `contact_length` (m).
+    /// Base angle (rad) per curvature at the base (1/m), of the equivalent uniform shaft under a force at the length
+    /// `contact_length` (m).
     fn softened_compliance(&self, contact_length: f64) -> f64 {
         self.hinge_compliance * (1.0 - (1.0 - self.taper) * contact_length / self.length)
     }
 }
 
-/// The length of the shaft from the base to the force, times the curvature at the base: `c κ = 2 δ (1 − δ²/15)`.
+/// Length of the shaft from the base to the force, times the curvature at the base: `c κ = 2 δ (1 − δ²/15)`.
 fn along_the_shaft(bending_angle: f64) -> f64 {
     2.0 * bending_angle * (1.0 - bending_angle * bending_angle / 15.0)
 }
 
-/// Where the force is, seen from the base in the direction that the shaft has at the force, times the curvature at the base: along
-/// that direction, and to its right.
+/// Position of the force relative to the base, times the curvature at the base: along the shaft's direction at the
+/// force, and to the right of it.
 fn lever(bending_angle: f64) -> (f64, f64) {
     let sin = bending_angle.sin();
     let square = bending_angle * bending_angle;
@@ -144,7 +146,7 @@ mod tests {
             let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / (share * shaft.length).powi(2));
             let shape = Elastica::new(&whisker).under(contact, side * MAX_BENDING_ANGLE, force * unit).unwrap();
             let pivot = Pivot::new(&whisker);
-            // A taper is exact to the first order of the bend only.
+            // For a tapered shaft the closed form is exact only to the first order of the bend.
             let tolerance = 1e-3 + 0.25 * (1.0 - taper);
             let angle = pivot.base_angle(shape.contact_base).unwrap();
             prop_assert!((angle / shape.base_angle - 1.0).abs() < tolerance, "{angle} {}", shape.base_angle);

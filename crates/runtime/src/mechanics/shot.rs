@@ -1,14 +1,14 @@
-//! A shaft followed from the force that bends it to its base.
+//! The shooting method for a shaft, from the force to the base.
 
 use super::extrapolation::integrate;
 
-/// A force on a shaft, seen from where it is. Lengths are in units of the shaft's length `L`, forces of `EI / L²`, moments of
-/// `EI / L`, with the bending stiffness `EI` at the base.
+/// A force on a shaft. Lengths are in units of the shaft's length `L`, forces in units of `EI / L²`, and moments in
+/// units of `EI / L`, with the bending stiffness `EI` at the base.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Load {
     /// Length of the shaft from the base to the force.
     pub(super) contact: f64,
-    /// Direction of the force, counted from that of the shaft where the force is (rad).
+    /// Direction of the force, counted from that of the shaft at the force (rad).
     pub(super) angle: f64,
     /// Magnitude of the force.
     pub(super) force: f64,
@@ -23,25 +23,25 @@ pub(super) struct Varied {
     pub(super) by_force: f64,
 }
 
-/// What a load makes of a shaft. Its place is told along and across the force.
+/// The state of a shaft under a load. Positions are along and perpendicular to the force.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shot {
-    /// Direction of the shaft at the base, counted from that where the load is (rad).
+    /// Direction of the shaft at the base, counted from that at the force (rad).
     pub(super) root: Varied,
-    /// Way from the base to the load in the direction of the force.
+    /// Distance from the base to the force, in the direction of the force.
     pub(super) along: Varied,
-    /// The force's lever about the base: how far the load is to the right of the base, seen in the direction of the force.
+    /// Lever of the force about the base: its distance to the right of the base, seen in the direction of the force.
     pub(super) lever: Varied,
     /// Bending moment at the base.
     pub(super) moment: Varied,
-    /// Whether the shaft is bent to the left all along, but for where the load is.
+    /// True if the shaft is bent to the left everywhere, except at the force.
     pub(super) bends_left: bool,
 }
 
 impl Shot {
-    /// Solves the equations of the elastica, `θ' = M / EI` with the moment `M = F λ` of the force's lever `λ' = −sin(φ − θ)`, from the
-    /// load to the base, with the variational equations for the derivatives, for a shaft whose radius at the tip is `taper` times that
-    /// at the base. `None` if the load is not on the shaft, or absurdly great.
+    /// Integrates the equations of the elastica from the force to the base, with the variational equations for the
+    /// derivatives. They are `θ' = M / EI` with the moment `M = F λ` and the lever `λ' = −sin(φ − θ)`. `taper` is the
+    /// ratio of the radii at the tip and at the base. `None` if the force is not on the shaft, or much too large.
     pub(super) fn of(load: &Load, taper: f64) -> Option<Self> {
         let Load { contact, angle: psi, force } = *load;
         if !(contact > 0.0 && contact <= 1.0) {
@@ -52,7 +52,7 @@ impl Shot {
             let thickness = 1.0 + (taper - 1.0) * contact * (1.0 - t);
             let softness = thickness.powi(-4);
             let softness_c = 4.0 * (1.0 - taper) * (1.0 - t) * softness / thickness;
-            // The direction, the lever and the way, and their derivatives by contact, angle and force.
+            // Direction, lever and distance, and their derivatives by contact, angle and force.
             let [angle, lever, _, angle_c, lever_c, _, angle_a, lever_a, _, angle_f, lever_f, _] = *state;
             let (across, along) = (psi - angle).sin_cos();
             let (across_c, along_c) = (contact * across, contact * along);

@@ -1,28 +1,30 @@
-//! The base angle of a whisker as it is now, by its newest readings.
+//! The equilibrium base angle of a whisker, extrapolated from its newest readings.
 
 use crate::rig::{Sensing, Whisker};
 
 use super::recent_line::RecentLine;
 
-/// The base angle that a whisker would have in equilibrium, by a straight line through its newest readings, no longer than their noise
-/// asks for. The hinge's damping delays it; the line is read that much ahead.
+/// The equilibrium base angle of a whisker at the newest reading.
+///
+/// A straight line is fitted to the newest readings, over no more of them than their noise requires. The damping of the
+/// hinge delays the base angle, so the line is extrapolated by this delay.
 #[derive(Debug, Clone)]
 pub(super) struct BaseAngle {
     line: RecentLine,
-    /// Time by which the base angle is behind the base moment (s): the hinge's damping over its stiffness.
+    /// Delay (s) of the base angle behind the base moment: damping over stiffness of the hinge.
     delay: f64,
     /// Standard deviation (rad).
     pub(super) deviation: f64,
-    /// The same for who takes one value after the other to be off by chance: as lines have readings in common, many of their values
-    /// together are no better than as many readings.
+    /// Standard deviation (rad) for filters that treat successive values as independent. Successive lines share
+    /// readings, so many of their values together are no better than as many readings.
     pub(super) correlated_deviation: f64,
 }
 
-/// Standard deviation (rad) of what the mechanics leave out, such as the shaft's own swing, as a base angle.
+/// Standard deviation (rad) of effects outside of the model, such as vibrations of the shaft, as a base angle.
 const MODEL_DEVIATION: f64 = 3e-7;
-/// The spread of the base angle (rad) that is worth a longer line through the readings.
+/// Standard deviation (rad) of the base angle up to which the line is lengthened.
 const WANTED_DEVIATION: f64 = 4.5e-7;
-/// A base angle that changes faster (rad/s) is that of a whisker in free motion.
+/// Rate of the base angle (rad/s) above which the whisker is taken to move freely.
 const CALM_RATE: f64 = 6e-4;
 
 impl BaseAngle {
@@ -35,7 +37,7 @@ impl BaseAngle {
         Self { deviation: deviation(gain), correlated_deviation: deviation(gain.max(1.0)), delay, line }
     }
 
-    /// Takes a reading (rad).
+    /// Adds a reading (rad).
     pub(super) fn take(&mut self, base_angle: f64) {
         self.line.take(base_angle);
     }
@@ -45,7 +47,7 @@ impl BaseAngle {
         self.line.clear();
     }
 
-    /// The base angle (rad), and whether it changes no faster than that of a whisker which touches.
+    /// Returns the base angle (rad), and true if it changes slowly enough for a whisker in contact.
     pub(super) fn value(&self) -> (f64, bool) {
         let (value, rate) = self.line.at(self.delay);
         (value, rate.abs() < CALM_RATE)

@@ -1,4 +1,4 @@
-//! Contact estimators.
+//! The trait of contact estimators.
 
 use std::fmt::Debug;
 
@@ -7,31 +7,33 @@ use crate::signal::Reading;
 
 use super::contact::Contact;
 
-/// An estimate of where a whisker is touched, from its readings and the poses of its base.
+/// An estimator of the contact position of a whisker from its readings and the poses of its base.
 ///
-/// A pose of the base is its place, and the direction of the undeflected shaft. A model that cannot tell says so, and never
-/// goes on beyond its range. Nothing allocates.
+/// The heading of a pose of the base is the direction of the undeflected shaft. Outside of its range an estimator
+/// returns `None`. It never extrapolates. No method allocates memory.
 pub trait ContactEstimator: Debug + Send + Sync + Boxed {
-    /// Takes a reading, sampled with the base at `base`; base angle and pose are finite. A model that has no past needs none.
+    /// Adds a reading, sampled with the base at `base`. Base angle and pose are finite. The default, for estimators
+    /// without memory, does nothing.
     fn take(&mut self, _reading: &Reading, _base: Pose) {}
 
-    /// Forgets what is before a gap in the readings.
+    /// Forgets earlier readings at a gap. The default does nothing.
     fn interrupt(&mut self) {}
 
-    /// Where the whisker is touched now, with the filtered base angle `base_angle` (rad) and the base at `base`. `None` if that
-    /// cannot be told.
+    /// Returns the current contact for the filtered base angle `base_angle` (rad) and the pose `base` of the base, or
+    /// `None` if it cannot be estimated.
     fn contact(&mut self, base_angle: f64, base: Pose) -> Option<Contact>;
 
-    /// Where a surface that goes as the one touched would be touched (m, frame of the base) at another deflection (rad), with the
-    /// undeflected shaft in the direction `yaw` (rad). `None` if nothing is known of the surface, as by most models.
+    /// Returns the contact position (m, frame of the base) at another base angle (rad) on a surface with the same
+    /// direction. `yaw` (rad) is the direction of the undeflected shaft. `None` if the direction of the surface is
+    /// unknown, which is the default.
     fn contact_at(&self, _deflection: f64, _yaw: f64) -> Option<Vector2> {
         None
     }
 }
 
-/// What can be had once more: every tip model that can be cloned.
+/// Cloning of boxed estimators. Every estimator that implements [`Clone`] has it.
 pub trait Boxed {
-    /// The model once more.
+    /// Returns a boxed clone.
     fn boxed(&self) -> Box<dyn ContactEstimator>;
 }
 

@@ -1,4 +1,4 @@
-//! What keeps the body from following its commands.
+//! Detection of a blocked body.
 
 use nalgebra::Vector3;
 
@@ -6,47 +6,49 @@ use crate::geometry::{Point2, Pose, perpendicular, turn_between};
 use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS, Sample};
 
-/// Time constant (s) with which motions that were asked for and motions that were made are averaged.
+/// Time constant (s) of the averages of commanded and actual motions.
 const AVERAGED: f64 = 0.2;
-/// The body is blocked when it lacks more than this share of the speed asked for, beyond what its whiskers and [`NOISE`] explain.
+/// Share of the commanded speed whose lack means that the body is blocked, beyond the effects of whiskers and
+/// [`NOISE`].
 const SHARE: f64 = 0.5;
-/// Shortfall (m/s) that errors of measured poses explain.
+/// Speed difference (m/s) that errors of measured poses explain.
 const NOISE: f64 = 2e-3;
-/// A whisker is taken to be touched at this share of its length, where the force for the same base angle is that much larger than
-/// at the tip.
+/// Contact position, as a share of the whisker's length, for the force that a base angle implies. The force is three
+/// times as large as with a tip contact.
 const TOUCHED_AT: f64 = 1.0 / 3.0;
 
-/// Compares the poses that the body takes with those that its servos should give it under the commands.
+/// Compares the measured poses of the body with the expected motion of its servos.
 ///
-/// A servo of the time constant `T` (s) follows a command `u` by `T v' = u - v`. What the poses lack of that is a disturbance: a
-/// force `F` takes `F T / m` from the speed. The whiskers' own forces are known from their base angles, within a factor.
+/// A servo with the time constant `T` (s) follows a command `u` by `T v' = u - v`. A difference between expected and
+/// actual motion is a disturbance: a force `F` reduces the speed by `F T / m`. The forces of the whiskers follow from
+/// their base angles, up to a factor.
 #[derive(Debug, Clone)]
 pub(super) struct Disturbance {
-    /// The corners of the body, in its frame (m).
+    /// Corners of the body (m, body frame).
     corners_body: [Point2; 4],
     /// Time constant of the servos (s).
     servo: f64,
-    /// The speed (m/s) of the body's fastest corner by which each whisker may push the body, for a base angle of 1 rad.
+    /// Speed (m/s) of the body's fastest corner by which each whisker may push the body, per base angle of 1 rad.
     pushes: [f64; MAX_WHISKERS],
-    /// The newest base angle of each whisker (rad).
+    /// Newest base angle of each whisker (rad).
     base_angles: [f64; MAX_WHISKERS],
     command: Command,
-    /// The speed that the servos should have reached.
+    /// Expected speed of the servos.
     speed: Motion,
     /// Time of the last tick (s).
     time: f64,
-    /// The last pose that was known.
+    /// Last known pose.
     pose: Pose,
-    /// The motion that should have been made since then, and the time that it took (s).
+    /// Expected motion since the last known pose, and its duration (s).
     expected: Motion,
     elapsed: f64,
-    /// Averages: speed that is missing, speed of the fastest corner that was asked for (m/s), speed that whiskers explain (m/s).
+    /// Averages: missing speed, commanded speed of the fastest corner (m/s), speed explained by whiskers (m/s).
     missing: Motion,
     asked: f64,
     pushed: f64,
 }
 
-/// A motion of the body, or its speed: x and y of the centre of mass (m, world frame), and the turn (rad).
+/// A motion of the body, or its speed: x and y of the centre of mass (m, world frame) and the rotation (rad).
 type Motion = Vector3<f64>;
 
 impl Disturbance {
@@ -77,12 +79,12 @@ impl Disturbance {
         }
     }
 
-    /// Takes the command that holds until the next tick.
+    /// Sets the command that holds until the next tick.
     pub(super) fn command(&mut self, command: Command) {
         self.command = command;
     }
 
-    /// Takes the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown.
+    /// Adds the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown.
     pub(super) fn update(&mut self, samples: &[Sample], time: f64, pose: Pose) {
         for sample in samples {
             for (base_angle, reading) in self.base_angles.iter_mut().zip(&sample.whiskers) {
@@ -104,21 +106,21 @@ impl Disturbance {
         }
     }
 
-    /// Adds the motion that a servo makes in `period` (s).
+    /// Adds the expected motion of a servo during `period` (s).
     fn expect(&mut self, period: f64) {
         let aim = self.command.velocity_world.push(self.command.yaw_rate);
         let left = (-period / self.servo).exp();
-        // For how long it would have to go at the difference to its aim.
+        // Equivalent time at the initial difference from the target speed.
         let behind = self.servo * (1.0 - left);
         self.expected += self.speed * behind + aim * (period - behind);
         self.speed = self.speed * left + aim * (1.0 - left);
         self.elapsed += period;
     }
 
-    /// Averages what is missing of the expected motion.
+    /// Averages the missing part of the expected motion.
     fn compare(&mut self, before: Pose, pose: Pose) {
         let mut missing = self.expected - (pose.position - before.position).push(pose.heading - before.heading);
-        // A heading may be given within one turn.
+        // Measured headings may be wrapped to one rotation.
         missing.z = turn_between(0.0, missing.z);
         let asked = self.fastest(self.expected) / self.elapsed;
         let weighted = self.base_angles.iter().zip(&self.pushes);
@@ -129,7 +131,7 @@ impl Disturbance {
         self.pushed = self.pushed * left + pushed * (1.0 - left);
     }
 
-    /// The largest motion (m) of a corner of the body.
+    /// Largest motion (m) of a corner of the body.
     fn fastest(&self, motion: Motion) -> f64 {
         let of_corner = |corner: &Point2| {
             let arm = self.pose.vector_to_world(corner.coords);
@@ -138,12 +140,12 @@ impl Disturbance {
         self.corners_body.iter().map(of_corner).fold(0.0, f64::max)
     }
 
-    /// The speed (m/s) that the corner of the body lacks which lacks most, averaged; 0 before there are two poses.
+    /// Averaged speed difference (m/s) at the corner of the body with the largest one. 0 before two poses are known.
     pub(super) fn shortfall(&self) -> f64 {
         if self.pose.is_finite() { self.fastest(self.missing) } else { 0.0 }
     }
 
-    /// Whether something other than the whiskers keeps the body from following its commands.
+    /// True if something other than the whiskers prevents the body from following its commands.
     pub(super) fn is_blocked(&self) -> bool {
         self.shortfall() > SHARE * self.asked + self.pushed + NOISE
     }

@@ -1,19 +1,19 @@
-//! A whisker's deflection: its filtered base angle.
+//! The filtered base angle of a whisker.
 
 use std::f64::consts::PI;
 
 use super::low_pass::LowPass;
 
-/// The greatest base angle (rad) that is taken for one: no hinge turns farther.
+/// Largest valid base angle (rad). No hinge rotates farther.
 pub(super) const GREATEST_ANGLE: f64 = PI;
 
-/// A whisker's deflection: its base angle, filtered, with the readings left out that are none.
+/// The filtered base angle of a whisker, without invalid readings.
 #[derive(Debug, Clone)]
 pub(super) struct FilteredBaseAngle {
     filter: LowPass,
-    /// The newest valid reading (rad).
+    /// Newest valid reading (rad).
     reading: f64,
-    /// Whether this tick has brought a valid reading, and the last one did.
+    /// True if this tick has a valid reading, and if the previous tick had one.
     has_reading: bool,
     had_reading: bool,
     /// Filtered base angle (rad).
@@ -25,14 +25,14 @@ impl FilteredBaseAngle {
         Self { filter, reading: 0.0, has_reading: true, had_reading: true, value: 0.0 }
     }
 
-    /// Begins a tick; its readings come next.
+    /// Begins a tick. Its readings follow.
     pub(super) fn begin(&mut self) {
         self.had_reading = self.has_reading;
         self.has_reading = false;
     }
 
-    /// Takes one base angle (rad). One that is none is left out: until the next, the last valid one counts. After a tick
-    /// without any, what was before says nothing of what is now, and the filter begins anew.
+    /// Adds one base angle (rad). An invalid one is replaced by the last valid one. After a tick without valid readings
+    /// the filter restarts, because earlier readings no longer describe the whisker.
     pub(super) fn take(&mut self, base_angle: f64) {
         if base_angle.abs() <= GREATEST_ANGLE {
             if !self.has_reading && !self.had_reading {
@@ -44,7 +44,7 @@ impl FilteredBaseAngle {
         self.value = self.filter.next(self.reading);
     }
 
-    /// The deflection (rad); not a number where the tick has brought no valid reading.
+    /// The filtered base angle (rad), or NaN if the tick has no valid reading.
     pub(super) fn value(&self) -> f64 {
         if self.has_reading { self.value } else { f64::NAN }
     }

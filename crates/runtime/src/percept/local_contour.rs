@@ -1,18 +1,18 @@
-//! The contour just behind a tip.
+//! The local contour behind a tip.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::geometry::{Point2, Vector2};
 
-/// Keypoints that the curve is fitted to.
+/// Number of keypoints to which the curve is fitted.
 const WINDOW: usize = 7;
-/// Least distance between keypoints (m).
+/// Minimum distance between keypoints (m).
 const SPACING: f64 = 1e-3;
 
-/// A local curve through the newest points of a contour.
+/// The local curve through the newest points of a contour.
 ///
-/// It is the parabola, in the length along the keypoints, that fits the newest seven best; keypoints lie at least a
-/// millimetre apart. The curve's end is where the tip is, its tangent there is the direction of travel.
+/// It is the least-squares parabola through the newest seven keypoints, as a function of the length along them.
+/// Keypoints are at least 1 mm apart. The curve ends at the tip, and its tangent there is the direction of travel.
 #[derive(Debug, Clone, Default)]
 pub struct LocalContour {
     /// The newest keypoints, oldest first.
@@ -21,18 +21,19 @@ pub struct LocalContour {
     curve: Option<Curve>,
 }
 
-/// The curve, as parabolas in the length along it (mm, counted back from the newest keypoint, so never positive).
+/// The curve as parabolas in the length along it (mm). The length is zero at the newest keypoint and negative behind
+/// it.
 #[derive(Debug, Clone, Copy)]
 struct Curve {
     newest: Point2,
-    /// The place from the newest keypoint on (m), and its changes with the length and with its square.
+    /// Coefficients of the position relative to the newest keypoint (m), by powers of the length.
     parts: [Vector2; 3],
-    /// Length (mm) of the curve.
+    /// Length of the curve (mm).
     reach: f64,
 }
 
 impl Curve {
-    /// The length (mm) at the distance `back` (m) behind the end, which the curve's beginning limits.
+    /// Length parameter (mm) at the distance `back` (m) behind the end, limited to the curve.
     fn length_at(&self, back: f64) -> f64 {
         -(back * 1e3).clamp(0.0, self.reach)
     }
@@ -42,7 +43,7 @@ impl Curve {
         self.newest + self.parts[0] + self.parts[1] * length + self.parts[2] * length * length
     }
 
-    /// Change of the place with the length (m/m).
+    /// Derivative of the position by the length (m/m).
     fn slope(&self, back: f64) -> Vector2 {
         1e3 * (self.parts[1] + 2.0 * self.length_at(back) * self.parts[2])
     }
@@ -54,7 +55,7 @@ impl LocalContour {
         *self = Self::default();
     }
 
-    /// Takes a point, if it is far enough from the newest keypoint.
+    /// Adds a point if it is far enough from the newest keypoint.
     pub fn add(&mut self, point: Point2) {
         if self.newest().is_some_and(|newest| (point - newest).norm() < SPACING) {
             return;
@@ -70,7 +71,7 @@ impl LocalContour {
         }
     }
 
-    /// Whether there are enough keypoints for a curve.
+    /// True if there are enough keypoints for a curve.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.curve.is_some()
@@ -82,26 +83,26 @@ impl LocalContour {
         self.count.checked_sub(1).map(|last| self.keypoints[last])
     }
 
-    /// Direction of travel at the end (unit vector), once ready.
+    /// Direction of travel at the end (unit vector). `None` until the curve is ready.
     #[must_use]
     pub fn tangent(&self) -> Option<Vector2> {
         self.tangent_at(0.0)
     }
 
-    /// The point of the curve at the distance `back` (m) behind its end, once ready; no farther back than the curve begins,
-    /// and its end for a negative distance.
+    /// The point at the distance `back` (m) behind the end, limited to the curve. `None` until the curve is ready.
     #[must_use]
     pub fn point_at(&self, back: f64) -> Option<Point2> {
         self.curve.map(|curve| curve.point(back))
     }
 
-    /// Direction of travel (unit vector) at the distance `back` (m) behind the end, as for [`point_at`](Self::point_at).
+    /// Direction of travel (unit vector) at the distance `back` (m) behind the end, limited as in
+    /// [`point_at`](Self::point_at).
     #[must_use]
     pub fn tangent_at(&self, back: f64) -> Option<Vector2> {
         self.curve.map(|curve| curve.slope(back).normalize())
     }
 
-    /// Curvature at the end (1/m, counter-clockwise positive), once ready.
+    /// Curvature at the end (1/m, counter-clockwise positive). `None` until the curve is ready.
     #[must_use]
     pub fn curvature(&self) -> Option<f64> {
         self.curve.map(|curve| {
@@ -110,7 +111,7 @@ impl LocalContour {
         })
     }
 
-    /// Least squares for `x` and `y` as parabolas in the length along the keypoints, counted back from the newest.
+    /// Fits `x` and `y` as parabolas in the length along the keypoints, counted back from the newest.
     fn fit(&self) -> Option<Curve> {
         let mut normal = Matrix3::zeros();
         let (mut right_x, mut right_y) = (Vector3::zeros(), Vector3::zeros());
@@ -121,7 +122,7 @@ impl LocalContour {
             if index + 1 < WINDOW {
                 back -= (self.keypoints[index + 1] - point).norm();
             }
-            // Millimetres keep the normal equations well conditioned.
+            // In millimetres the normal equations are well conditioned.
             let length = back * 1e3;
             let basis = Vector3::new(1.0, length, length * length);
             normal += basis * basis.transpose();

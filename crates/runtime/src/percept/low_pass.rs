@@ -2,19 +2,20 @@
 
 use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
 
-/// A third-order Butterworth low-pass filter, at rest at zero: a first-order section before a second-order one of quality 1.
+/// A third-order Butterworth low-pass filter, initially at rest at zero. It consists of a first-order section and a
+/// second-order section with the quality factor 1.
 #[derive(Debug, Clone)]
 pub struct LowPass {
     first: DirectForm2Transposed<f64>,
     second: DirectForm2Transposed<f64>,
-    /// The value at which the sections are at rest.
+    /// Input value for which the sections are at rest.
     rest: f64,
 }
 
-/// What is less than this (rad) from rest is at rest.
+/// Difference from rest (rad) below which the filter is set to rest.
 const FADED: f64 = 1e-290;
 
-/// A cutoff that is not above zero, or not below half of the sampling rate.
+/// A cutoff frequency outside of the valid range of the filter.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a filter for samples at {rate} Hz needs a cutoff above 0 Hz and below {} Hz, not {cutoff} Hz", 0.5 * rate)]
 pub struct CutoffError {
@@ -23,7 +24,7 @@ pub struct CutoffError {
 }
 
 impl LowPass {
-    /// A filter with its −3 dB point at `cutoff` (Hz) for samples at `rate` (Hz).
+    /// Creates a filter with its −3 dB point at `cutoff` (Hz) for samples at `rate` (Hz).
     ///
     /// # Errors
     /// [`CutoffError`] unless the cutoff is positive and below half of the rate.
@@ -40,26 +41,26 @@ impl LowPass {
         })
     }
 
-    /// Forgets the past: from now on all samples have been `value`.
+    /// Resets the filter to rest at `value`.
     pub fn settle(&mut self, value: f64) {
         self.first.reset_state();
         self.second.reset_state();
-        // The gain at rest is 1, so that shifting the input and the output by the same changes nothing else.
+        // The gain at rest is 1, so shifting input and output by the same value changes nothing else.
         self.rest = value;
     }
 
-    /// How much of the standard deviation of white noise the filter lets through, at most all of it: the root of its noise
-    /// bandwidth, which is π/3 of the cutoff in this kind of filter, over half of the rate.
+    /// Ratio of the standard deviations of output and input for white noise, at most 1. It is the square root of the
+    /// noise bandwidth, which is π/3 of the cutoff for this filter, over half of the sample rate.
     #[must_use]
     pub fn noise_gain(cutoff: f64, rate: f64) -> f64 {
         (std::f64::consts::FRAC_PI_3 * cutoff / (0.5 * rate)).min(1.0).sqrt()
     }
 
-    /// Takes one sample and gives the filtered value.
+    /// Adds one sample and returns the filtered value.
     pub fn next(&mut self, value: f64) -> f64 {
         let off_rest = value - self.rest;
         let filtered = self.second.run(self.first.run(off_rest));
-        // What fades is gone at last: beyond the normal numbers rounding would hold it for ever, and every tick would be slower.
+        // Subnormal numbers would remain forever because of rounding, and would slow down every tick.
         if off_rest == 0.0 && filtered.abs() < FADED {
             self.settle(self.rest);
             return self.rest;

@@ -1,4 +1,5 @@
-//! From samples to what policies ask for: filtered deflections, places of tips, the contour behind a tip.
+//! Perception: from samples to the values that policies read. It contains filtered base angles, contact estimators, the
+//! local contour behind a tip, and the detection of a blocked body.
 
 mod base_angle;
 mod contact;

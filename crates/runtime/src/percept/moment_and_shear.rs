@@ -1,4 +1,4 @@
-//! The tip model of two channels: the moment and the shear at the base.
+//! The contact estimator `moment_and_shear`.
 
 use nalgebra::{Matrix2, Vector2 as Column};
 
@@ -12,29 +12,33 @@ use super::contact::{CONTACT_DEVIATION, Contact, turned};
 use super::contact_estimator::ContactEstimator;
 use super::recent_line::RecentLine;
 
-/// Finds the touch without friction that has the moment and the shear of the base; on the shaft, too.
+/// Finds the frictionless contact that causes the moment and the shear at the base. It also locates contacts of the
+/// shaft.
 ///
-/// Base angle and shear are those of straight lines through the newest readings, no longer than their noise asks for. A whisker in free
-/// motion has a shear that no touch makes: while the base angle changes fast nothing is told.
+/// Base angle and shear are values of straight lines through the newest readings, over no more of them than their noise
+/// requires. The shear of a freely moving whisker is not that of a contact. So there is no estimate while the base
+/// angle changes fast.
 #[derive(Debug, Clone)]
 pub(super) struct MomentAndShear {
     elastica: Elastica,
     shaft: Shaft,
     angle: BaseAngle,
     shear: RecentLine,
-    /// Standard deviation of the base angle (rad) and of the shear (N).
+    /// Standard deviations of the base angle (rad) and of the shear (N).
     deviations: Column<f64>,
     contact_threshold: f64,
-    /// Whether the newest sample has both readings.
+    /// True if the newest sample has both readings.
     has_readings: bool,
-    /// The newest bend that was found, or the straight shaft; where the next is sought from.
+    /// Shape at the newest contact, or the straight shaft. It is the initial guess for the next one.
     near: ShaftShape,
 }
 
-/// The spread of the shear that is worth a longer line through the readings, and what the mechanics leave out of it, over `EI / L²`.
+/// Standard deviation of the shear, over `EI / L²`, up to which its line is lengthened. It is also the error of the
+/// model.
 const WANTED_SHEAR: f64 = 5e-4;
-/// How far off the shape of the shaft may be where it is touched (m), as a standard deviation: shafts are not quite as even as the exact
-/// theory has them, and a simulated one is a chain of links. Pressed along, as on a surface that a body is turned away from, they show it most.
+/// Standard deviation (m) of the shape of the shaft at the contact. Real shafts are less uniform than the exact theory,
+/// and a simulated one is a chain of links. The error is largest with a large axial force, as on a surface from which
+/// the body turns away.
 const SHAPE_DEVIATION: f64 = 3.5e-5;
 
 impl MomentAndShear {
@@ -57,20 +61,21 @@ impl MomentAndShear {
         }
     }
 
-    /// The bend by the newest readings.
+    /// The shape according to the newest readings.
     fn find(&self) -> Option<ShaftShape> {
         let (angle, is_calm) = self.angle.value();
         let has_contact = self.has_readings && angle.abs() > self.contact_threshold && is_calm;
         if has_contact { self.elastica.locate(angle, self.shear.at(0.0).0, &self.near).ok() } else { None }
     }
 
-    /// Where the surface is (m, frame of the base): the wire's radius beside its axis.
+    /// Contact position on the surface (m, frame of the base): the radius of the shaft beside its axis.
     fn surface(&self, shape: &ShaftShape) -> Vector2 {
         let radius = self.shaft.radius_at(shape.contact_length / self.shaft.length);
         shape.contact_base - radius * unit(shape.force_direction)
     }
 
-    /// Covariance of the place touched (m², frame of the base), by what the readings may be off. `None` where it hangs on nothing.
+    /// Covariance of the contact position (m², frame of the base) due to errors of readings and model. `None` if the
+    /// position does not depend on the readings.
     fn covariance(&self, shape: &ShaftShape) -> Option<Matrix2<f64>> {
         let changes = self.elastica.changes(shape)?;
         let radius = self.shaft.radius_at(shape.contact_length / self.shaft.length);
@@ -123,7 +128,7 @@ impl ContactEstimator for MomentAndShear {
         if self.near.base_angle == 0.0 {
             return None;
         }
-        // On the other side of the shaft it would be the mirror image.
+        // A bend to the other side is the mirror image.
         let near = if base_angle * self.near.base_angle < 0.0 { self.near.mirrored() } else { self.near };
         let shape = self.elastica.solve_at(near.contact_length, base_angle, near.force_direction, &near)?;
         Some(self.surface(&shape))

@@ -1,4 +1,4 @@
-//! The tip model of one channel: the base angle alone.
+//! The contact estimator `one_channel`.
 
 use std::sync::Arc;
 
@@ -8,17 +8,18 @@ use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::tip_curve::TipCurve;
 
-/// Takes the tip to be on a [`TipCurve`].
+/// Estimates the tip contact on a [`TipCurve`] from the base angle alone.
 #[derive(Debug, Clone)]
 pub(super) struct OneChannel {
     curve: Arc<TipCurve>,
-    /// Standard deviation of the deflection (rad).
+    /// Standard deviation of the filtered base angle (rad).
     base_angle_deviation: f64,
     length: f64,
 }
 
 impl OneChannel {
-    /// The model of a whisker of `length` (m) whose deflection may be off by `base_angle_deviation` (rad).
+    /// Creates the estimator of a whisker of `length` (m). `base_angle_deviation` (rad) is the standard deviation of
+    /// the filtered base angle.
     pub(super) fn new(curve: Arc<TipCurve>, base_angle_deviation: f64, length: f64) -> Self {
         Self { curve, base_angle_deviation, length }
     }

@@ -1,4 +1,4 @@
-//! Perception as a whole: samples in, senses out.
+//! Perception: from samples to the values that policies read.
 
 use std::sync::Arc;
 
@@ -19,25 +19,25 @@ use super::tip_curve::{TipCurve, TipCurveError};
 use super::tip_table::TipTable;
 use super::whisker::{PerceivedWhisker, base_angle_deviation};
 
-/// Perception of a rig by the whiskers that a policy binds.
+/// Perception of a rig with the whiskers that a policy binds.
 #[derive(Debug, Clone)]
 pub struct Perception {
     time: f64,
     body: Pose,
-    /// In the policy's order.
+    /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
-    /// For each of them, its index in the rig and so in samples, if the rig has it.
+    /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
     in_sample: Vec<Option<usize>>,
     disturbance: Disturbance,
 }
 
-/// Why a rig cannot be perceived.
+/// The reason for which a rig has no perception.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PerceptionError {
-    /// A whisker's mechanics give no tip model.
+    /// A whisker has no tip curve.
     #[error(transparent)]
     ContactEstimator(#[from] TipCurveError),
-    /// A whisker is to be perceived by forces that the rig does not measure.
+    /// A contact estimator needs forces that the rig does not measure.
     #[error(
         "the policy perceives the whisker `{whisker}` by moment_and_shear, and the rig measures no forces; give it \
          `sensing: {{forces: true}}`, or perceive the whisker by sliding"
@@ -46,7 +46,7 @@ pub enum PerceptionError {
         /// The whisker.
         whisker: String,
     },
-    /// The mechanics of a whisker do not suffice for a polynomial.
+    /// The mechanics of a whisker give too few positions for the polynomial of `recursive`.
     #[error(
         "whisker {whisker}: its mechanics give too few places for recursive; calibrate it, or perceive it by sliding"
     )]
@@ -60,8 +60,8 @@ pub enum PerceptionError {
 }
 
 impl Perception {
-    /// Makes what takes longest of the perception of `rig` by these tip models, and keeps it for [`new`](Self::new): for who has other
-    /// things to do meanwhile.
+    /// Computes and caches the slowest part of [`new`](Self::new), so that a caller can do it in parallel with other
+    /// work.
     pub fn prepare(rig: &Rig, contact_estimators: &[ContactEstimatorKind]) {
         if contact_estimators
             .iter()
@@ -73,11 +73,14 @@ impl Perception {
         }
     }
 
-    /// Perception of `rig` by the whiskers with these indices, each by its tip model, or else by the usual one. One that the rig does
-    /// not have (`None`) is as one that nothing ever touches, on the body's centre of mass and along the heading.
+    /// Creates the perception of `rig` for the whiskers with these indices. Missing entries of `contact_estimators` are
+    /// the default kind.
+    ///
+    /// A whisker that the rig lacks (`None`) is treated as one without any contact, mounted at the body's centre of
+    /// mass along the heading.
     ///
     /// # Errors
-    /// [`PerceptionError`] when its mechanics or rates leave no model or filter.
+    /// [`PerceptionError`] if an estimator or a filter does not exist for this rig.
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
@@ -91,7 +94,7 @@ impl Perception {
             .iter()
             .zip(contact_estimators.iter().copied().chain(std::iter::repeat(ContactEstimatorKind::default())));
         let perceived = perceived.map(|(&index, kind)| {
-            // What nothing touches needs no model but the one that takes no time.
+            // A whisker that is never in contact gets the cheapest estimator.
             let (whisker, kind) = match index {
                 Some(index) => (rig.whiskers[index].perceived(), kind),
                 None => (Whisker::unfitted(), ContactEstimatorKind::OneChannel),
@@ -136,9 +139,9 @@ impl Perception {
 
     /// Begins a tick with the samples since the last one, oldest first.
     ///
-    /// What is not a finite number in a sample, and a base angle beyond half a turn, is left out: the newest of the rest
-    /// counts. Of what no sample of the tick brings there is none in this tick: the deflection and the tip of a whisker, or
-    /// the pose and all that depends on it, are not a number. The time then stands still.
+    /// Non-finite values and base angles beyond half a rotation are ignored. The newest valid value counts. A value
+    /// without any valid sample in the tick is NaN: base angle and tip of a whisker, or the pose and everything that
+    /// depends on it. The time keeps its last value.
     pub fn update(&mut self, samples: &[Sample]) {
         for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
             whisker.base_angle.begin();
@@ -161,13 +164,13 @@ impl Perception {
         self.disturbance.update(samples, self.time, self.body);
     }
 
-    /// Takes the command that the platform is given until the next tick: whether the body is blocked is judged by it. Without any it is
-    /// told to stand still.
+    /// Sets the command that holds until the next tick. The detection of a blocked body uses it. The default is to
+    /// stand still.
     pub fn command(&mut self, command: Command) {
         self.disturbance.command(command);
     }
 
-    /// Those of the policy's whiskers that the rig has, each with its index there.
+    /// The fitted whiskers: the index of each in the policy and in the rig.
     pub fn fitted(&self) -> impl Iterator<Item = (usize, usize)> {
         self.in_sample.iter().enumerate().filter_map(|(whisker, index)| index.map(|index| (whisker, index)))
     }
@@ -178,45 +181,45 @@ impl Perception {
         self.time
     }
 
-    /// Pose of the platform's centre of mass; [`Pose::UNKNOWN`] in a tick that brought none.
+    /// Pose of the platform's centre of mass, or [`Pose::UNKNOWN`] in a tick without a pose.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.body
     }
 
-    /// Filtered base angle (rad) of a whisker; not a number in a tick that brought no reading of it.
+    /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.
     #[must_use]
     pub fn base_angle(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].base_angle()
     }
 
-    /// Where a whisker is touched, if its tip model can tell in this tick.
+    /// The estimated contact of a whisker, if its contact estimator has one in this tick.
     #[must_use]
     pub fn contact(&self, whisker: usize) -> Option<&Contact> {
         self.whiskers[whisker].contact()
     }
 
-    /// The tip of a whisker (m, world frame), if this tick recorded it and it touches.
+    /// The tip of a whisker (m, world frame), if this tick recorded it during a contact.
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
         (whisker.recorded && whisker.has_contact() && whisker.is_recordable()).then(|| whisker.tip_world())
     }
 
-    /// How far off the recorded tip of a whisker may be (m): a standard deviation.
+    /// Standard deviation (m) of the recorded tip of a whisker.
     #[must_use]
     pub fn recorded_deviation(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].recorded_deviation()
     }
 
-    /// The marks that this tick made of a whisker, in their order, and where its tip is (m, world frame).
+    /// The marks of a whisker in this tick, in order, with the position of its tip (m, world frame).
     pub fn marks(&self, whisker: usize) -> impl Iterator<Item = (Mark, Point2)> {
         let whisker = &self.whiskers[whisker];
         whisker.marks.iter().flatten().map(|&mark| (mark, whisker.tip_world()))
     }
 }
 
-/// Those of the policy's whiskers that the rig has, each with its index there.
+/// The fitted whiskers, each with its index in the rig.
 fn fitted<'p>(
     whiskers: &'p mut [PerceivedWhisker],
     in_sample: &'p [Option<usize>],

@@ -1,25 +1,26 @@
-//! The straight line through the newest readings.
+//! A straight line through the newest readings.
 
-/// The straight line through the newest readings, taken at equal times, by least squares.
+/// The least-squares straight line through the newest readings, which are equally spaced in time.
 #[derive(Debug, Clone)]
 pub(super) struct RecentLine {
     /// Time between readings (s).
     period: f64,
-    /// How many readings the line is fitted to.
+    /// Number of readings to which the line is fitted.
     window: usize,
-    /// The newest reading last.
+    /// Readings, the newest last.
     readings: [f64; LONGEST],
     count: usize,
 }
 
-/// The most readings that a line is fitted to.
+/// Maximum number of readings of a line.
 const LONGEST: usize = 30;
-/// The fewest: of two, noise would be all.
+/// Minimum number of readings. A line through two would follow the noise.
 const SHORTEST: usize = 3;
 
 impl RecentLine {
-    /// A line through as few readings as bring the spread of its value `ahead` (s) of the newest down to `deviation`, or through
-    /// thirty, for readings of which each may be off by `noise`.
+    /// Creates a line over the fewest readings for which its value at `ahead` (s) after the newest has at most the
+    /// standard deviation `deviation`. At most thirty readings are used. `noise` is the standard deviation of a
+    /// reading.
     pub(super) fn new(period: f64, ahead: f64, noise: f64, deviation: f64) -> Self {
         let line = |window| Self { period, window, readings: [0.0; LONGEST], count: 0 };
         (SHORTEST..LONGEST)
@@ -28,14 +29,14 @@ impl RecentLine {
             .unwrap_or_else(|| line(LONGEST))
     }
 
-    /// How many times the standard deviation of a reading that of the line's value is, `ahead` (s) of the newest.
+    /// Ratio of the standard deviations of the line's value, at `ahead` (s) after the newest reading, and of a reading.
     pub(super) fn noise_gain(&self, ahead: f64) -> f64 {
         let window = self.window as f64;
         let from_middle = ahead / self.period + 0.5 * (window - 1.0);
         (1.0 / window + from_middle.powi(2) / self.moment()).sqrt()
     }
 
-    /// Sum of the squares of the readings' distances, in periods, from their middle.
+    /// Sum of the squared distances, in periods, of the readings from their middle.
     fn moment(&self) -> f64 {
         let window = self.window as f64;
         window * (window * window - 1.0) / 12.0
@@ -46,18 +47,18 @@ impl RecentLine {
         self.count = 0;
     }
 
-    /// Takes a reading.
+    /// Adds a reading.
     pub(super) fn take(&mut self, reading: f64) {
         if self.count == 0 {
             self.readings = [reading; LONGEST];
         }
-        // Older ones are not asked for.
+        // Older readings are never used.
         self.readings[LONGEST - self.window..].rotate_left(1);
         self.readings[LONGEST - 1] = reading;
         self.count = (self.count + 1).min(LONGEST);
     }
 
-    /// The line's value `ahead` (s) of the newest reading, and its change with time (1/s).
+    /// The line's value at `ahead` (s) after the newest reading, and its slope (1/s).
     pub(super) fn at(&self, ahead: f64) -> (f64, f64) {
         let middle = 0.5 * (self.window as f64 - 1.0);
         let newest = &self.readings[LONGEST - self.window..];

@@ -1,4 +1,4 @@
-//! The recursive tip model: the base angle as a polynomial in the tip's place.
+//! The contact estimator `recursive`: the base angle as a polynomial in the tip position.
 
 use std::sync::Arc;
 
@@ -15,17 +15,17 @@ use super::contact_estimator::ContactEstimator;
 use super::tip_curve::TipCurve;
 use super::tip_table::TipTable;
 
-/// Follows the tip's place in the frame of the base: from reading to reading it goes as the usual curve does, then a step along the
-/// gradient of `z = f(x, y)`, by a Kalman filter's gain, to the place that has the base angle.
+/// Tracks the tip position in the frame of the base with a Kalman filter. The prediction moves the tip as the tip curve
+/// does. The correction is a step along the gradient of `z = f(x, y)` to a position with the measured base angle.
 ///
-/// The base angle says nothing of where on the line `f = z` the tip is. That stays as it was at the first touch, and its uncertainty
-/// grows with the way.
+/// The base angle does not determine the position along the line `f = z`. This part keeps its value from the first
+/// contact, and its uncertainty grows with the path.
 #[derive(Debug, Clone)]
 pub(super) struct Recursive {
     surface: Arc<AngleSurface>,
     curve: Arc<TipCurve>,
     angle: BaseAngle,
-    /// Standard deviation of the base angle (rad), with what the polynomial leaves of it.
+    /// Standard deviation of the base angle (rad), including the residual of the polynomial.
     angle_deviation: f64,
     contact_threshold: f64,
     length: f64,
@@ -33,26 +33,26 @@ pub(super) struct Recursive {
     base_before: Option<Pose>,
 }
 
-/// A tip that touches, as that of a whisker which bends to the left.
+/// A tip in contact, mirrored to a bend to the left.
 #[derive(Debug, Clone, Copy)]
 struct Tip {
-    /// +1 for a bend that is counter-clockwise, −1 for one that is clockwise.
+    /// +1 for a counter-clockwise bend, −1 for a clockwise one.
     bend_sign: f64,
     base_angle: f64,
-    /// m, frame of the base.
+    /// Position (m, frame of the base).
     position: Vector2,
     covariance: Matrix2<f64>,
 }
 
-/// Variance of the place for every way of the base (m²/m): 1 mm within 10 mm.
+/// Growth of the variance of the position per path of the base (m²/m): 1 mm after 10 mm.
 const SLIDING: f64 = 1e-4;
 
-/// The least and the greatest direction of the force (degrees), and the step between, that a polynomial from the mechanics is
-/// fitted to; and how many base angles, of the lower half of those that the table has.
+/// Range and step of the force direction (degrees) for a polynomial fitted to the mechanics. The number of base angles,
+/// from the lower half of the table.
 const DIRECTIONS: (usize, usize, usize) = (100, 200, 4);
 const ANGLES: usize = 40;
 
-/// The polynomial of a whisker that nobody has measured, from its mechanics; `None` if they give too few places.
+/// Fits the polynomial of an uncalibrated whisker to its mechanics. `None` if they give too few positions.
 pub(super) fn surface(whisker: &Whisker, table: &TipTable) -> Option<AngleSurface> {
     let (first, last, step) = DIRECTIONS;
     let positions = (first..=last).step_by(step).flat_map(|degrees| (0..=ANGLES).map(move |angle| (degrees, angle)));
@@ -80,13 +80,13 @@ impl Recursive {
         }
     }
 
-    /// The first place of a tip.
+    /// The first position of a tip, from the tip curve.
     fn first(&self, bend_sign: f64, base_angle: f64) -> Option<Tip> {
         let covariance = self.curve.covariance(base_angle, self.angle_deviation)?;
         Some(Tip { bend_sign, base_angle, position: self.curve.contact_base(base_angle), covariance })
     }
 
-    /// One step of a tip whose base has gone a way (m).
+    /// One step of the filter after the base has moved along `path` (m).
     fn advance(&self, last: &Tip, base_angle: f64, path: f64) -> Option<Tip> {
         let usual = self.curve.contact_base(base_angle) - self.curve.contact_base(last.base_angle);
         let carried = last.position + usual;

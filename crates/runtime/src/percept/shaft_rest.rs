@@ -1,15 +1,16 @@
-//! Whether the shaft may rest on a corner where the tip is taken to touch.
+//! Detection of shaft contacts where a tip contact is assumed.
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit, wrap};
 use crate::mechanics::Pivot;
 use crate::rig::Whisker;
 
-/// Tells how far off a tip may be because the shaft touches instead.
+/// Estimates the possible error of a tip because the shaft, not the tip, may be in contact.
 ///
-/// One base angle fits a touch of the tip and touches of the shaft alike. But a corner stays where it is while the base moves. If one
-/// fixed place in the world explains the newest readings, the shaft may rest there. The tip is then in doubt by the distance
-/// between the two. Behind a rest the doubt fades on the way on which the errors of [`Sliding`](super::sliding::Sliding) fade. A place that
-/// turns out to move was no corner, and leaves no doubt.
+/// A base angle fits a tip contact and contacts of the shaft alike. But a corner stays fixed while the base moves. If
+/// one fixed position in the world explains the newest readings, the shaft may rest on a corner there. The possible
+/// error of the tip is then the distance between the two. After the rest it decreases along the path on which the
+/// errors of [`Sliding`](super::sliding::Sliding) decrease. A position that moves later was no corner and leaves no
+/// error.
 #[derive(Debug, Clone)]
 pub(super) struct ShaftRest {
     pivot: Pivot,
@@ -17,69 +18,72 @@ pub(super) struct ShaftRest {
     length: f64,
     /// Standard deviation of a base angle (rad).
     angle_deviation: f64,
-    /// The newest readings, oldest first.
-    readings: [Posed; REMEMBERED],
+    /// Newest readings, oldest first.
+    readings: [PosedReading; REMEMBERED],
     count: usize,
-    /// Way of the whisker (m) since the newest of them.
+    /// Path of the whisker (m) since the newest of them.
     path: f64,
-    /// The tip (m, world frame) at the last sample.
+    /// Tip at the last sample (m, world frame).
     tip: Option<Point2>,
-    /// How far the fixed place is from the tip (m); 0 without one.
-    apart: f64,
-    /// How far off the tip may be (m) by what was before.
-    doubt: f64,
+    /// Distance of the fixed position from the tip (m), or 0 without one.
+    offset: f64,
+    /// Possible error (m) from earlier contacts of the shaft.
+    possible_error: f64,
     rest: Option<Rest>,
 }
 
-/// A place on which the shaft seems to rest.
+/// A fixed position on which the shaft may rest.
 #[derive(Debug, Clone, Copy)]
 struct Rest {
-    /// m, world frame.
+    /// Position (m, world frame).
     position: Point2,
-    /// Judgements in a row, up to now, by which it explains the readings, and the most of them.
+    /// Number of successive updates, up to now, in which it explains the readings, and the largest such number.
     lasted: usize,
     longest: usize,
-    /// The doubt (m) without it.
-    doubt_before: f64,
+    /// Possible error (m) without this rest.
+    possible_error_before: f64,
 }
 
-/// A base angle, and how the base stood.
+/// A base angle with the pose of the base.
 #[derive(Debug, Clone, Copy, Default)]
-struct Posed {
-    /// m, world frame.
+struct PosedReading {
+    /// Position of the base (m, world frame).
     base: Point2,
     /// Direction of the undeflected shaft.
     axis: Vector2,
-    /// rad.
+    /// Base angle (rad).
     angle: f64,
-    /// Direction of the surface's normal by the estimate (rad, world frame).
+    /// Estimated direction of the surface normal (rad, world frame).
     normal: f64,
 }
 
-/// Readings that one fixed place has to explain.
+/// Number of readings that a fixed position must explain.
 const REMEMBERED: usize = 4;
-/// Way of the whisker (m) from one of them to the next.
+/// Path of the whisker (m) between these readings.
 const SPACING: f64 = 0.75e-3;
-/// How far the mechanics may be off, as a share of the base angle, and the misfit in standard deviations that is still explained.
+/// Error of the mechanics as a share of the base angle, and the largest misfit in standard deviations that counts as
+/// explained.
 const MODEL_SHARE: f64 = 3e-3;
 const MISFIT: f64 = 1.5;
-/// The greatest standard deviation, as a share of the base angle, of readings that tell a rest: others fit many places.
+/// Largest standard deviation of the readings, as a share of the base angle, for the detection of a rest. Noisier
+/// readings fit many positions.
 const MOST_NOISE: f64 = 0.01;
-/// By how much the surface seems to turn (rad) from the oldest to the newest of the readings, at least, if the shaft rests.
+/// Smallest apparent rotation of the surface (rad) from the oldest to the newest reading if the shaft rests.
 const LEAST_TURN: f64 = 0.03;
-/// The least share of the shaft at which a corner is looked for, and the steps from there to the tip.
+/// Smallest share of the shaft at which a corner is searched, and the number of steps from there to the tip.
 const LEAST_SHARE: f64 = 0.15;
 const STEPS: i32 = 16;
-/// Steps of the search for a place between two of these.
+/// Steps of the refinement between two of these.
 const REFINEMENTS: usize = 4;
-/// How far a place may seem to move (m) if it is fixed: so far off it may be found.
+/// Largest apparent motion (m) of a fixed position, due to its estimation error.
 const DRIFT: f64 = 1.5e-3;
-/// Judgements in a row behind which a rest leaves a doubt, and behind which no later place speaks against it.
+/// Number of successive updates after which a rest leaves a possible error, and after which a later position no longer
+/// refutes it.
 const LASTING: usize = 4;
 const PROVEN: usize = 8;
-/// Way of the tip (m) on which a doubt falls by a factor e.
+/// Path of the tip (m) on which a possible error decreases by a factor e.
 const FADING: f64 = 12e-3;
-/// How far off a tip may be (m) whose shaft lies along the surface.
+/// Possible error (m) of the tip of a shaft that lies along the surface.
 const FLAT: f64 = 5e-3;
 
 impl ShaftRest {
@@ -88,41 +92,42 @@ impl ShaftRest {
             pivot: Pivot::new(whisker),
             length: whisker.shaft.length,
             angle_deviation,
-            readings: [Posed::default(); REMEMBERED],
+            readings: [PosedReading::default(); REMEMBERED],
             count: 0,
             path: 0.0,
             tip: None,
-            apart: 0.0,
-            doubt: 0.0,
+            offset: 0.0,
+            possible_error: 0.0,
             rest: None,
         }
     }
 
-    /// How far off the tip may be (m), as a standard deviation, because it may not be what touches.
-    pub(super) fn doubt(&self) -> f64 {
-        self.doubt.max(self.apart)
+    /// Possible error of the tip (m), because the shaft may be in contact instead.
+    pub(super) fn possible_error(&self) -> f64 {
+        self.possible_error.max(self.offset)
     }
 
-    /// Forgets the readings at a gap in the contact. What was in doubt before stays so.
+    /// Forgets the readings at a gap in the contact. Earlier possible errors remain.
     pub(super) fn interrupt(&mut self) {
-        (self.count, self.path, self.tip, self.apart, self.rest) = (0, 0.0, None, 0.0, None);
+        (self.count, self.path, self.tip, self.offset, self.rest) = (0, 0.0, None, 0.0, None);
     }
 
     /// Forgets the contact.
     pub(super) fn end(&mut self) {
         self.interrupt();
-        self.doubt = 0.0;
+        self.possible_error = 0.0;
     }
 
-    /// Takes a base angle (rad) with the base at `base`, `path` (m) after the last one. By the estimate the tip is at `tip` (m, world
-    /// frame), on a surface whose normal has the direction `normal` (rad) from the undeflected shaft, for a bend to the left.
+    /// Adds a base angle (rad) with the base at `base`, `path` (m) after the last one. `tip` (m, world frame) is the
+    /// estimated tip. `normal` is the estimated direction of the surface normal (rad) from the undeflected shaft, for a
+    /// bend to the left.
     pub(super) fn take(&mut self, angle: f64, base: Pose, path: f64, tip: Point2, normal: f64) {
-        // An estimate that goes wrong may run ahead of the whisker.
+        // An incorrect estimate may move farther than the whisker.
         let slid = self.tip.replace(tip).map_or(0.0, |before| (tip - before).norm().min(path));
         let fading = (-slid / FADING).exp();
-        self.doubt *= fading;
+        self.possible_error *= fading;
         if let Some(rest) = &mut self.rest {
-            rest.doubt_before *= fading;
+            rest.possible_error_before *= fading;
         }
         self.path += path;
         if self.count > 0 && self.path < SPACING {
@@ -130,7 +135,7 @@ impl ShaftRest {
         }
         self.path = 0.0;
         self.readings.rotate_left(1);
-        self.readings[REMEMBERED - 1] = Posed {
+        self.readings[REMEMBERED - 1] = PosedReading {
             base: base.position,
             axis: unit(base.heading),
             angle,
@@ -138,20 +143,20 @@ impl ShaftRest {
         };
         self.count = (self.count + 1).min(REMEMBERED);
         if self.count == REMEMBERED {
-            self.judge(tip);
+            self.update_rest(tip);
             if self.seems_to_turn() && self.pivot.lies_flat(angle, normal) {
-                self.doubt = self.doubt.max(FLAT);
-                // A place that turns out to be no corner says nothing of this.
+                self.possible_error = self.possible_error.max(FLAT);
+                // This error remains even if the position later proves to be no corner.
                 if let Some(rest) = &mut self.rest {
-                    rest.doubt_before = rest.doubt_before.max(FLAT);
+                    rest.possible_error_before = rest.possible_error_before.max(FLAT);
                 }
             }
         }
     }
 
-    fn judge(&mut self, tip: Point2) {
+    fn update_rest(&mut self, tip: Point2) {
         let Some(position) = self.fixed_position() else {
-            self.apart = 0.0;
+            self.offset = 0.0;
             if let Some(rest) = &mut self.rest {
                 rest.lasted = 0;
             }
@@ -160,26 +165,26 @@ impl ShaftRest {
         if let Some(moved) = self.rest.take_if(|rest| (position - rest.position).norm() > DRIFT)
             && moved.longest < PROVEN
         {
-            self.doubt = moved.doubt_before;
+            self.possible_error = moved.possible_error_before;
         }
-        let begun = Rest { position, lasted: 0, longest: 0, doubt_before: self.doubt };
+        let begun = Rest { position, lasted: 0, longest: 0, possible_error_before: self.possible_error };
         let rest = self.rest.get_or_insert(begun);
         rest.lasted += 1;
         rest.longest = rest.longest.max(rest.lasted);
-        self.apart = (position - tip).norm();
+        self.offset = (position - tip).norm();
         if rest.lasted >= LASTING {
-            self.doubt = self.doubt.max(self.apart);
+            self.possible_error = self.possible_error.max(self.offset);
         }
     }
 
-    /// The place (m, world frame) nearest to the base on which a shaft that rests has all the base angles.
+    /// The position (m, world frame) nearest to the base at which a resting shaft has all the base angles.
     fn fixed_position(&self) -> Option<Point2> {
         let (oldest, newest) = (&self.readings[0], &self.readings[REMEMBERED - 1]);
         if self.angle_deviation > MOST_NOISE * newest.angle.abs() || !self.seems_to_turn() {
             return None;
         }
-        // A place on the newest shaft, and by how much the oldest base angle is not that of a shaft on it.
-        let tried = |share: f64| {
+        // A position on the newest shaft, and the misfit of the oldest base angle for a shaft that rests there.
+        let candidate = |share: f64| {
             let position = newest.to_world(self.pivot.contact_base(newest.angle, share * self.length)?);
             Some((position, self.misfit(oldest, position)?))
         };
@@ -187,10 +192,10 @@ impl ShaftRest {
         let mut before: Option<(f64, f64)> = None;
         for share in shares {
             let last = before;
-            before = tried(share).map(|(_, misfit)| (share, misfit));
+            before = candidate(share).map(|(_, misfit)| (share, misfit));
             if let (Some(below), Some(above)) = (last, before)
                 && below.1 * above.1 <= 0.0
-                && let Some(position) = refined(tried, below, above)
+                && let Some(position) = refined(candidate, below, above)
                 && self.explains(position)
             {
                 return Some(position);
@@ -199,13 +204,13 @@ impl ShaftRest {
         None
     }
 
-    /// Whether the surface seems to turn from the oldest to the newest reading. A tip that slides along a straight wall explains readings
-    /// in which it does not.
+    /// True if the surface apparently rotates from the oldest to the newest reading. Otherwise a tip that slides along
+    /// a straight wall also explains the readings.
     fn seems_to_turn(&self) -> bool {
         wrap(self.readings[REMEMBERED - 1].normal - self.readings[0].normal).abs() > LEAST_TURN
     }
 
-    /// Whether a shaft that rests on a place (m, world frame) has all the base angles.
+    /// True if a shaft that rests on a position (m, world frame) has all the base angles.
     fn explains(&self, position: Point2) -> bool {
         self.readings.iter().all(|reading| {
             let deviation = self.angle_deviation.hypot(MODEL_SHARE * reading.angle);
@@ -213,29 +218,31 @@ impl ShaftRest {
         })
     }
 
-    /// By how much (rad) the base angle of a shaft that rests on a place (m, world frame) is greater than that of a reading.
-    fn misfit(&self, reading: &Posed, position: Point2) -> Option<f64> {
+    /// Difference (rad) between the base angle of a shaft that rests on a position (m, world frame) and that of a
+    /// reading.
+    fn misfit(&self, reading: &PosedReading, position: Point2) -> Option<f64> {
         Some(self.pivot.base_angle(reading.to_base(position))? - reading.angle)
     }
 }
 
-/// The place without a misfit between two shares of the shaft, each with its misfit.
+/// The position without a misfit between two shares of the shaft, each given with its misfit. It is found by the regula
+/// falsi.
 fn refined(
-    tried: impl Fn(f64) -> Option<(Point2, f64)>,
+    candidate: impl Fn(f64) -> Option<(Point2, f64)>,
     mut below: (f64, f64),
     mut above: (f64, f64),
 ) -> Option<Point2> {
     let mut position = None;
     for _ in 0..REFINEMENTS {
         let share = below.0 + (above.0 - below.0) * below.1 / (below.1 - above.1);
-        let (found, misfit) = tried(share)?;
+        let (found, misfit) = candidate(share)?;
         position = Some(found);
         if misfit * below.1 > 0.0 { below = (share, misfit) } else { above = (share, misfit) }
     }
     position
 }
 
-impl Posed {
+impl PosedReading {
     fn to_world(self, position: Vector2) -> Point2 {
         self.base + position.x * self.axis + position.y * perpendicular(self.axis)
     }
@@ -263,8 +270,8 @@ mod tests {
         (ShaftRest::new(&whisker, 4.5e-7), whisker)
     }
 
-    /// Takes the base angle of a shaft that rests on a corner at `position` (m, world frame) with a share of its length, by the exact theory.
-    /// The force is in units of `EI / L²`. What is taken for a surface turns by `turned` (rad).
+    /// Adds the exact base angle of a shaft that rests on a corner at `position` (m, world frame) at a share of its
+    /// length. The force is in units of `EI / L²`. The apparent surface rotates by `turned` (rad).
     fn take_on_corner(
         rest: &mut ShaftRest,
         whisker: &Whisker,
@@ -288,7 +295,7 @@ mod tests {
                 take_on_corner(&mut rest, &whisker, Point2::new(0.3, -0.2), (share + slide * f64::from(step), force), 0.02 * f64::from(step));
             }
             let beyond = (1.0 - share - 10.0 * slide) * whisker.shaft.length;
-            prop_assert!(rest.doubt() > beyond, "{} m, {beyond} m beyond the corner", rest.doubt());
+            prop_assert!(rest.possible_error() > beyond, "{} m, {beyond} m beyond the corner", rest.possible_error());
         }
 
         #[test]
@@ -297,12 +304,12 @@ mod tests {
             let elastica = Elastica::new(&whisker);
             let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
             let shape = elastica.under(whisker.shaft.length, FRAC_PI_2 + lean, force * force_unit).unwrap();
-            // The wall is square to the force.
+            // The wall is perpendicular to the force.
             let along = perpendicular(unit(shape.force_direction));
             for step in 0..40 {
                 let base = Pose { position: Point2::origin() + SPACING * f64::from(step) * along, heading: 0.0 };
                 rest.take(shape.base_angle, base, SPACING, base.position + shape.tip_base, shape.force_direction);
-                prop_assert!(rest.doubt() < 1e-4, "{} m", rest.doubt());
+                prop_assert!(rest.possible_error() < 1e-4, "{} m", rest.possible_error());
             }
         }
     }
@@ -314,9 +321,9 @@ mod tests {
             let normal = FRAC_PI_2 - 0.02 * f64::from(step);
             rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), normal);
         }
-        assert!(rest.doubt() >= FLAT);
+        assert!(rest.possible_error() >= FLAT);
         rest.end();
-        assert!(rest.doubt() < f64::EPSILON);
+        assert!(rest.possible_error() < f64::EPSILON);
     }
 
     #[test]
@@ -333,6 +340,6 @@ mod tests {
         for _ in 0..4 {
             rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), PI);
         }
-        assert!(rest.doubt() > FLAT / 3.0, "{} m", rest.doubt());
+        assert!(rest.possible_error() > FLAT / 3.0, "{} m", rest.possible_error());
     }
 }

@@ -1,4 +1,4 @@
-//! The contact of a tip that slides along a surface.
+//! The contact estimator `sliding`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -15,41 +15,42 @@ use super::contact_estimator::ContactEstimator;
 use super::shaft_rest::ShaftRest;
 use super::tip_table::{TipPosition, TipTable};
 
-/// Estimates where a tip touches, and how the surface goes there, from base angles and poses.
+/// Estimates the contact position of a sliding tip and the direction of the surface from base angles and poses.
 ///
-/// A base angle alone leaves the tip's place open by the direction of the contact force. But a tip slides where the surface goes, and
-/// the surface is square to the force: so what is estimated, from reading to reading, is the place and the surface's direction
-/// together, by an extended Kalman filter. Its errors fade while the tip slides, by a factor e for every 10 mm or so: that is by how
-/// much the place moves along the normal when the direction turns by one radian. At a light touch the place hardly
-/// depends on the direction, so that little is wrong to begin with.
+/// A base angle alone leaves the tip position undetermined by the direction of the contact force. But the force is
+/// perpendicular to the surface, along which the tip slides. An extended Kalman filter therefore estimates the position
+/// and the surface direction together. Its errors decrease by a factor e per 10 mm or so of sliding, which is the
+/// motion of the position along the normal per radian of direction. At a light contact the position hardly depends on
+/// the direction, so the initial error is small.
 ///
-/// Readings that do not go together with sliding, as when a tip springs off an edge, are left out; when the whisker has come to rest, it is
-/// taken to touch what goes on from where the tip left, if it can be.
+/// Readings inconsistent with sliding, as when a tip slips off an edge, are ignored. When the whisker is at rest again,
+/// it is assumed to touch a surface that continues from where the tip left, if that is possible.
 #[derive(Debug, Clone)]
 pub(super) struct Sliding {
     table: Arc<TipTable>,
     tip_radius: f64,
     length: f64,
-    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a counter-clockwise bend.
+    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a counter-clockwise
+    /// bend.
     usual_normal: f64,
-    /// By how much friction turns the force from the normal (rad).
+    /// Angle (rad) by which friction rotates the force from the normal.
     friction_angle: f64,
     angle: BaseAngle,
     contact_threshold: f64,
-    /// Samples for which the base angle must have been calm before a contact is estimated anew.
+    /// Number of calm samples required before a new contact is estimated.
     calm_samples: usize,
-    /// For how many samples it has been.
+    /// Number of successive calm samples so far.
     calm_for: usize,
     state: State,
     rest: ShaftRest,
-    /// Where the base was (m, world frame), and the undeflected shaft's direction (rad), one sample before.
+    /// Position of the base (m, world frame) and direction of the undeflected shaft (rad) at the previous sample.
     base_before: Option<(Point2, f64)>,
 }
 
 #[derive(Debug, Clone, Copy)]
 enum State {
     Free,
-    /// Touching, but not sliding; with where the tip slid last, if it did.
+    /// In contact but not sliding. `left` is the last position of sliding, if any.
     Unsettled {
         left: Option<Point2>,
         bend_sign: f64,
@@ -60,54 +61,55 @@ enum State {
 /// The contact of a sliding tip.
 #[derive(Debug, Clone, Copy)]
 struct SlidingContact {
-    /// Which way the whisker is bent: +1 counter-clockwise, −1 clockwise.
+    /// +1 for a counter-clockwise bend, −1 for a clockwise one.
     bend_sign: f64,
-    /// The tip's centre (m, world frame), and where it was one, two and three samples before.
+    /// The tip's centre (m, world frame), and its positions at the three previous samples.
     centre: Point2,
     before: [Point2; 3],
-    /// Direction of the surface's normal (rad, world frame), which points to the whisker's side.
+    /// Direction of the surface normal (rad, world frame), towards the whisker.
     normal: f64,
-    /// Of the normal's direction (rad) and the centre's place along the normal (m).
+    /// Covariance of the normal's direction (rad) and of the centre's position along the normal (m).
     covariance: Matrix2<f64>,
-    /// The same with what the filter's gain does not regard: that contacts give more or less.
+    /// The same covariance with the errors that the gain ignores: contacts with different compliance.
     considered: Matrix2<f64>,
-    /// The tip by the mechanics, for its changes with the base angle and the normal's direction.
+    /// The tip position by the mechanics, with its derivatives by the base angle and by the normal's direction.
     tip: TipPosition,
-    /// Where it came to touch (m, world frame), how far it has been from there since (m), and the variance of the place (m²) by which it
-    /// may not have been the tip that touched there.
+    /// Position of the first contact (m, world frame), and the largest distance from it since (m). The variance of the
+    /// position (m²) covers the case that the shaft and not the tip touched first.
     first: Point2,
     farthest: f64,
     first_variance: f64,
 }
 
-/// Variance of a surface's direction for every way along it (rad²/m): a bend of 0.1 rad within 10 mm.
+/// Growth of the variance of the surface direction per path (rad²/m): a curve of 0.1 rad in 10 mm.
 const BENDING: f64 = 1.0;
-/// The same for every sample (rad²): what keeps the filter from being sure for ever.
+/// Growth of that variance per sample (rad²). It keeps the filter from becoming certain.
 const UNREST: f64 = 1e-9;
-/// Variance of the place along the normal for every way along the surface (m²/m): contacts give more or less, and a tip that turns round
-/// drags the other way. While a tip slides back its errors grow as they fade otherwise.
+/// Growth of the variance of the position along the normal per path (m²/m). Contacts differ in compliance, and a tip
+/// that reverses lags to the other side. While a tip slides back, its errors grow as they otherwise decrease.
 const GIVING: f64 = 1.5e-6;
-/// Standard deviation (rad) of a surface's direction at the first touch.
+/// Standard deviation (rad) of the surface direction at the first contact.
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
-/// The same behind an edge, where a surface may go anywhere.
+/// The same after an edge, where a surface may have any direction.
 const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
-/// Standard deviation of a centre's place at a light touch (m).
+/// Standard deviation of the centre's position at a light contact (m).
 const FIRST_POSITION: f64 = 2e-5;
-/// How far off the place of a tip may be (m, standard deviation) where it came to touch and nothing was known of the surface: an edge may
-/// have met the shaft before it. And the way of the tip (m) on which that variance falls by a factor e, as it comes to the edge.
+/// Standard deviation (m) of the position at a first contact with an unknown surface, because an edge may have touched
+/// the shaft first. The path (m) on which this variance decreases by a factor e while the tip approaches the edge.
 const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
-/// How far a surface may lie off the place from which it is taken to go on (m), and for every way between.
+/// Distance (m) of a surface from the position from which it is assumed to continue: a constant, and a share of the
+/// distance between the two.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
-/// How far from there a whisker that stays bent comes to rest (m, standard deviation).
+/// Distance (m, standard deviation) from that position at which a bent whisker comes to rest.
 const LANDED_WITHIN: f64 = 0.02;
-/// The greatest doubt about the tip (m) with which its place is recorded.
-const MOST_DOUBT: f64 = 0.2e-3;
-/// An innovation farther off than this many standard deviations is not sliding.
+/// Largest possible error of the tip (m) at which its position is recorded.
+const MAX_POSSIBLE_ERROR: f64 = 0.2e-3;
+/// Innovations beyond this many standard deviations are inconsistent with sliding.
 const GATE: f64 = 4.0;
-/// Steps by which a surface is turned back (rad) to where the mechanics have a tip, and how many there may be.
+/// Step (rad) and maximum number of steps by which the surface is rotated back until the mechanics have a tip position.
 const TURN_BACK: f64 = 2.0 * PI / 180.0;
 const TURNS_BACK: i32 = 3;
-/// Time (s) for which the base angle must have been calm.
+/// Time (s) for which the base angle must be calm.
 const CALM_TIME: f64 = 0.02;
 
 impl Sliding {
@@ -131,12 +133,13 @@ impl Sliding {
         }
     }
 
-    /// The contact, while the tip slides.
+    /// The contact, if the tip slides.
     fn sliding_contact(&self) -> Option<&SlidingContact> {
         if let State::Settled(contact) = &self.state { Some(contact) } else { None }
     }
 
-    /// Where the tip's centre is (m, world frame), with its changes, on a surface whose normal has a direction (rad, world frame).
+    /// The tip's centre (m, world frame) with its derivatives, for a surface whose normal has the direction `normal`
+    /// (rad, world frame).
     fn tip(&self, angle: f64, base: Pose, normal: f64) -> Option<TipPosition> {
         let bend_sign = angle.signum();
         let force = (bend_sign * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
@@ -149,7 +152,7 @@ impl Sliding {
         })
     }
 
-    /// The first touch of a surface of which nothing is known.
+    /// The first contact with an unknown surface.
     fn first(&self, angle: f64, base: Pose) -> State {
         let bend_sign = angle.signum();
         let normal = base.heading + bend_sign * self.usual_normal;
@@ -159,11 +162,11 @@ impl Sliding {
         State::Settled(SlidingContact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
     }
 
-    /// One step of sliding.
+    /// One step of the filter while the tip slides.
     fn slide(&self, last: &SlidingContact, angle: f64, base: Pose, path: f64) -> State {
         let unsettled = State::Unsettled { left: Some(last.before[0]), bend_sign: last.bend_sign };
-        // At a light touch, noise may turn the surface farther than any force comes from that bends the whisker: it is as far off as it
-        // has to be, if it may be.
+        // At a light contact, noise may rotate the surface beyond every force direction that bends the whisker. The
+        // nearest possible direction is used if it is within the uncertainty.
         let deviation = last.covariance.m11.max(0.0).sqrt();
         let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= deviation);
         let mut directions = turns.map(|turn| last.normal - last.bend_sign * turn);
@@ -173,7 +176,7 @@ impl Sliding {
         let tangent = perpendicular(normal);
         let slid = (Point2::from(tip.tip_base) - last.centre).dot(&tangent);
         let along = last.centre + slid * tangent;
-        // A direction that is off takes the place along with it.
+        // An error of the direction shifts the position along with it.
         let transition = Matrix2::new(1.0, 0.0, -slid, 1.0);
         let mut covariance = transition * last.covariance * transition.transpose();
         covariance.m11 += BENDING * path + UNREST;
@@ -204,7 +207,7 @@ impl Sliding {
         })
     }
 
-    /// Coming to rest without having been free: the whisker may be caught.
+    /// The state of a whisker that comes to rest without having been free. It may be caught.
     fn come_to_rest(&self, left: Option<Point2>, angle: f64, base: Pose) -> State {
         let state = left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base));
         match state {
@@ -216,7 +219,8 @@ impl Sliding {
         }
     }
 
-    /// Coming to rest, after the tip left a surface at `left`, on what goes on from there.
+    /// The state of a whisker that comes to rest after its tip left a surface at `left`, on a surface that continues
+    /// from there.
     fn land(&self, left: Point2, angle: f64, base: Pose) -> State {
         let bend_sign = angle.signum();
         let unsettled = State::Unsettled { left: Some(left), bend_sign };
@@ -224,8 +228,8 @@ impl Sliding {
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
         let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
         let turned = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
-        // The tip, and how far the surface through it and the tip itself are from where the tip left, in standard deviations and with the
-        // direction's.
+        // The tip, the distance of the surface through it from `left`, and the total squared misfit in standard
+        // deviations, including that of the direction.
         let judged = |normal: f64| {
             let tip = self.tip(angle, base, normal)?;
             let gone = tip.tip_base - left.coords;
@@ -233,7 +237,8 @@ impl Sliding {
             let apart = (miss / off).powi(2) + gone.norm_squared() / LANDED_WITHIN.powi(2) + turned(normal);
             Some((tip, miss, apart))
         };
-        // From the usual direction on either way, as far as one may still be nearer than the nearest so far.
+        // The search goes outwards from the usual direction on both sides, as long as the direction's own misfit is
+        // below the best total.
         let mut nearest: Option<(f64, f64)> = None;
         for step in std::iter::once(0).chain((1..=LANDING_STEPS).flat_map(|steps| [-steps, steps])) {
             let normal = usual + f64::from(step) * LANDING_STEP;
@@ -314,7 +319,7 @@ impl ContactEstimator for Sliding {
             covariance_world: contact.position_covariance(self.tip_radius, self.angle.deviation),
             deviation: contact.position_deviation(&contact.covariance),
             recorded_deviation: contact.position_deviation(&contact.considered),
-            is_recordable: self.rest.doubt() < MOST_DOUBT,
+            is_recordable: self.rest.possible_error() < MAX_POSSIBLE_ERROR,
             contact_length: self.length,
         })
     }
@@ -322,7 +327,7 @@ impl ContactEstimator for Sliding {
     fn contact_at(&self, base_angle: f64, yaw: f64) -> Option<Vector2> {
         let contact = self.sliding_contact()?;
         let bend_sign = base_angle.signum();
-        // On the other side of the shaft it would be the mirror image.
+        // A bend to the other side is the mirror image.
         let normal = contact.bend_sign * (contact.normal - yaw);
         let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
         let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
@@ -330,27 +335,28 @@ impl ContactEstimator for Sliding {
     }
 }
 
-/// What is left of a tip's place (m) even when readings are exact.
+/// Standard deviation (m) of the tip position with exact readings.
 const SMOOTHNESS: f64 = 5e-6;
-/// Directions that are tried for a surface behind an edge: every 3° up to 105° either way.
+/// Directions that are tried for a surface after an edge: every 3° up to 105° to both sides.
 const LANDING_STEP: f64 = 3.0 * PI / 180.0;
 const LANDING_STEPS: i32 = 35;
-/// How far off a tip may be (m, standard deviation) whose whisker may be caught.
+/// Standard deviation (m) of the tip of a whisker that may be caught.
 const CAUGHT: f64 = 5e-3;
-/// Steps of the Gauss-Newton method from the best of them.
+/// Steps of the Gauss-Newton method from the best of these directions.
 const LANDING_ITERATIONS: usize = 6;
 
-/// How fast a surface through the tip moves away from `left` when its normal turns (m/rad).
+/// Rate (m/rad) at which a surface through the tip moves away from `left` when its normal rotates.
 fn miss_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {
     let normal = unit(normal);
     tip.by_direction.dot(&normal) + perpendicular(normal).dot(&(tip.tip_base - left.coords))
 }
 
 impl SlidingContact {
-    /// The contact of a tip that has just come to touch, with the direction of the normal (rad, world frame) and its variance (rad²).
+    /// Creates the contact of a tip that has just touched. `normal` (rad, world frame) is the direction of the surface
+    /// normal, and `variance` (rad²) its variance.
     fn begun(bend_sign: f64, tip: &TipPosition, normal: f64, variance: f64) -> Self {
         let centre = Point2::from(tip.tip_base);
-        // The place goes along with the direction.
+        // The position depends on the direction, so their errors are correlated.
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
             + Matrix2::new(0.0, 0.0, 0.0, FIRST_POSITION.powi(2));
@@ -369,14 +375,14 @@ impl SlidingContact {
         }
     }
 
-    /// Standard deviation of the place along the normal (m), by a covariance as the contact's own.
+    /// Standard deviation of the position along the normal (m), for a covariance like that of the contact.
     fn position_deviation(&self, covariance: &Matrix2<f64>) -> f64 {
         let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
         (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_DEVIATION)
     }
 
-    /// Covariance of the place touched (m², world frame) with a tip of this radius (m), when the base angle may be off by
-    /// `angle_deviation` (rad). Along the surface the place goes by what base angle and direction tell.
+    /// Covariance of the contact position (m², world frame) for a tip of this radius (m). `angle_deviation` (rad) is
+    /// the standard deviation of the base angle. Along the surface the position follows from base angle and direction.
     fn position_covariance(&self, tip_radius: f64, angle_deviation: f64) -> Matrix2<f64> {
         let normal = unit(self.normal);
         let tangent = perpendicular(normal);

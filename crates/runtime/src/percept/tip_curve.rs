@@ -1,4 +1,4 @@
-//! Where a whisker's tip touches, from its base angle alone.
+//! The contact position of a tip as a function of the base angle alone.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,36 +9,36 @@ use crate::geometry::rotate;
 use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
 
-/// The curve on which the tip touches: from the base angle alone to a place.
+/// The contact position of the tip as a function of the base angle alone.
 ///
-/// The base angle alone does not fix the tip; the direction of the contact force matters too. The curve takes the direction
-/// that it has while the platform swipes along a surface parallel to its heading, and is exact there; it is about 0.2 mm
-/// off for every degree between the surface and the heading. A bend the other way is taken to be the mirror image.
+/// The base angle alone does not determine the tip position, because the direction of the contact force also matters.
+/// The curve assumes the direction during contour following along a surface parallel to the heading. It is exact there,
+/// and in error by about 0.2 mm per degree between surface and heading. A bend to the other side is the mirror image.
 ///
-/// The curve is fitted to the mechanics of the whisker's own chain: solutions at equal steps of the base angle, joined by
-/// cubics that match them and their slopes.
+/// The curve interpolates equilibria of the whisker's chain of links at equal steps of the base angle, with cubic
+/// Hermite polynomials.
 #[derive(Debug, Clone)]
 pub struct TipCurve {
     step: f64,
-    /// The least base angle of which something is known (rad).
+    /// Smallest base angle (rad) with known contact.
     least: f64,
-    /// Places of contact for base angles 0, `step`, 2 `step`, …
+    /// Contact positions for the base angles 0, `step`, 2 `step`, …
     knots: Vec<Knot>,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Knot {
     contact_base: Vector2<f64>,
-    /// Change of the place for one step of the base angle.
+    /// Change of the position per step of the base angle.
     slope: Vector2<f64>,
-    /// Covariance of the place (m²) by what the base angle does not tell.
+    /// Covariance of the position (m²) due to the unknown surface direction.
     unknown: Matrix2<f64>,
 }
 
-/// Why a whisker has no tip model.
+/// The reason for which a whisker has no tip curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TipCurveError {
-    /// The whisker stands too nearly across the heading.
+    /// The whisker is too nearly perpendicular to the heading.
     #[error(
         "whisker {whisker} meets the force of a surface beside it {:.0} deg from head-on, and might buckle either way; sweep it by \
          {:.0} deg or more, and back if there is friction",
@@ -47,10 +47,10 @@ pub enum TipCurveError {
     HeadOn {
         /// The whisker.
         whisker: String,
-        /// Its sweep back, or forward if negative (rad), with the angle by which friction turns the force.
+        /// Sweep back, or forward if negative (rad), including the friction angle.
         sweep: f64,
     },
-    /// The chain has no equilibrium where the model needs one.
+    /// The chain has no equilibrium in the range of the curve.
     #[error(
         "whisker {whisker}: the shaft has no equilibrium beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
         base_angle * 1e6
@@ -63,23 +63,23 @@ pub enum TipCurveError {
     },
 }
 
-/// Greatest base moment of the model, in units of `EI / L`, of as much less as the shaft tapers; the reference target is 1.6
-/// of them.
+/// Largest base moment of the curve, in units of `EI / L` with the reduced stiffness of a tapered shaft. The reference
+/// target is 1.6 of them.
 const MOMENT_RANGE: f64 = 6.0;
-/// Steps of the base angle.
+/// Number of steps of the base angle.
 const STEPS: usize = 120;
-/// The least angle (rad) between the undeflected shaft and the normal of the surface: a shaft that meets a surface head-on
-/// may buckle to either side, so that no model can know.
+/// Smallest angle (rad) between the undeflected shaft and the surface normal. A shaft that meets a surface head-on may
+/// buckle to either side, so that its contact is undetermined.
 const LEAST_SWEEP: f64 = 0.087;
 
-/// The small turn of the surface (rad), away from head-on, by which the model finds what a turn does.
+/// Small rotation of the surface (rad), away from head-on, for the derivative by the surface direction.
 const TURN: f64 = 0.01;
-/// How far off a surface is from the direction that the model takes it to have (rad): a standard deviation. Swiping keeps the
-/// heading within about this of a surface that bends, and knows nothing of it at the first touch.
+/// Standard deviation (rad) of the surface direction from the assumed one. Contour following keeps the heading within
+/// about this angle of a curved surface. At the first contact the direction is unknown.
 const SURFACE_DEVIATION: f64 = 10.0 * PI / 180.0;
 
 impl TipCurve {
-    /// The curve of `whisker` on surfaces without friction.
+    /// Computes the curve of `whisker` on frictionless surfaces.
     ///
     /// # Errors
     /// As [`with_friction`](Self::with_friction).
@@ -87,11 +87,10 @@ impl TipCurve {
         Self::with_friction(whisker, 0.0)
     }
 
-    /// The curve of `whisker` on surfaces on which it slides forward with a coefficient of friction.
+    /// Computes the curve of `whisker` on surfaces along which it slides forward with this coefficient of friction.
     ///
     /// # Errors
-    /// [`TipCurveError`] when the whisker sticks rather than slides, or its chain has no equilibrium somewhere in the model's
-    /// range.
+    /// [`TipCurveError`] if the whisker sticks instead of sliding, or its chain has no equilibrium in the range.
     pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipCurveError> {
         let chain = ShaftChain::new(whisker);
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
@@ -106,7 +105,8 @@ impl TipCurve {
         for index in 0..=STEPS {
             let base_angle = step * index as f64;
             let mut guess = solution;
-            // Straight on from the last two solutions; the first step is that of a cantilever under a small force.
+            // Linear extrapolation from the last two solutions. The first step is that of a cantilever under a small
+            // force.
             if index == 1 {
                 guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
                 guess.tip_angle =
@@ -121,7 +121,7 @@ impl TipCurve {
                     .solve(base_angle, force_direction, &guess)
                     .ok_or_else(|| TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             }
-            // The tip is a half sphere of the wire's radius; it touches on the side that the force comes from.
+            // The tip is a hemisphere with the radius of the shaft. It touches on the side from which the force comes.
             let contact = solution.tip_base - tip_radius * normal;
             let turned = chain
                 .solve(base_angle, force_direction - TURN, &solution)
@@ -134,21 +134,21 @@ impl TipCurve {
         Ok(Self { step, least: 0.0, knots: knots(&contacts, &unknowns) })
     }
 
-    /// The curve that was measured.
+    /// Creates the curve of a measured whisker.
     #[must_use]
     pub fn calibrated(measured: &ContactCurve) -> Self {
         let [least, range] = measured.range;
         let step = range / STEPS as f64;
-        // Below what was measured there is only somewhere to steer by, and nothing that is told.
+        // Below the measured range the curve only serves steering. There is no contact estimate.
         let contacts: Vec<_> = (0..=STEPS).map(|index| measured.at((step * index as f64).max(least))).collect();
         let [xx, xy, yy] = measured.covariance;
         Self { step, least, knots: knots(&contacts, &vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1]) }
     }
 
-    /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise while the platform
-    /// swipes along a surface parallel to its heading, and of that surface's normal. A whisker swept forward is bent forward by
-    /// it, one swept back to the back; in the frame of the base the one is the mirror image of the other. Friction turns the
-    /// force to the back, as if the whisker were swept back by so much more.
+    /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise, and of the
+    /// surface normal, during contour following along a surface parallel to the heading. Such a surface bends a whisker
+    /// swept forward to the front and one swept back to the back, which are mirror images in the frame of the base.
+    /// Friction rotates the force to the back, like a larger sweep back.
     fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipCurveError> {
         let turn = friction.atan();
         let sweep = whisker.direction_body.abs() - FRAC_PI_2 + turn;
@@ -158,8 +158,8 @@ impl TipCurve {
         Ok((PI - sweep.abs(), PI - sweep.abs() + turn * sweep.signum()))
     }
 
-    /// Where the tip touches, in the frame of the whisker's base (m), at `base_angle` (rad). Beyond the range the
-    /// place at its end; not a number for a base angle that is none.
+    /// The contact position (m, frame of the base) at `base_angle` (rad). Beyond the range it is the position at the
+    /// end of the range. It is NaN for a NaN.
     #[must_use]
     pub fn contact_base(&self, base_angle: f64) -> Vector2<f64> {
         if base_angle.is_nan() {
@@ -173,11 +173,11 @@ impl TipCurve {
         Vector2::new(position.x, position.y * base_angle.signum())
     }
 
-    /// How far off [`contact_base`](Self::contact_base) may be (m), as a standard deviation, when the base angle may be
-    /// off by `angle_deviation` (rad): the root of the sum of both variances of [`covariance`](Self::covariance). Infinite beyond the
-    /// range; not a number for a base angle that is none.
+    /// Standard deviation (m) of [`contact_base`](Self::contact_base): the square root of the trace of
+    /// [`covariance`](Self::covariance). `angle_deviation` (rad) is that of the base angle. The result is infinite
+    /// beyond the range and NaN for a NaN.
     ///
-    /// It takes the tip to be what touches: when the shaft touches instead, at a corner, the place is farther off.
+    /// It assumes a tip contact. If the shaft touches a corner instead, the error is larger.
     #[must_use]
     pub fn deviation(&self, base_angle: f64, angle_deviation: f64) -> f64 {
         if base_angle.is_nan() {
@@ -186,9 +186,9 @@ impl TipCurve {
         self.covariance(base_angle, angle_deviation).map_or(f64::INFINITY, |covariance| covariance.trace().sqrt())
     }
 
-    /// Covariance of [`contact_base`](Self::contact_base) (m², frame of the base) when the base angle may be off by
-    /// `angle_deviation` (rad): what that moves the place by, and what a surface does that is not parallel to the heading but 10 deg
-    /// off. `None` beyond the range.
+    /// Covariance of [`contact_base`](Self::contact_base) (m², frame of the base). It is due to the base angle, with
+    /// the standard deviation `angle_deviation` (rad), and to the surface direction, with one of 10 deg. `None` beyond
+    /// the range.
     #[must_use]
     pub fn covariance(&self, base_angle: f64, angle_deviation: f64) -> Option<Matrix2<f64>> {
         if !(self.least..=self.range()).contains(&base_angle.abs()) {
@@ -202,13 +202,13 @@ impl TipCurve {
         Some(covariance)
     }
 
-    /// The greatest base angle of the curve (rad).
+    /// Largest base angle of the curve (rad).
     #[must_use]
     pub fn range(&self) -> f64 {
         self.step * (self.knots.len() - 1) as f64
     }
 
-    /// The knots on both sides of a base angle, and how far it is on its way from the first to the second (0 to 1).
+    /// The knots on both sides of a base angle, and its relative position between them (0 to 1).
     fn between(&self, base_angle: f64) -> (&Knot, &Knot, f64) {
         let last = self.knots.len() - 1;
         let along = (base_angle.abs() / self.step).min(last as f64);
@@ -218,7 +218,7 @@ impl TipCurve {
     }
 }
 
-/// Knots with slopes from their neighbours: central differences of fourth order inside, of lower order at the ends.
+/// Creates knots with slopes by finite differences: central ones of fourth order inside, of lower order at the ends.
 fn knots(contacts: &[Vector2<f64>], unknowns: &[Matrix2<f64>]) -> Vec<Knot> {
     let at = |index: usize| contacts[index];
     let last = contacts.len() - 1;

@@ -1,4 +1,4 @@
-//! Where a whisker's tip is, by its base angle and the direction of the contact force.
+//! The tip position as a function of the base angle and the direction of the contact force.
 
 use std::array;
 use std::collections::VecDeque;
@@ -10,48 +10,49 @@ use nalgebra::Vector2;
 use crate::mechanics::{Equilibrium, EquilibriumProblem, ShaftChain};
 use crate::rig::{Hinge, Shaft, Whisker};
 
-/// Where a whisker's tip is, by its base angle and the direction of the force at the tip: a table of equilibria of the whisker's own
-/// chain, with cubics through four of them each way in between.
+/// The tip position as a function of the base angle and the direction of the force at the tip. It is a table of
+/// equilibria of the whisker's chain of links, with cubic interpolation through four of them in each direction.
 ///
-/// Angles are in the frame of the base, for a bend that is counter-clockwise; one the other way is the mirror image. A force beyond
-/// head-on (180°) still bends a whisker the same way once it is bent; for small base angles there is none such.
+/// Angles are in the frame of the base, for a counter-clockwise bend. The other bend is the mirror image. A force
+/// beyond head-on (180°) still bends an already bent whisker the same way. For small base angles there is no such
+/// equilibrium.
 #[derive(Debug, Clone)]
 pub struct TipTable {
-    /// Step of the base angle from row to row (rad); the first row is the straight whisker.
+    /// Step of the base angle between rows (rad). The first row is the straight whisker.
     angle_step: f64,
-    /// Places of the tip's centre (m, frame of the base), direction after direction; not a number where there is no equilibrium.
+    /// Positions of the tip's centre (m, frame of the base), one direction after the other. NaN without an equilibrium.
     tips_base: Vec<Vector2<f64>>,
 }
 
-/// A tip's place, and how it changes.
+/// A tip position and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipPosition {
-    /// Place of the tip's centre (m, frame of the base).
+    /// Position of the tip's centre (m, frame of the base).
     pub tip_base: Vector2<f64>,
-    /// Its change with the base angle (m/rad).
+    /// Derivative by the base angle (m/rad).
     pub by_angle: Vector2<f64>,
-    /// Its change with the direction of the force (m/rad).
+    /// Derivative by the direction of the force (m/rad).
     pub by_direction: Vector2<f64>,
 }
 
-/// Greatest base moment, in units of `EI / L`.
+/// Largest base moment, in units of `EI / L`.
 const MOMENT_RANGE: f64 = 6.0;
-/// Steps of the base angle.
+/// Number of steps of the base angle.
 const ANGLE_STEPS: usize = 72;
-/// The first direction (rad), from where a force still drags at the tip, and the step to the next.
+/// First direction of the force (rad), at which a force still pulls at the tip, and the step between directions.
 const FIRST_DIRECTION: f64 = 50.0 * PI / 180.0;
 const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
-/// Directions in the table, up to 230°.
+/// Number of directions, up to 230°.
 const DIRECTIONS: usize = 91;
-/// Tables that are kept, of 100 kB each.
+/// Number of cached tables, of 100 kB each.
 const MOST_KEPT: usize = 16;
-/// Equilibria that are solved for side by side.
+/// Number of equilibria that are solved in parallel.
 const SIDE_BY_SIDE: usize = 4;
-/// Directions that a straight whisker bends under from the beginning, up to 174°.
+/// Number of directions, up to 174°, in which a force bends a straight whisker.
 const FROM_STRAIGHT: usize = 63;
 
 impl TipTable {
-    /// The table of `whisker`.
+    /// Computes the table of `whisker`.
     #[must_use]
     pub fn new(whisker: &Whisker) -> Self {
         let (chain, shaft) = (ShaftChain::new(whisker), &whisker.shaft);
@@ -72,12 +73,12 @@ impl TipTable {
         Self { angle_step, tips_base }
     }
 
-    /// The table of `whisker`. Those made last are kept: whiskers that differ by their place alone have the same, and so have most
-    /// runs of a process.
+    /// Returns the table of `whisker` from a cache of the newest tables. Whiskers that differ only in their mounting
+    /// position share a table, as do most runs of a process.
     #[must_use]
     pub fn shared(whisker: &Whisker) -> Arc<Self> {
         static KEPT: Mutex<VecDeque<(Shaft, Hinge, Arc<TipTable>)>> = Mutex::new(VecDeque::new());
-        // A table is complete before it is kept, so that no panic leaves one that is not.
+        // A table is complete before it is cached, so a panic cannot leave an incomplete one.
         let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same = |(shaft, hinge, _): &&(Shaft, Hinge, _)| (shaft, hinge) == (&whisker.shaft, &whisker.hinge);
         if let Some((.., table)) = kept().iter().find(is_same) {
@@ -90,8 +91,8 @@ impl TipTable {
         table
     }
 
-    /// The tip at a base angle (rad, 0 or more) under a force in a direction (rad). `None` beyond the table, and where there is no
-    /// such equilibrium.
+    /// The tip position at a base angle (rad, 0 or more) under a force in a direction (rad). `None` beyond the table or
+    /// without an equilibrium.
     #[must_use]
     pub fn at(&self, base_angle: f64, force_direction: f64) -> Option<TipPosition> {
         let row = Stencil::new(base_angle / self.angle_step, ANGLE_STEPS)?;
@@ -110,11 +111,11 @@ impl TipTable {
         }
         position.by_angle /= self.angle_step;
         position.by_direction /= DIRECTION_STEP;
-        // One place that is not a number makes all of them so.
+        // One NaN among the positions makes the result NaN.
         position.tip_base.x.is_finite().then_some(position)
     }
 
-    /// The greatest base angle of the table (rad).
+    /// Largest base angle of the table (rad).
     #[must_use]
     pub fn range(&self) -> f64 {
         self.angle_step * ANGLE_STEPS as f64
@@ -125,7 +126,7 @@ fn direction(index: usize) -> f64 {
     FIRST_DIRECTION + DIRECTION_STEP * index as f64
 }
 
-/// Equilibria under forces of some directions, from the straight whisker on.
+/// Equilibria under forces in some directions, by continuation from the straight whisker.
 fn from_straight(
     chain: &ShaftChain,
     whisker: &Whisker,
@@ -167,8 +168,8 @@ fn from_straight(
     columns
 }
 
-/// Equilibria under a force that is turned by one step more, from those before it at the same base angles; none where what is found
-/// belongs to another shape.
+/// Equilibria for the next force direction, by continuation from the previous two at the same base angles. `None` where
+/// the solution belongs to another branch.
 fn continued(
     chain: &ShaftChain,
     force_direction: f64,
@@ -187,7 +188,7 @@ fn continued(
     column
 }
 
-/// Whether an equilibrium may be the one that the last becomes when the force is turned a little.
+/// True if an equilibrium can be the continuation of the last one after a small rotation of the force.
 fn is_next(last: Option<&Equilibrium>, found: &Equilibrium) -> bool {
     last.is_some_and(|last| {
         let is_near =
@@ -196,12 +197,12 @@ fn is_next(last: Option<&Equilibrium>, found: &Equilibrium) -> bool {
     })
 }
 
-/// Straight on from two solutions.
+/// Linear extrapolation from two solutions.
 fn extrapolated(last: &Equilibrium, before: &Equilibrium) -> Equilibrium {
     Equilibrium { tip_angle: 2.0 * last.tip_angle - before.tip_angle, force: 2.0 * last.force - before.force, ..*last }
 }
 
-/// A place between the knots of an axis: the first of four, their weights, and the weights of the slope for one step.
+/// Cubic interpolation on one axis: the first of four knots, their weights, and the weights of the slope per step.
 struct Stencil {
     first: usize,
     weights: [f64; 4],

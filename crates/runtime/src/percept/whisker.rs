@@ -1,4 +1,4 @@
-//! One whisker as perceived.
+//! The perception of one whisker.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::tip_curve::TipCurve;
 
-/// One whisker as perceived: where it is, how it bends, what it has touched.
+/// The perception of one whisker: its pose, base angle, contact and local contour.
 #[derive(Debug, Clone)]
 pub(super) struct PerceivedWhisker {
     base_body: Vector2,
@@ -23,22 +23,22 @@ pub(super) struct PerceivedWhisker {
     pub(super) length: f64,
     pub(super) base_angle: FilteredBaseAngle,
     estimator: Box<dyn ContactEstimator>,
-    /// Where the whisker is touched by the model, if that can be told in this tick.
+    /// The estimated contact, if there is one in this tick.
     contact: Option<Contact>,
-    /// Where the tip is taken to be when the model cannot tell.
+    /// The tip position that is used without an estimate.
     curve: Arc<TipCurve>,
     contact_threshold: f64,
-    /// Standard deviation of the deflection (rad).
+    /// Standard deviation of the filtered base angle (rad).
     base_angle_deviation: f64,
     pub(super) base_world: Point2,
     pub(super) yaw: f64,
     pub(super) contour: LocalContour,
-    /// Where the base was when the contour was last added to.
+    /// Position of the base at the newest point of the contour (m, world frame).
     recorded_from: Point2,
-    /// Whether this tick's tip was recorded, and the last one's was.
+    /// True if this tick recorded the tip, and if the previous one did.
     pub(super) recorded: bool,
     recorded_before: bool,
-    /// The marks that this tick made, in their order.
+    /// The marks of this tick, in order.
     pub(super) marks: [Option<Mark>; Mark::ALL.len()],
 }
 
@@ -71,12 +71,12 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Filtered base angle (rad); not a number where the tick has brought no valid reading.
+    /// Filtered base angle (rad), or NaN if the tick has no valid reading.
     pub(super) fn base_angle(&self) -> f64 {
         self.base_angle.value()
     }
 
-    /// Takes a reading, sampled with the platform at `body`.
+    /// Adds a reading, sampled with the platform at `body`.
     pub(super) fn take(&mut self, reading: &Reading, body: Pose) {
         self.base_angle.take(reading.base_angle);
         if reading.base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
@@ -86,13 +86,13 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Where the base is, and the direction of the undeflected shaft, with the platform at `body`.
+    /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
     fn base(&self, body: Pose) -> Pose {
         let position = body.point_to_world(self.base_body.into());
         Pose { position, heading: body.heading + self.direction_body }
     }
 
-    /// Goes where it is with the platform at `body`, and estimates where it is touched.
+    /// Updates pose and contact of the whisker, with the platform at `body`.
     pub(super) fn update(&mut self, body: Pose) {
         let base = self.base(body);
         (self.base_world, self.yaw) = (base.position, base.heading);
@@ -103,7 +103,7 @@ impl PerceivedWhisker {
         self.marks = Default::default();
     }
 
-    /// Notes a mark, once a tick.
+    /// Records a mark, at most once per tick.
     pub(super) fn mark(&mut self, mark: Mark) {
         if !self.marks.contains(&Some(mark))
             && let Some(free) = self.marks.iter_mut().find(|free| free.is_none())
@@ -116,12 +116,12 @@ impl PerceivedWhisker {
         self.base_angle().abs() > self.contact_threshold
     }
 
-    /// Where the whisker is touched, if that can be told in this tick.
+    /// The estimated contact, if there is one in this tick.
     pub(super) fn contact(&self) -> Option<&Contact> {
         self.contact.as_ref()
     }
 
-    /// Where the tip touches, in the frame of the base (m).
+    /// Contact position of the tip (m, frame of the base).
     pub(super) fn tip_base(&self) -> Vector2 {
         match &self.contact {
             Some(contact) => rotate(contact.point_world - self.base_world, -self.yaw),
@@ -129,24 +129,24 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Where the tip would touch at another deflection, in the frame of the base (m): the surface turned as it is now, or, where
-    /// nothing is known of it, parallel to the heading.
+    /// Contact position of the tip at another base angle (m, frame of the base). The surface keeps its estimated
+    /// direction, or is parallel to the heading if the direction is unknown.
     pub(super) fn tip_at(&self, base_angle: f64) -> Vector2 {
         let touched = self.contact.and_then(|_| self.estimator.contact_at(base_angle, self.yaw));
         touched.unwrap_or_else(|| self.curve.contact_base(base_angle))
     }
 
-    /// Whether the place that is touched may be taken for one of the surface.
+    /// True if the contact position may be recorded.
     pub(super) fn is_recordable(&self) -> bool {
         self.contact.is_some_and(|contact| contact.is_recordable)
     }
 
-    /// Whether the whisker touches where that can be told.
+    /// True if the whisker is in contact and the contact position is estimated.
     pub(super) fn has_contact(&self) -> bool {
         self.is_touching() && self.contact.is_some()
     }
 
-    /// Where the tip touches, in the world frame (m).
+    /// Contact position of the tip (m, world frame).
     pub(super) fn tip_world(&self) -> Point2 {
         match &self.contact {
             Some(contact) => contact.point_world,
@@ -154,7 +154,7 @@ impl PerceivedWhisker {
         }
     }
 
-    /// How far off the tip may be (m): a standard deviation.
+    /// Standard deviation of the contact position (m).
     pub(super) fn tip_deviation(&self) -> f64 {
         match &self.contact {
             Some(contact) => contact.deviation,
@@ -162,12 +162,13 @@ impl PerceivedWhisker {
         }
     }
 
-    /// How far off a recorded tip may be (m): a standard deviation.
+    /// Standard deviation of a recorded tip (m).
     pub(super) fn recorded_deviation(&self) -> f64 {
         self.contact.map_or_else(|| self.tip_deviation(), |contact| contact.recorded_deviation)
     }
 
-    /// A vector of the contour (world frame) at the distance `back` (m) behind its end, once it is ready.
+    /// A vector of the contour (world frame) at the distance `back` (m) behind its end. `None` until the contour is
+    /// ready.
     pub(super) fn contour_at(&self, back: f64, quantity: ContourVector) -> Option<Vector2> {
         let tangent = self.contour.tangent_at(back)?;
         match quantity {
@@ -181,13 +182,15 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Whether there is a contour, and this tick or the one before recorded it. One that was left off begins anew when it is recorded again.
-    /// It is not ready from the tick behind the gap on, so that no state takes the old contour for the one that it is to record.
+    /// True if there is a contour and this tick or the previous one recorded it.
+    ///
+    /// An interrupted contour restarts when it is recorded again. It is already not ready in the tick after the
+    /// interruption, so that no state mistakes it for the new one.
     pub(super) fn has_current_contour(&self) -> bool {
         (self.recorded || self.recorded_before) && self.contour.is_ready()
     }
 
-    /// Takes the tip as a point of the contour if it touches. A contour that was left off begins anew.
+    /// Records the tip as a point of the contour during a contact. An interrupted contour restarts.
     pub(super) fn record(&mut self) {
         if self.recorded {
             return;
@@ -204,9 +207,9 @@ impl PerceivedWhisker {
     }
 }
 
-/// Standard deviation of a deflection (rad).
+/// Standard deviation of a filtered base angle (rad).
 pub(super) fn base_angle_deviation(sensing: &Sensing) -> f64 {
-    // Noise is filtered; that a reading is rounded is not, while the whisker is at rest.
+    // The filter reduces noise, but not the rounding error of a whisker at rest.
     let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
     noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt())
 }

@@ -1,6 +1,6 @@
-//! The spring at a whisker's base.
+//! The hinge at the base of a whisker.
 
-/// A torsion spring at a whisker's base.
+/// The base hinge of a whisker: a torsion spring with damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hinge {
     /// Stiffness (N m/rad).

@@ -1,4 +1,4 @@
-//! The rig: a platform, its whiskers and its sensors.
+//! The rig: a platform with whiskers and sensors.
 //!
 //! Body frame: origin at the platform's centre of mass, first axis forward (the heading), second axis to the left.
 
@@ -16,18 +16,19 @@ pub use whisker::Whisker;
 
 /// A platform with whiskers and sensors.
 ///
-/// [`Rig::default`] is the reference rig: the thesis's platform with one whisker of 100 mm a side, swept back by 15°.
+/// [`Rig::default`] is the reference rig: the baseline's platform with one whisker of 100 mm per side, swept back by
+/// 15°.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rig {
     /// The body that carries the whiskers.
     pub platform: Platform,
-    /// The whiskers, in the order in which samples list them.
+    /// The whiskers, in the order of the readings in a sample.
     pub whiskers: Vec<Whisker>,
-    /// What a sample reports, and how noisily.
+    /// Rates and noise of the sensors.
     pub sensing: Sensing,
 }
 
-/// A whisker that a policy binds and the rig does not have.
+/// A whisker that a policy binds and the rig lacks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the policy binds the whisker `{name}`, which the rig does not have; the rig has {known}")]
 pub struct UnknownWhisker {
@@ -36,10 +37,10 @@ pub struct UnknownWhisker {
 }
 
 impl Rig {
-    /// The indices of the whiskers called `names`, in the order of the names.
+    /// Returns the indices of the whiskers with these names, in their order.
     ///
     /// # Errors
-    /// [`UnknownWhisker`] when the rig has none of a name.
+    /// [`UnknownWhisker`] if the rig lacks one of them.
     pub fn indices(&self, names: &[String]) -> Result<Vec<usize>, UnknownWhisker> {
         let index = |name: &String| {
             self.whiskers.iter().position(|whisker| whisker.name == *name).ok_or_else(|| {
@@ -50,11 +51,11 @@ impl Rig {
         names.iter().map(index).collect()
     }
 
-    /// The indices of the whiskers called `names`, in the order of the names; `None` for one that the rig does not have and, by its
-    /// place in `optional`, may lack.
+    /// Returns the indices of the whiskers with these names, in their order. The result is `None` for a whisker that
+    /// the rig lacks and that `optional` allows to be missing.
     ///
     /// # Errors
-    /// [`UnknownWhisker`] when the rig lacks another.
+    /// [`UnknownWhisker`] if the rig lacks another one.
     pub fn fitted(&self, names: &[String], optional: &[bool]) -> Result<Vec<Option<usize>>, UnknownWhisker> {
         let optional = optional.iter().copied().chain(std::iter::repeat(false));
         let index = |(name, optional): (&String, bool)| match self.indices(std::slice::from_ref(name)) {

@@ -1,8 +1,8 @@
-//! The body that carries the whiskers, and its drives.
+//! The platform and its servos.
 
 use nalgebra::Point2;
 
-/// The body that carries the whiskers: a trapezoid in plan, symmetric about its axis.
+/// The body that carries the whiskers. Its footprint is a trapezoid that is symmetric about its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Platform {
     /// Width at the tail (m).
@@ -17,13 +17,13 @@ pub struct Platform {
     pub mass: f64,
     /// Moment of inertia about the vertical through the centre of mass (kg m²).
     pub inertia: f64,
-    /// Time constant with which the servos take up a commanded velocity or yaw rate (s).
+    /// Time constant of the first-order response of the servos to a commanded velocity or yaw rate (s).
     pub servo: f64,
-    /// Greatest speed of the centre of mass (m/s); no command asks for more.
+    /// Speed limit of the centre of mass (m/s). No command exceeds it.
     pub speed_limit: f64,
-    /// Greatest yaw rate (rad/s); no command asks for more.
+    /// Yaw rate limit (rad/s). No command exceeds it.
     pub yaw_rate_limit: f64,
-    /// The controller that turns the platform to a heading.
+    /// The yaw controller.
     pub yaw: YawController,
 }
 
@@ -59,14 +59,14 @@ impl Default for Platform {
     }
 }
 
-/// The controller that turns the platform to a heading: proportional and integral, with a limit.
+/// Gains of the yaw controller, a limited PI controller that rotates the platform to a heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YawController {
-    /// Yaw rate for a unit of error (1/s).
+    /// Yaw rate per error of the heading (1/s).
     pub proportional: f64,
-    /// Growth of the yaw rate for a unit of error (1/s²).
+    /// Growth of the yaw rate per error of the heading (1/s²).
     pub integral: f64,
-    /// Greatest yaw rate (rad/s) that it asks for.
+    /// Largest yaw rate of its output (rad/s).
     pub limit: f64,
 }
 

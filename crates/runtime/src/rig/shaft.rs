@@ -1,13 +1,13 @@
 //! An elastic shaft.
 
-/// An elastic shaft of round wire, straight at rest, as thick all along or evenly thinner towards the tip.
+/// An elastic shaft of round wire, straight at rest, uniform or with a linear taper towards the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
     /// Length from the base to the tip (m).
     pub length: f64,
-    /// Radius of the wire (m), at the base if it tapers.
+    /// Radius of the shaft (m), at the base if it tapers.
     pub radius: f64,
-    /// Radius at the tip (m), above 0 and at most `radius`, if the wire tapers.
+    /// Radius at the tip (m), above 0 and at most `radius`, if the shaft tapers.
     pub tip_radius: Option<f64>,
     /// Density (kg/m³).
     pub density: f64,
@@ -15,12 +15,12 @@ pub struct Shaft {
     pub young_modulus: f64,
     /// Ratio of the material's damping to its stiffness (s).
     pub damping: f64,
-    /// Rigid links that stand for the shaft in a simulation.
+    /// Number of rigid links in the chain of links.
     pub links: usize,
 }
 
 impl Shaft {
-    /// Radius at the tip over that at the base.
+    /// Ratio of the radii at the tip and at the base.
     #[must_use]
     pub fn taper(&self) -> f64 {
         self.tip_radius.map_or(1.0, |tip_radius| tip_radius / self.radius)
@@ -32,19 +32,19 @@ impl Shaft {
         self.radius * self.thickness(share)
     }
 
-    /// The radius at a share of the length, over that at the base.
+    /// Ratio of the radii at a share of the length and at the base.
     fn thickness(&self, share: f64) -> f64 {
         1.0 + (self.taper() - 1.0) * share
     }
 
-    /// Bending stiffness `E I` (N m²) of the round wire at the base, `I = π r⁴ / 4`.
+    /// Bending stiffness `E I` (N m²) at the base, with `I = π r⁴ / 4`.
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
         self.young_modulus * std::f64::consts::FRAC_PI_4 * self.radius.powi(4)
     }
 
-    /// Bending stiffness (N m²) of the uniform shaft whose tip turns as far under a small force there. For the taper `q` the
-    /// tip turns by `M L / (E I) (1 + 2 q) / (6 q²)` under a base moment `M`.
+    /// Bending stiffness (N m²) of the uniform shaft whose tip rotates equally under a small tip force. For the taper
+    /// `q` the tip rotates by `M L / (E I) (1 + 2 q) / (6 q²)` under a base moment `M`.
     #[must_use]
     pub fn tip_stiffness(&self) -> f64 {
         let taper = self.taper();
@@ -57,7 +57,8 @@ impl Shaft {
         self.length / self.links as f64
     }
 
-    /// Mass of a link (kg), counted from 0 at the root: that of the wire, which is a frustum of a cone there.
+    /// Mass of a link (kg), counted from 0 at the base. The link has the mass of its part of the shaft, which is a
+    /// frustum of a cone.
     #[must_use]
     pub fn link_mass(&self, link: usize) -> f64 {
         let [a, b] = [link, link + 1].map(|end| self.thickness(end as f64 / self.links as f64));
@@ -65,17 +66,17 @@ impl Shaft {
         uniform * ((a * a + a * b + b * b) / 3.0)
     }
 
-    /// Mean radius of a link (m), counted from 0 at the root.
+    /// Mean radius of a link (m), counted from 0 at the base.
     #[must_use]
     pub fn link_radius(&self, link: usize) -> f64 {
         self.radius_at((link as f64 + 0.5) / self.links as f64)
     }
 
-    /// Stiffness of every joint between links (N m/rad), from the root to the tip.
+    /// Stiffness of every joint between links (N m/rad), from the base to the tip.
     ///
-    /// The trapezoid rule for the bending energy: a joint bends as much as the two half links about it, `EI / l` for links
-    /// of length `l`, and `2 EI / l` at the root, where only half a link bends. Where the wire tapers, it is `1 / EI` over the
-    /// two half links that counts.
+    /// It is the trapezoid rule for the bending energy. A joint bends like the two half links beside it: `EI / l` for
+    /// links of length `l`, and `2 EI / l` at the base, where only half a link bends. For a tapered shaft, `1 / EI` is
+    /// averaged over the two half links.
     pub fn joint_stiffnesses(&self) -> impl Iterator<Item = f64> {
         let between = self.bending_stiffness() / self.link_length();
         (0..self.links).map(move |joint| {
@@ -106,14 +107,15 @@ impl Default for Shaft {
 mod tests {
     use super::*;
 
-    /// Shafts that are as thick all along, taper, and end in almost nothing.
+    /// Shafts that are uniform, tapered, and with almost no radius at the tip.
     fn shafts() -> impl Iterator<Item = Shaft> {
         let tips = [None, Some(0.125e-3), Some(0.06e-3), Some(0.01e-3)];
         let shaft = |tip_radius, links| Shaft { tip_radius, links, ..Shaft::default() };
         tips.into_iter().flat_map(move |tip_radius| [1, 2, 7, 16].map(|links| shaft(tip_radius, links)))
     }
 
-    /// The integral of a function of the radius along the shaft, from the base to a share of the length: the midpoint rule.
+    /// The integral of a function of the radius along the shaft, from the base to a share of the length, by the
+    /// midpoint rule.
     fn integral(shaft: &Shaft, to: f64, of: impl Fn(f64) -> f64) -> f64 {
         let width = to / 1e5;
         (0..100_000).map(|index| of(shaft.radius_at((f64::from(index) + 0.5) * width)) * width * shaft.length).sum()

@@ -1,4 +1,4 @@
-//! One whisker: where it sits, its shaft, and the spring at its base.
+//! A whisker: its mounting, shaft and base hinge.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,25 +7,25 @@ use nalgebra::Point2;
 use super::{Hinge, Shaft};
 use crate::calibration::Calibration;
 
-/// One whisker: where it sits, its shaft, and the spring at its base.
+/// A whisker: its mounting, shaft and base hinge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whisker {
-    /// The name by which policies bind to it.
+    /// The name by which policies bind the whisker.
     pub name: String,
-    /// Where the base sits, in the body frame (m).
+    /// Position of the base in the body frame (m).
     pub base_body: Point2<f64>,
     /// Direction of the undeflected shaft in the body frame (rad, counter-clockwise from the heading).
     pub direction_body: f64,
     /// The shaft.
     pub shaft: Shaft,
-    /// The base hinge, whose angle is the sensor's reading.
+    /// The base hinge. Its angle is the main reading of the sensor.
     pub hinge: Hinge,
-    /// What perception is told of it beyond that.
+    /// Measured properties that perception uses instead of those above.
     pub calibration: Option<Calibration>,
 }
 
 impl Whisker {
-    /// The reference whisker on one side of the reference platform: `side` is −1 for right, +1 for left.
+    /// The reference whisker on one side of the reference platform. `side` is −1 for right, +1 for left.
     pub(super) fn reference(name: &str, side: f64) -> Self {
         Self {
             name: name.to_owned(),
@@ -37,14 +37,14 @@ impl Whisker {
         }
     }
 
-    /// What stands for a whisker that a policy binds and a rig does not have: the reference whisker, on the centre of mass, along the
-    /// heading.
+    /// A substitute for a whisker that a policy binds and a rig lacks: the reference whisker at the centre of mass,
+    /// along the heading.
     #[must_use]
     pub fn unfitted() -> Self {
         Self { base_body: Point2::origin(), direction_body: 0.0, ..Self::reference("", 1.0) }
     }
 
-    /// The whisker as perception takes it to be: with the base hinge that was measured, if one was.
+    /// The whisker as perception models it: with the measured stiffness of the base hinge, if there is one.
     #[must_use]
     pub fn perceived(&self) -> Self {
         let mut whisker = self.clone();
@@ -54,20 +54,21 @@ impl Whisker {
         whisker
     }
 
-    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a bend to the left. A whisker swept
-    /// forward is bent forward by it, one swept back to the back; in the frame of the base the one is the mirror image of the other.
+    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a bend to the left.
+    /// Such a surface bends a whisker swept forward to the front and one swept back to the back, which are mirror
+    /// images in the frame of the base.
     #[must_use]
     pub fn usual_normal(&self) -> f64 {
         PI - (self.direction_body.abs() - FRAC_PI_2).abs()
     }
 
-    /// Which way such a surface bends it: +1 counter-clockwise, −1 clockwise.
+    /// Sign of the base angle at such a surface: +1 counter-clockwise, −1 clockwise.
     #[must_use]
     pub fn usual_bend_sign(&self) -> f64 {
         if self.direction_body.abs() < FRAC_PI_2 { -self.side() } else { self.side() }
     }
 
-    /// Which side of the platform the whisker points to: −1 for right, +1 for left.
+    /// Side of the platform to which the whisker points: −1 for right, +1 for left.
     #[must_use]
     pub fn side(&self) -> f64 {
         if self.direction_body < 0.0 { -1.0 } else { 1.0 }
