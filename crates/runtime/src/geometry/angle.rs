@@ -1,8 +1,8 @@
-//! Angles on the circle.
+//! Wrapping and differences of angles.
 
 use std::f64::consts::{PI, TAU};
 
-/// Brings an angle (rad) into (−π, π].
+/// Wraps an angle (rad) to (−π, π].
 ///
 /// ```
 /// use std::f64::consts::PI;
@@ -13,11 +13,11 @@ use std::f64::consts::{PI, TAU};
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
     let wrapped = angle - TAU * ((angle - PI) / TAU).ceil();
-    // The subtraction rounds, so an angle just above −π can come out on it.
+    // The subtraction rounds, so an angle just above −π can become −π.
     if wrapped <= -PI { wrapped + TAU } else { wrapped }
 }
 
-/// The shortest turn (rad, in (−π, π], positive counter-clockwise) that takes direction `from` to direction `to`.
+/// The smallest rotation (rad, in (−π, π], counter-clockwise positive) from the direction `from` to the direction `to`.
 ///
 /// ```
 /// use vibrissa_runtime::geometry::turn_between;

@@ -1,8 +1,8 @@
-//! Where a frame stands in the plane, and vectors.
+//! Poses in the plane, and rotations of vectors.
 
 use super::{Point2, Vector2};
 
-/// The vector (1, 0) turned counter-clockwise by `angle` (rad).
+/// The unit vector with the direction `angle` (rad, counter-clockwise from x).
 ///
 /// ```
 /// use vibrissa_runtime::geometry::{unit, Vector2};
@@ -14,20 +14,20 @@ pub fn unit(angle: f64) -> Vector2 {
     Vector2::new(cos, sin)
 }
 
-/// A vector turned counter-clockwise by `angle` (rad).
+/// Rotates a vector counter-clockwise by `angle` (rad).
 #[must_use]
 pub fn rotate(vector: Vector2, angle: f64) -> Vector2 {
     let (sin, cos) = angle.sin_cos();
     Vector2::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y)
 }
 
-/// A vector turned counter-clockwise by a quarter: for a direction of travel, the normal on its left.
+/// Rotates a vector counter-clockwise by 90°. For a direction of travel this is the normal on its left.
 #[must_use]
 pub fn perpendicular(vector: Vector2) -> Vector2 {
     Vector2::new(-vector.y, vector.x)
 }
 
-/// The pose of a local frame (a body, an object) in the world.
+/// The pose of a local frame (of a body or an object) in the world frame.
 ///
 /// ```
 /// use std::f64::consts::FRAC_PI_2;
@@ -38,42 +38,42 @@ pub fn perpendicular(vector: Vector2) -> Vector2 {
 /// ```
 #[derive(Copy, Clone, Debug, PartialEq, Default)]
 pub struct Pose {
-    /// The frame's origin, in world coordinates (m).
+    /// Origin of the frame in the world frame (m).
     pub position: Point2,
-    /// The direction of the frame's x axis, counter-clockwise from the world's (rad). It is not wrapped: it counts whole
-    /// turns.
+    /// Direction of the frame's x axis, counter-clockwise from that of the world (rad). It is not wrapped, so it counts
+    /// whole rotations.
     pub heading: f64,
 }
 
 impl Pose {
-    /// A pose of which nothing is known: every coordinate is not a number.
+    /// An unknown pose, with NaN in every coordinate.
     pub const UNKNOWN: Self = Self { position: Point2::new(f64::NAN, f64::NAN), heading: f64::NAN };
 
-    /// Whether every coordinate is a finite number.
+    /// True if every coordinate is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.position.x.is_finite() && self.position.y.is_finite() && self.heading.is_finite()
     }
 
-    /// World coordinates of a point given in this frame.
+    /// Transforms a point of this frame to the world frame.
     #[must_use]
     pub fn point_to_world(&self, point: Point2) -> Point2 {
         self.position + self.vector_to_world(point.coords)
     }
 
-    /// World components of a vector given in this frame.
+    /// Transforms a vector of this frame to the world frame.
     #[must_use]
     pub fn vector_to_world(&self, vector: Vector2) -> Vector2 {
         rotate(vector, self.heading)
     }
 
-    /// Coordinates in this frame of a point given in the world.
+    /// Transforms a point of the world frame to this frame.
     #[must_use]
     pub fn point_from_world(&self, point: Point2) -> Point2 {
         Point2::from(self.vector_from_world(point - self.position))
     }
 
-    /// Components in this frame of a vector given in the world.
+    /// Transforms a vector of the world frame to this frame.
     #[must_use]
     pub fn vector_from_world(&self, vector: Vector2) -> Vector2 {
         rotate(vector, -self.heading)

@@ -1,4 +1,4 @@
-//! From what a policy asks for to velocities: steering a body or a whisker, turning to a heading.
+//! Conversion of actions to commands: motion of a body or a whisker, rotation to a heading, pose hold.
 
 mod pi_controller;
 mod pose_hold;

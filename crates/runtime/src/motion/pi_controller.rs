@@ -1,41 +1,42 @@
 //! A PI controller with a limited output.
 
-/// A proportional-integral controller whose output is limited and whose integral stands still while it is.
+/// A proportional-integral controller with a limited output. The integral does not change while the output is at its
+/// limit (anti-windup).
 #[derive(Debug, Clone, PartialEq)]
 pub struct PiController {
-    /// Output for a unit of error.
+    /// Output per unit of error.
     proportional: f64,
-    /// Growth of the output in a second for a unit of error.
+    /// Growth of the output per second and unit of error.
     integral: f64,
-    /// Greatest magnitude of the output.
+    /// Largest magnitude of the output.
     limit: f64,
     accumulated: f64,
 }
 
 impl PiController {
-    /// A controller at rest.
+    /// Creates a controller at rest.
     #[must_use]
     pub fn new(proportional: f64, integral: f64, limit: f64) -> Self {
         Self { proportional, integral, limit, accumulated: 0.0 }
     }
 
-    /// The output for `error`, `period` seconds after the last.
+    /// Returns the output for `error`, `period` seconds after the last call.
     pub fn next(&mut self, error: f64, period: f64) -> f64 {
         let accumulated = self.accumulated + self.integral * error * period;
         let output = self.proportional * error + accumulated;
-        // An integral that grew while the output is at its limit would take as long to unwind.
+        // Otherwise the integral would need an equally long time to decrease again.
         if output.abs() <= self.limit {
             self.accumulated = accumulated;
         }
         output.clamp(-self.limit, self.limit)
     }
 
-    /// Begins with an output that is given while there is no error.
+    /// Sets the output for the error zero.
     pub fn begin_at(&mut self, output: f64) {
         self.accumulated = output.clamp(-self.limit, self.limit);
     }
 
-    /// Forgets the past.
+    /// Resets the integral.
     pub fn reset(&mut self) {
         self.accumulated = 0.0;
     }

@@ -1,4 +1,4 @@
-//! Holding the pose at which the platform came to rest.
+//! Pose hold: keeping the pose at which the platform has stopped.
 
 use crate::geometry::{Pose, Vector2, turn_between};
 use crate::rig::Rig;
@@ -6,31 +6,33 @@ use crate::signal::Command;
 
 use super::pi_controller::PiController;
 
-/// After so many time constants of its servos the platform has come to rest: a 20 000th of its speed is left.
+/// Number of time constants of the servos after which the platform has stopped. 1/20 000 of its speed is left.
 const BRAKING: f64 = 10.0;
-/// Output for a unit of error, times the servos' time constant and a control period together. The phase margin is at least 37° for any of
-/// these times.
+/// Output per unit of error, times the sum of the servos' time constant and the control period. The phase margin is at
+/// least 37° for all values of these times.
 const PROPORTIONAL: f64 = 0.45;
-/// The most speed (m/s) and yaw rate (rad/s) that a pose is held by: several times what a strongly bent whisker pushes.
+/// Largest speed (m/s) and yaw rate (rad/s) of the pose hold. They are several times the motion due to a strongly bent
+/// whisker.
 const SPEED_LIMIT: f64 = 0.02;
 const YAW_RATE_LIMIT: f64 = 0.2;
 
-/// Stops the platform, and then holds its pose against lasting forces, such as those of its own bent whiskers.
+/// Stops the platform and then holds its pose against lasting forces, such as those of its bent whiskers.
 ///
-/// A velocity servo that is told to stand still gives way: a force `F` moves it at `F T / m`, with its time constant `T`. While the
-/// platform brakes nothing is commanded. What it still moves by when it has come to rest is taken to be such a push, which has been there since
-/// the stop began: the pose that is held is set back by it, and the controllers begin with it.
+/// A velocity servo with the command zero is compliant: a force `F` moves it at the speed `F T / m`, with its time
+/// constant `T`. While the platform brakes, the command is zero. A speed that remains after braking is attributed to a
+/// force that has been constant since the stop. The held pose is therefore moved back by the resulting displacement,
+/// and the controllers start with the opposite speed.
 #[derive(Debug, Clone)]
 pub(super) struct PoseHold {
-    /// One for x, y and the heading.
+    /// Controllers of x, y and heading.
     controllers: [PiController; 3],
     /// Time between ticks (s).
     period: f64,
-    /// For how long the platform brakes (s).
+    /// Duration of braking (s).
     braking: f64,
-    /// For how long it had been told to stop (s) before the next tick.
+    /// Time since the stop (s), before the next tick.
     stopped: f64,
-    /// The pose of the tick before, while it brakes, and the one that is held, afterwards.
+    /// Pose of the previous tick, during braking, and the held pose afterwards.
     last: Pose,
     held: Option<Pose>,
 }
@@ -51,12 +53,13 @@ impl PoseHold {
         }
     }
 
-    /// Begins anew.
+    /// Starts a new stop.
     pub(super) fn reset(&mut self) {
         (self.stopped, self.last, self.held) = (0.0, Pose::UNKNOWN, None);
     }
 
-    /// The command of the next tick of a stop, with the platform at `body`. Where the pose is not a number it is to stand still.
+    /// Returns the command of the next tick of a stop, with the platform at `body`. For an unknown pose the command is
+    /// zero.
     pub(super) fn command(&mut self, body: Pose) -> Command {
         let last = std::mem::replace(&mut self.last, body);
         let stopped = self.stopped;
@@ -71,8 +74,8 @@ impl PoseHold {
         Command { velocity_world: Vector2::new(x, y), yaw_rate }
     }
 
-    /// Begins to hold, with the platform that has come from `last` to `body` in one tick, so long (s) after the stop began. The pose that is
-    /// held.
+    /// Starts the hold and returns the held pose. The platform has moved from `last` to `body` in one tick, `stopped`
+    /// (s) after the stop.
     fn begin(&mut self, last: Pose, body: Pose, stopped: f64) -> Pose {
         let (went, turned) =
             ((body.position - last.position) / self.period, turn_between(last.heading, body.heading) / self.period);

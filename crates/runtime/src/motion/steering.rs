@@ -1,4 +1,4 @@
-//! Steering a body or a whisker.
+//! Steering of a body or a whisker.
 
 use crate::geometry::{Pose, Vector2, turn_between};
 use crate::machine::{Action, Mover, Turn};
@@ -8,14 +8,14 @@ use crate::signal::Command;
 use super::pi_controller::PiController;
 use super::pose_hold::PoseHold;
 
-/// Turns actions into commands for one rig (the thesis's algorithms 1 and 2).
+/// Converts actions to commands for one rig (algorithms 1 and 2 of the baseline).
 #[derive(Debug, Clone)]
 pub struct Steering {
-    /// Where every whisker that the policy binds has its base, in the body frame (m).
+    /// Base positions of the whiskers that the policy binds (m, body frame).
     bases_body: Vec<Vector2>,
     yaw_controller: PiController,
     pose_hold: PoseHold,
-    /// Whether the last action was to stop.
+    /// True if the last action was a stop.
     is_stopped: bool,
     speed_limit: f64,
     yaw_rate_limit: f64,
@@ -24,7 +24,8 @@ pub struct Steering {
 }
 
 impl Steering {
-    /// Steering for `rig` and its whiskers with these indices, at rest. For `None`, which is no whisker of the rig, the body is moved.
+    /// Creates the steering of `rig` for its whiskers with these indices, at rest. For a whisker that the rig lacks
+    /// (`None`), the body is moved.
     ///
     /// # Panics
     /// If the rig has no whisker with such an index.
@@ -46,16 +47,16 @@ impl Steering {
         }
     }
 
-    /// The command for `action` with the platform at `body`.
+    /// Returns the command for `action` with the platform at `body`.
     ///
-    /// To stop is to stand still, and then to hold that pose. To hold is to keep to the last command, or on stopping.
+    /// [`Action::Stop`] brakes and then holds the pose. [`Action::Hold`] keeps the last command, or continues the stop.
     ///
-    /// The body always moves at the speed asked for. Turning swings a whisker's base about the body; the body's direction, but
-    /// not its speed, makes up for that. To make up for all of it, the body would have to be fastest just when a contour is
-    /// least known and the platform turns most; swiping then loses its object within a second.
+    /// The body always moves at the given speed. A rotation also moves a whisker's base about the body. Only the
+    /// direction of the body compensates for this, not its speed. A full compensation would make the body fastest when
+    /// it rotates most and knows the contour least, and contour following would lose its object within a second.
     ///
-    /// Speed and yaw rate never exceed the platform's limits. Whatever the action and the pose are, the command is finite: where
-    /// it would not be, as when the pose is not a number, the platform stands still.
+    /// Speed and yaw rate never exceed the platform's limits. The command is always finite. If it would not be, for
+    /// example for an unknown pose, the platform stands still.
     pub fn command(&mut self, action: &Action, body: Pose) -> Command {
         match *action {
             Action::Hold if self.is_stopped => self.last = self.pose_hold.command(body),
@@ -96,7 +97,7 @@ impl Steering {
     }
 }
 
-/// The vector at another length; zero stays zero.
+/// Scales a vector to a length. Zero remains zero.
 fn at_speed(speed: f64, along: Vector2) -> Vector2 {
     speed * along.try_normalize(0.0).unwrap_or_default()
 }

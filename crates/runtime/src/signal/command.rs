@@ -1,8 +1,8 @@
-//! What the loop tells the platform to do.
+//! The command to the platform.
 
 use crate::geometry::Vector2;
 
-/// Velocities that the platform's servos are to take up until the next command.
+/// The velocities that the platform's servos follow until the next command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {
     /// Velocity of the platform's centre of mass in the world frame (m/s).
@@ -12,10 +12,10 @@ pub struct Command {
 }
 
 impl Command {
-    /// Standing still.
+    /// The command to stand still.
     pub const STOP: Self = Self { velocity_world: Vector2::new(0.0, 0.0), yaw_rate: 0.0 };
 
-    /// Whether every component is a finite number.
+    /// True if every component is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.velocity_world.x.is_finite() && self.velocity_world.y.is_finite() && self.yaw_rate.is_finite()

@@ -1,4 +1,4 @@
-//! What crosses between a robot, real or simulated, and the loop that drives it: samples one way, commands the other.
+//! The interface between a robot, real or simulated, and its control loop: samples and commands.
 
 mod command;
 mod sample;

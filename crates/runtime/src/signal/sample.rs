@@ -1,30 +1,30 @@
-//! What the rig's sensors report at one instant.
+//! The samples of the rig's sensors.
 
 use crate::geometry::Pose;
 
-/// The most whiskers that a rig can have; samples have room for this many, so that no loop allocates.
+/// Maximum number of whiskers of a rig. Samples have a fixed size, so that no loop allocates memory.
 pub const MAX_WHISKERS: usize = 8;
 
-/// What the rig's sensors report at one instant.
+/// The readings of the rig's sensors at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Time since the start of the run (s).
     pub time: f64,
     /// Pose of the platform's centre of mass in the world frame.
     pub body: Pose,
-    /// One reading a whisker in the rig's order; those beyond the rig's whiskers stay at zero.
+    /// One reading per whisker in the order of the rig. Further entries are zero.
     pub whiskers: [Reading; MAX_WHISKERS],
 }
 
-/// One whisker's reading.
+/// The reading of one whisker.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Reading {
-    /// Angle of the base hinge (rad), positive when the shaft has turned counter-clockwise.
+    /// Base angle (rad), counter-clockwise positive.
     pub base_angle: f64,
-    /// Force across the shaft at the base (N), as the shaft passes it on to the platform, positive to the shaft's left; where
-    /// the rig measures it.
+    /// Shear (N): the force perpendicular to the undeflected shaft that it exerts on the platform, positive to its
+    /// left. `None` if the rig does not measure it.
     pub shear: Option<f64>,
-    /// Force along the shaft at the base (N), as the shaft passes it on to the platform, positive towards the tip; where the
-    /// rig measures it.
+    /// Axial force (N): the force along the undeflected shaft that it exerts on the platform, positive towards the tip.
+    /// `None` if the rig does not measure it.
     pub axial: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! What a quantity measures.
+//! Physical dimensions.
 
 use std::fmt;
 
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// A physical dimension: the exponents of length, angle, time and mass.
 ///
-/// Angle is a dimension of its own, so that an angle cannot pass for a plain number, nor a stiffness in N m/rad for a
-/// moment in N m.
+/// Angle is a separate dimension. An angle is therefore not a plain number, and a stiffness in N m/rad is not a moment
+/// in N m.
 ///
 /// ```
 /// use vibrissa_runtime::units::Dimension;
@@ -28,7 +28,7 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// A plain number: a ratio, a count.
+    /// A plain number, such as a ratio or a count.
     pub const NUMBER: Self = Self::new(0, 0, 0, 0);
     /// Length (m).
     pub const LENGTH: Self = Self::new(1, 0, 0, 0);
@@ -64,30 +64,30 @@ impl Dimension {
     pub const STIFFNESS: Self = Self::new(0, 0, -2, 1);
     /// Moment of inertia (kg m²).
     pub const INERTIA: Self = Self::new(2, 0, 0, 1);
-    /// Pressure, and an elastic modulus (Pa).
+    /// Pressure or elastic modulus (Pa).
     pub const PRESSURE: Self = Self::new(-1, 0, -2, 1);
     /// Density (kg/m³).
     pub const DENSITY: Self = Self::new(-3, 0, 0, 1);
 
-    /// The dimension with these exponents of length, angle, time and mass.
+    /// Creates the dimension with these exponents of length, angle, time and mass.
     #[must_use]
     pub const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
         Self { length, angle, time, mass }
     }
 
-    /// The dimension of a product; `None` if an exponent is out of range, which no physical quantity comes near.
+    /// The dimension of a product. `None` if an exponent overflows, as for no physical quantity.
     #[must_use]
     pub fn checked_mul(self, other: Self) -> Option<Self> {
         self.combine(other, i8::checked_add)
     }
 
-    /// The dimension of a quotient; `None` if an exponent is out of range.
+    /// The dimension of a quotient. `None` if an exponent overflows.
     #[must_use]
     pub fn checked_div(self, other: Self) -> Option<Self> {
         self.combine(other, i8::checked_sub)
     }
 
-    /// The dimension of a power; `None` if an exponent is out of range.
+    /// The dimension of a power. `None` if an exponent overflows.
     #[must_use]
     pub fn checked_powi(self, exponent: i8) -> Option<Self> {
         self.combine(Self::new(exponent, exponent, exponent, exponent), i8::checked_mul)
@@ -102,7 +102,7 @@ impl Dimension {
         })
     }
 
-    /// The dimension's name, if it is one of the common ones.
+    /// The name of a common dimension.
     #[must_use]
     pub fn name(self) -> Option<&'static str> {
         Some(match self {
@@ -130,7 +130,7 @@ impl Dimension {
         })
     }
 
-    /// The dimension with its article, to stand in a sentence: "a length", "an angle", "a quantity in kg m".
+    /// The dimension with its article, for a sentence: "a length", "an angle", "a quantity in kg m".
     #[must_use]
     pub fn phrase(self) -> String {
         match self.name() {
@@ -140,7 +140,7 @@ impl Dimension {
         }
     }
 
-    /// The SI unit of the dimension, in the spelling that [`parse_unit`](super::parse_unit) reads; empty for a plain
+    /// The SI unit of the dimension, in the syntax of [`parse_unit`](super::parse_unit). It is empty for a plain
     /// number.
     #[must_use]
     pub fn si_unit(self) -> String {
@@ -173,7 +173,7 @@ impl Dimension {
 }
 
 impl fmt::Display for Dimension {
-    /// Writes the name of a common dimension, and the SI unit of any other.
+    /// Writes the name of a common dimension, and the SI unit of any other one.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.name() {
             Some(name) => f.write_str(name),

@@ -1,6 +1,6 @@
-//! Units that exist, and that are not written here.
+//! Units that exist but are not supported.
 
-/// Such units, and what one of each is.
+/// Unsupported units and their values in supported units.
 const FOREIGN: &[(&str, &str)] = &[
     ("km", "1000 m"),
     ("dm", "100 mm"),
@@ -20,7 +20,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("kPa", "1000 Pa"),
 ];
 
-/// What one of a unit is in units that can be written, if it is one that exists and cannot: no misspelt one, whatever it looks like.
+/// Returns the value of an unsupported unit in supported ones. Such a unit is not a misspelt one.
 pub(super) fn foreign(name: &str) -> Option<&'static str> {
     FOREIGN.iter().find(|(symbol, _)| *symbol == name).map(|(_, same)| *same)
 }

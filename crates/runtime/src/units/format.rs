@@ -1,8 +1,8 @@
-//! Quantities back into text.
+//! Formatting of quantities.
 
 use super::{Dimension, parse_unit, units_of};
 
-/// Writes a value in SI units with a unit in which it is easy to read, to six significant digits: 0.05 m as `50 mm`.
+/// Formats a value in SI units with a unit that is easy to read, to six significant digits: 0.05 m as `50 mm`.
 ///
 /// ```
 /// use vibrissa_runtime::units::{Dimension, format_si};
@@ -19,7 +19,7 @@ pub fn format_si(value_si: f64, dimension: Dimension) -> String {
         let value = parse_unit(&name).ok()?.from_si(value_si);
         Some((name, value))
     });
-    // The first unit that gives a number between 1 and 1000; failing that, the one nearest to it.
+    // The first unit with a number between 1 and 1000 is used, or else the unit with the nearest one.
     let badness = |value: f64| match value.abs() {
         size if size == 0.0 || (1.0..1000.0).contains(&size) => 0.0,
         size => (size.log10() - 1.5).abs(),
@@ -30,7 +30,7 @@ pub fn format_si(value_si: f64, dimension: Dimension) -> String {
     )
 }
 
-/// A number to six significant digits, without trailing zeros.
+/// Formats a number to six significant digits, without trailing zeros.
 fn digits(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }

@@ -1,7 +1,6 @@
-//! Physical dimensions, units and quantities, as the scenario format and the policy language write them.
+//! Physical dimensions, units and quantities of the scenario format and the policy language.
 //!
-//! Inside the program every number is in SI units and radians; this module is the edge where text with a unit becomes
-//! such a number, and back.
+//! Internally, every number is in SI units and radians. This module converts between such numbers and text with units.
 
 mod dimension;
 mod foreign;

@@ -1,4 +1,4 @@
-//! A number with its unit.
+//! Quantities: numbers with units.
 
 use super::unit::{Unit, UnitError, parse_unit};
 use super::{Dimension, format_si};
@@ -6,14 +6,14 @@ use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
 
-/// A number with its unit, as written, and its value in SI units.
+/// A number with its unit and its value in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
-    /// The value in SI units and radians; always finite.
+    /// Value in SI units and radians. It is always finite.
     pub value_si: f64,
-    /// What it measures.
+    /// Dimension of the value.
     pub dimension: Dimension,
-    /// The unit it is written in; `None` for a plain number.
+    /// Unit in the text, or `None` for a plain number.
     pub unit: Option<Unit>,
 }
 
@@ -24,28 +24,28 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// Why a text is not a quantity. Ranges are byte ranges of the text that was given.
+/// The reason for which a text is not a quantity. Ranges are byte ranges of that text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum QuantityError {
     /// The text does not begin with a number.
     #[error("a quantity begins with a number")]
     Number {
-        /// The part that is no number.
+        /// The part that is not a number.
         range: Range<usize>,
     },
-    /// The number or its value in SI units is too large to hold.
+    /// The number or its value in SI units is too large.
     #[error("the number is too large")]
     TooLarge {
         /// The number.
         range: Range<usize>,
     },
-    /// The number is fine, its unit is not.
+    /// The unit is invalid.
     #[error(transparent)]
     Unit(#[from] UnitError),
 }
 
 impl QuantityError {
-    /// The byte range of the fault.
+    /// The byte range of the error.
     #[must_use]
     pub fn range(&self) -> Range<usize> {
         match self {
@@ -54,7 +54,7 @@ impl QuantityError {
         }
     }
 
-    /// What to write instead.
+    /// A hint: the text to write instead.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
@@ -65,11 +65,11 @@ impl QuantityError {
     }
 }
 
-/// Reads a quantity: a decimal number and, for all but plain numbers, a [unit](parse_unit). A space between the two is
-/// usual and not required.
+/// Parses a quantity: a decimal number and, except for plain numbers, a [unit](parse_unit). The space between the two
+/// is optional.
 ///
 /// # Errors
-/// [`QuantityError`], with the place of the fault.
+/// [`QuantityError`] with the position of the error.
 ///
 /// ```
 /// use vibrissa_runtime::units::{Dimension, parse_quantity};
@@ -96,7 +96,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, QuantityError> {
     Ok(Quantity { value_si, dimension: unit.map_or(Dimension::NUMBER, Unit::dimension), unit })
 }
 
-/// Bytes of the decimal number that the text begins with. An `e` belongs to it only with digits behind.
+/// Number of bytes of the decimal number at the start of the text. An `e` belongs to it only if digits follow.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let sign = |from: usize| usize::from(text[from..].starts_with(['+', '-']));

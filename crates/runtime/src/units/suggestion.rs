@@ -1,8 +1,8 @@
-//! "Did you mean …?"
+//! Suggestions for misspelt names.
 
-/// The candidate that a misspelt name was probably meant to be: one that differs by nothing but capitals, or else the nearest by edit
-/// distance, where a swap of neighbours counts as one edit. `None` if more than a third of the name would change (one edit is always
-/// allowed).
+/// Returns the most probable candidate for a misspelt name: one that differs only in case, or else the nearest by edit
+/// distance. A swap of neighbours counts as one edit. `None` if more than a third of the name would change. One edit is
+/// always allowed.
 ///
 /// ```
 /// use vibrissa_runtime::units::suggest;

@@ -1,4 +1,4 @@
-//! Units: the table of simple ones and the grammar of compounds.
+//! Units: the table of simple units and the parser of compound ones.
 
 use super::Dimension;
 use super::foreign::foreign;
@@ -6,10 +6,10 @@ use super::suggest;
 use std::ops::Range;
 use thiserror::Error;
 
-/// A unit of measurement: a dimension, and how many SI units one of it is.
+/// A unit of measurement: a dimension and a factor to SI units.
 ///
-/// The factor is kept as a quotient of two numbers that are exact for every unit but the degree, so that 72 mm is the
-/// f64 nearest to 0.072 m.
+/// The factor is a quotient of two numbers. Both are exact for every unit except the degree, so that 72 mm is the f64
+/// nearest to 0.072 m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     dimension: Dimension,
@@ -17,7 +17,7 @@ pub struct Unit {
     denominator: f64,
 }
 
-/// Every simple unit, the most usual of a dimension first.
+/// All simple units, the most common of a dimension first.
 const SIMPLE: &[(&str, Unit)] = &[
     ("mm", Unit::new(Dimension::LENGTH, 1.0, 1e3)),
     ("m", Unit::new(Dimension::LENGTH, 1.0, 1.0)),
@@ -47,19 +47,19 @@ impl Unit {
         Self { dimension, numerator, denominator }
     }
 
-    /// What the unit measures.
+    /// The dimension of the unit.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         self.dimension
     }
 
-    /// A value in this unit, in SI units.
+    /// Converts a value in this unit to SI units.
     #[must_use]
     pub fn to_si(self, value: f64) -> f64 {
         value * self.numerator / self.denominator
     }
 
-    /// A value in SI units, in this unit.
+    /// Converts a value in SI units to this unit.
     #[must_use]
     pub fn from_si(self, value_si: f64) -> f64 {
         value_si * self.denominator / self.numerator
@@ -82,23 +82,23 @@ impl Unit {
     }
 }
 
-/// What to write instead of a name that is no unit.
+/// A replacement for a name that is not a unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Instead {
-    /// One of the unit, which exists, is so much of a known one.
+    /// The unit exists but is not supported. This is its value in a supported unit.
     Same(&'static str),
-    /// The known unit that was probably meant.
+    /// The supported unit that was probably meant.
     Meant(String),
 }
 
 impl Instead {
-    /// What to write instead of `name` among these units.
+    /// Returns a replacement for `name` among these units.
     pub fn of<'u>(name: &str, units: impl IntoIterator<Item = &'u str>) -> Option<Self> {
         let same = foreign(name).map(Self::Same);
         same.or_else(|| suggest(name, units).map(|meant| Self::Meant(meant.to_owned())))
     }
 
-    /// The same as a hint.
+    /// Formats the replacement as a hint.
     pub fn hint(&self, name: &str) -> String {
         match self {
             Self::Same(same) => format!("1 {name} is {same}"),
@@ -107,38 +107,38 @@ impl Instead {
     }
 }
 
-/// Why a text is not a unit. Ranges are byte ranges of the text that was given.
+/// The reason for which a text is not a unit. Ranges are byte ranges of that text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum UnitError {
-    /// There is no text where a unit is due.
+    /// The unit is missing.
     #[error("a unit is missing")]
     Missing {
-        /// Where the unit should stand.
+        /// Expected position of the unit.
         range: Range<usize>,
     },
-    /// A name that is no unit.
+    /// A name is not a unit.
     #[error("there is no unit `{name}`")]
     Unknown {
-        /// The name as written.
+        /// The name in the text.
         name: String,
-        /// Where it stands.
+        /// Its position.
         range: Range<usize>,
-        /// What to write instead, if that is clear.
+        /// Replacement, if there is a probable one.
         instead: Option<Instead>,
     },
-    /// An exponent that is no small whole number.
+    /// An exponent is not a small whole number.
     #[error("an exponent must be a whole number from -9 to 9")]
     Exponent {
-        /// Where it stands.
+        /// Its position.
         range: Range<usize>,
     },
-    /// A product behind a slash, which reads two ways.
+    /// A product follows a slash, which is ambiguous.
     #[error("it is unclear whether this factor is divided by or multiplied with")]
     Ambiguous {
-        /// The factor in doubt.
+        /// The ambiguous factor.
         range: Range<usize>,
     },
-    /// The unit is beyond what numbers can hold.
+    /// The factor or the dimension of the unit overflows.
     #[error("the unit has too many factors")]
     TooLarge {
         /// The whole unit.
@@ -147,7 +147,7 @@ pub enum UnitError {
 }
 
 impl UnitError {
-    /// The byte range of the fault.
+    /// The byte range of the error.
     #[must_use]
     pub fn range(&self) -> Range<usize> {
         match self {
@@ -159,7 +159,7 @@ impl UnitError {
         }
     }
 
-    /// What to write instead.
+    /// A hint: the text to write instead.
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
@@ -176,7 +176,7 @@ impl UnitError {
         }
     }
 
-    /// The same error in a text that has `offset` more bytes in front.
+    /// Shifts the ranges of the error by `offset` bytes.
     #[must_use]
     pub(super) fn shifted(mut self, offset: usize) -> Self {
         match &mut self {
@@ -190,11 +190,11 @@ impl UnitError {
     }
 }
 
-/// Reads a unit: simple ones (`mm`, `deg`, `%`), powers (`m^2`), products (`N m`) and quotients (`mm/s`, `N m/rad`,
-/// `1/s`). After a slash exactly one factor is divided by. A `µ` is read as `u`.
+/// Parses a unit: simple units (`mm`, `deg`, `%`), powers (`m^2`), products (`N m`) and quotients (`mm/s`, `N m/rad`,
+/// `1/s`). A slash applies to exactly one factor. `µ` is read as `u`.
 ///
 /// # Errors
-/// [`UnitError`], with the place of the fault and, for a misspelt unit, the probable one.
+/// [`UnitError`] with the position of the error and a replacement for a misspelt unit.
 ///
 /// ```
 /// use vibrissa_runtime::units::{Dimension, parse_unit};
@@ -203,7 +203,7 @@ impl UnitError {
 /// assert_eq!(unit.to_si(50.0), 0.05);
 /// ```
 pub fn parse_unit(text: &str) -> Result<Unit, UnitError> {
-    // Most are, and need not be taken apart.
+    // Most units are simple, and need no parsing.
     if let Some(unit) = simple(text) {
         return Ok(unit);
     }
@@ -237,12 +237,12 @@ pub fn parse_unit(text: &str) -> Result<Unit, UnitError> {
     Ok(unit)
 }
 
-/// The simple unit with this symbol.
+/// Returns the simple unit with this symbol.
 fn simple(symbol: &str) -> Option<Unit> {
     SIMPLE.iter().find(|(known, _)| *known == symbol).map(|&(_, unit)| unit)
 }
 
-/// The words of a text with the byte offset of each, counted from `offset`.
+/// The words of a text, each with its byte offset plus `offset`.
 fn words(text: &str, offset: usize) -> impl Iterator<Item = (&str, usize)> {
     text.split_inclusive(char::is_whitespace)
         .scan(offset, |start, piece| {
@@ -253,7 +253,7 @@ fn words(text: &str, offset: usize) -> impl Iterator<Item = (&str, usize)> {
         .filter(|(word, _)| !word.is_empty())
 }
 
-/// Reads one factor, a simple unit with or without an exponent, that starts at byte `start`.
+/// Parses one factor at byte `start`: a simple unit with an optional exponent.
 fn parse_power(text: &str, start: usize) -> Result<Unit, UnitError> {
     let (name, exponent) = text.split_once('^').map_or((text, None), |(name, exponent)| (name, Some(exponent)));
     let spelt = name.replace(['\u{b5}', '\u{3bc}'], "u");
@@ -267,7 +267,7 @@ fn parse_power(text: &str, start: usize) -> Result<Unit, UnitError> {
     unit.powi(power).ok_or(UnitError::TooLarge { range: start..start + text.len() })
 }
 
-/// The units in which a quantity of this dimension is usually written, the most usual first.
+/// The common units of a dimension, the most common first.
 #[must_use]
 pub fn units_of(dimension: Dimension) -> Vec<String> {
     let simple = SIMPLE.iter().filter(|(_, unit)| unit.dimension == dimension).map(|(symbol, _)| (*symbol).to_owned());
@@ -280,14 +280,14 @@ pub fn units_of(dimension: Dimension) -> Vec<String> {
     }
 }
 
-/// What to write instead of a unit that does not exist where a quantity of `dimension` is due, as a hint.
+/// Returns a hint for a unit that does not exist, if a quantity of `dimension` is expected.
 #[must_use]
 pub fn unit_hint(name: &str, dimension: Dimension) -> Option<String> {
     let units = units_of(dimension);
     Instead::of(name, units.iter().map(String::as_str)).map(|instead| instead.hint(name))
 }
 
-/// Every unit that has a name of its own, such as `mm`, `deg` and `%`.
+/// The symbols of all simple units, such as `mm`, `deg` and `%`.
 pub fn simple_units() -> impl Iterator<Item = &'static str> {
     SIMPLE.iter().map(|&(symbol, _)| symbol)
 }
