@@ -8,7 +8,7 @@ use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
 use crate::signal::{Command, Sample};
 
-/// The reason for which a policy cannot control a rig.
+/// An error of binding a policy to a rig.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BindError {
     /// The rig lacks a whisker.

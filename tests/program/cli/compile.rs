@@ -71,8 +71,8 @@ fn what_cannot_be_compiled_or_is_no_sound_machine_is_refused() {
     let bad = "tests/fixtures/policies/bad/name_unknown.fsm";
     for (arguments, expected) in [
         (vec!["check", &damaged], "is damaged"),
-        (vec!["check", &cut], "cut off"),
-        (vec!["check", &as_text], "a copy that took it for text"),
+        (vec!["check", &cut], "truncated"),
+        (vec!["check", &as_text], "a copy in text mode"),
         (vec!["run", "scenarios/disk.yaml", "--policy", &empty], "does not begin as compiled machines do"),
         (vec!["run", "scenarios/disk.yaml", "--policy", &damaged], "is damaged"),
         (vec!["compile", bad, "-o", &cut], "P0201"),

@@ -18,7 +18,7 @@ pub struct Calibration {
 
 /// A value of a calibration that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{key}` cannot be used: a number is not finite, a range is none, or a variance is negative; calibrate again")]
+#[error("`{key}` cannot be used: a number is not finite, a range is empty, or a variance is negative; calibrate again")]
 pub struct UnsoundCalibration {
     /// The key of the value.
     pub key: &'static str,

@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn the_turn_there_is_the_opposite_of_the_turn_back() {
+    fn the_rotation_back_is_the_opposite_of_the_rotation_there() {
         assert!((turn_between(0.3, 6.1) + turn_between(6.1, 0.3)).abs() < 1e-15);
     }
 }

@@ -191,13 +191,13 @@ impl Activity {
     fn take_fallback<S: Senses>(
         &mut self,
         program: &Program,
-        (stuck, cause): (usize, Cause),
+        (state_left, cause): (usize, Cause),
         now: f64,
         senses: &mut S,
         action: &mut Action,
     ) -> (Result<(), Failure>, Option<Fallback>) {
-        let went = match program.fallback_of(stuck) {
-            None => return (Err(cause.failure(&program.states[stuck].name)), None),
+        let outcome = match program.fallback_of(state_left) {
+            None => return (Err(cause.failure(&program.states[state_left].name)), None),
             Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
@@ -215,7 +215,7 @@ impl Activity {
                 acted.map_err(|(state, non_finite)| Cause::NotFinite(non_finite).failure(&program.states[state].name))
             }
         };
-        (went, Some(Fallback { left: stuck, cause }))
+        (outcome, Some(Fallback { left: state_left, cause }))
     }
 
     /// The target of the first enabled transition of the state `from`, or of the global transitions for `None`.

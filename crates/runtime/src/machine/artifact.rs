@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 
 use super::program::Program;
 use super::source_map::SourceMap;
-use super::verify::Unsound;
+use super::unsound::Unsound;
 
 /// The first bytes of every artifact. No text begins with them.
 pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
@@ -52,13 +52,13 @@ pub struct Origin {
     pub compiler: String,
 }
 
-/// The reason for which bytes are not a valid artifact, or an artifact cannot be written.
+/// An error of reading or writing an artifact.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ArtifactError {
     /// The bytes do not begin with [`MAGIC`].
     #[error(
-        "this does not begin as compiled machines do: it is another file, or was damaged, as by a copy that took it for text; \
-         copy it again as it is, or make it from its policy with `vibrissa compile`"
+        "this file does not begin as compiled machines do: it is another file, or a copy in text mode has damaged it; copy \
+         it in binary mode, or compile it from its policy with `vibrissa compile`"
     )]
     NotAnArtifact,
     /// The artifact has another format.
@@ -70,22 +70,24 @@ pub enum ArtifactError {
         found: u32,
     },
     /// Bytes are missing or follow the end.
-    #[error("the machine is cut off or has something behind its end; copy it again, or compile the policy again")]
+    #[error("the machine is truncated or has bytes after its end; copy it again, or compile the policy again")]
     Length,
     /// It is larger than [`ARTIFACT_LIMIT`].
     #[error("the machine is larger than {ARTIFACT_LIMIT} bytes; make the policy smaller")]
     TooLarge,
     /// The checksum does not match the content.
-    #[error("the machine is damaged, its checksum does not hold; copy it again, or compile the policy again")]
+    #[error("the machine is damaged, its checksum does not match; copy it again, or compile the policy again")]
     Checksum,
     /// The content cannot be decoded in this format.
-    #[error("the machine cannot be decoded, although its checksum holds; compile the policy with this program")]
+    #[error("the machine cannot be decoded, although its checksum matches; compile the policy with this program")]
     Content,
     /// A text in [`Origin`] is too long or has control characters.
-    #[error("the machine names {0:?} as its origin, which is no single line of {TEXT_LIMIT} bytes; rename the policy")]
+    #[error(
+        "the machine names {0:?} as its origin, which is not one line of at most {TEXT_LIMIT} bytes; rename the policy"
+    )]
     Origin(String),
     /// The number of positions differs from the number of states and transitions.
-    #[error("the machine's source map is that of another policy; compile the policy again")]
+    #[error("the machine's source map belongs to another policy; compile the policy again")]
     Positions,
     /// The program is not safe to run.
     #[error("the machine is not safe to run: {0}; compile the policy again")]

@@ -14,7 +14,7 @@ pub struct Fallback {
     pub cause: Cause,
 }
 
-/// The cause for which a machine cannot continue in a state.
+/// The cause of a fallback transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Cause {
     /// A number of the state's action was not finite.

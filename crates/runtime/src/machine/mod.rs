@@ -18,6 +18,7 @@ mod senses;
 mod source_map;
 mod stateful;
 mod tick;
+mod unsound;
 mod verify;
 
 pub use activity::TIME_SLACK;
@@ -36,4 +37,4 @@ pub use program::{
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{Position, SourceMap, StatePosition};
 pub use tick::{Failure, MICROSTEP_LIMIT, Machine, Status, Tick};
-pub use verify::Unsound;
+pub use unsound::Unsound;

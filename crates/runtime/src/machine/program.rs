@@ -161,7 +161,7 @@ pub enum Target {
     Failure(Arc<str>),
 }
 
-/// The reason for which a parameter cannot be set.
+/// An error of setting a parameter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SetError {
     /// The policy has no such parameter.

@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn after_what_is_not_a_number_a_filter_goes_on_and_a_controller_has_integrated_nothing() {
+    fn after_a_non_finite_value_a_filter_continues_and_a_controller_has_integrated_nothing() {
         let (memory, _) = low_pass([0.0; 3], 0.0, 1.0, 2.0);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let (kept, shown) = low_pass(memory, 0.1, bad, 2.0);
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_shows() {
+    fn a_nan_appears_in_the_output() {
         assert!(low_pass([1.0, 0.0, 0.0], 0.1, f64::NAN, 1.0).1.is_nan());
         assert!(pid([1.0, 0.0, 0.0, 0.0], 0.1, f64::NAN, [1.0, 0.0, 0.0, 1.0]).1.is_nan());
         assert!(pid([1.0, 0.0, 0.0, 0.0], 0.1, 1.0, [1.0, 0.0, 0.0, f64::NAN]).1.is_nan());

@@ -20,7 +20,7 @@ pub struct Machine {
     failure: Option<Failure>,
 }
 
-/// The reason for which a machine has failed.
+/// The failure of a machine.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// The policy took a transition to `Failure` with this reason.
@@ -112,9 +112,9 @@ impl Machine {
             return Tick { action: Action::Stop, status: Status::Failed, fallback: None };
         }
         let mut tick = Tick { action: Action::Hold, status: Status::Running, fallback: None };
-        let (went, fallback) = self.activity.tick(&self.program, senses, &mut tick.action);
+        let (outcome, fallback) = self.activity.tick(&self.program, senses, &mut tick.action);
         tick.fallback = fallback;
-        if let Err(failure) = went {
+        if let Err(failure) = outcome {
             self.failure = Some(failure);
             tick.action = Action::Stop;
             tick.status = Status::Failed;

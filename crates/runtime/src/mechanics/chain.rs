@@ -70,11 +70,12 @@ impl ShaftChain {
 
     /// Solves several problems like [`solve`](Self::solve). They are independent, so a processor can execute their
     /// chains in parallel.
-    pub fn solve_each<const N: usize>(&self, sought: [Option<EquilibriumProblem>; N]) -> [Option<Equilibrium>; N] {
-        let mut unknowns = sought
-            .map(|sought| sought.map_or((0.0, 0.0), |EquilibriumProblem { guess, .. }| (guess.tip_angle, guess.force)));
-        let directions = sought.map(|sought| unit(sought.map_or(0.0, |sought| sought.force_direction)));
-        let (mut open, mut found) = (sought, [None; N]);
+    pub fn solve_each<const N: usize>(&self, problem: [Option<EquilibriumProblem>; N]) -> [Option<Equilibrium>; N] {
+        let mut unknowns = problem.map(|problem| {
+            problem.map_or((0.0, 0.0), |EquilibriumProblem { guess, .. }| (guess.tip_angle, guess.force))
+        });
+        let directions = problem.map(|problem| unit(problem.map_or(0.0, |problem| problem.force_direction)));
+        let (mut open, mut found) = (problem, [None; N]);
         for _ in 0..NEWTON_STEPS {
             if open.iter().all(Option::is_none) {
                 break;
@@ -188,11 +189,11 @@ mod tests {
         let chain = ShaftChain::new(&Rig::default().whiskers[0]);
         let guess = chain.solve(1e-4, 2.0, &super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() });
         let guess = guess.unwrap_or_else(|| chain.straight());
-        let sought = [(1.1e-4, 2.0), (2e-4, 1.2), (9e-5, 2.6), (f64::NAN, 2.0)]
+        let problem = [(1.1e-4, 2.0), (2e-4, 1.2), (9e-5, 2.6), (f64::NAN, 2.0)]
             .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));
-        let [a, b, c, d] = sought;
+        let [a, b, c, d] = problem;
         let found = chain.solve_each([a, None, b, c, d]);
-        let alone = |sought: Option<EquilibriumProblem>| chain.solve_each([sought])[0];
+        let alone = |problem: Option<EquilibriumProblem>| chain.solve_each([problem])[0];
         assert_eq!(found, [alone(a), None, alone(b), alone(c), None]);
         assert!(found.iter().flatten().count() >= 2, "{found:?}");
     }
@@ -215,11 +216,11 @@ mod tests {
         let chain = ShaftChain::new(&Rig::default().whiskers[0]);
         let start = super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() };
         let guess = chain.solve(1e-4, 2.0, &start).unwrap_or(start);
-        let sought = [(1e-4, 2.0), (1.1e-4, 2.1), (1.2e-4, 1.8), (0.9e-4, 2.3)]
+        let problem = [(1e-4, 2.0), (1.1e-4, 2.1), (1.2e-4, 1.8), (0.9e-4, 2.3)]
             .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));
-        for (sought, found) in sought.into_iter().zip(chain.solve_each(sought)) {
-            let (Some(sought), Some(found)) = (sought, found) else { panic!("{sought:?}: {found:?}") };
-            let force = found.force * unit(sought.force_direction);
+        for (problem, found) in problem.into_iter().zip(chain.solve_each(problem)) {
+            let (Some(problem), Some(found)) = (problem, found) else { panic!("{problem:?}: {found:?}") };
+            let force = found.force * unit(problem.force_direction);
             // From the base, where the solver ends, to the tip: every spring bends by the moment about it.
             let mut moment = chain.hinge_stiffness * found.base_angle;
             let mut angles = vec![found.base_angle];
@@ -236,10 +237,10 @@ mod tests {
                     energy(&chain, &turned, force)
                 };
                 let slope = (turned(1e-4) - turned(-1e-4)) / 2e-4;
-                assert!(slope.abs() < 1e-6 * scale, "{sought:?}, angle {index}: {slope} N m of {scale}");
+                assert!(slope.abs() < 1e-6 * scale, "{problem:?}, angle {index}: {slope} N m of {scale}");
             }
-            assert!((angles[angles.len() - 1] - found.tip_angle).abs() < 1e-9, "{sought:?}: {found:?}");
-            assert!((tip(&chain, &angles) - found.tip_base).norm() < 1e-11, "{sought:?}: {found:?}");
+            assert!((angles[angles.len() - 1] - found.tip_angle).abs() < 1e-9, "{problem:?}: {found:?}");
+            assert!((tip(&chain, &angles) - found.tip_base).norm() < 1e-11, "{problem:?}: {found:?}");
         }
     }
 }

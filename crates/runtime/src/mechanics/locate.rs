@@ -8,19 +8,19 @@ use super::frictionless_contact::{FrictionlessContact, LoadedContact};
 use super::newton::{self, Residual};
 use super::shaft_shape::ShaftShape;
 
-/// The reason for which no contact is found.
+/// An error of locating a contact.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LocateError {
     /// A reading is not finite.
     #[error("the base angle or the shear is not a finite number; leave the reading out")]
     NotFinite,
     /// Moment and shear are zero: there is no contact.
-    #[error("neither a base angle nor a shear: nothing touches the whisker")]
+    #[error("neither a base angle nor a shear: nothing touches the whisker; use readings of a contact")]
     NoContact,
     /// No contact fits the readings.
     #[error(
-        "no touch without friction by something that stays has this shear with this base angle: the shaft would spring over; leave \
-         the readings out"
+        "no stable frictionless contact has this shear with this base angle, because the shaft would snap through; leave the \
+         readings out"
     )]
     NoSolution,
 }

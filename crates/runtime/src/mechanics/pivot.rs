@@ -134,7 +134,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_force_square_to_the_shaft_bends_it_as_the_elastica_has_it(
+        fn a_force_perpendicular_to_the_shaft_bends_it_as_the_elastica_does(
             share in 0.1..1.0_f64,
             force in 0.01..2.2_f64,
             taper in prop_oneof![Just(1.0), 0.6..1.0_f64],
@@ -155,7 +155,7 @@ mod tests {
         }
 
         #[test]
-        fn a_shaft_lies_along_a_surface_that_is_square_to_the_force_at_its_tip(force in 0.01..2.2_f64, lean in -0.5..0.5_f64) {
+        fn a_shaft_lies_along_a_surface_perpendicular_to_the_force_at_its_tip(force in 0.01..2.2_f64, lean in -0.5..0.5_f64) {
             prop_assume!((lean - NEARLY_FLAT).abs() > 3e-3);
             let whisker = Rig::default().whiskers.remove(0);
             let unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);

@@ -77,12 +77,12 @@ impl PoseHold {
     /// Starts the hold and returns the held pose. The platform has moved from `last` to `body` in one tick, `stopped`
     /// (s) after the stop.
     fn begin(&mut self, last: Pose, body: Pose, stopped: f64) -> Pose {
-        let (went, turned) =
+        let (velocity, yaw_rate) =
             ((body.position - last.position) / self.period, turn_between(last.heading, body.heading) / self.period);
-        for (controller, push) in self.controllers.iter_mut().zip([went.x, went.y, turned]) {
+        for (controller, push) in self.controllers.iter_mut().zip([velocity.x, velocity.y, yaw_rate]) {
             controller.begin_at(-push);
         }
-        Pose { position: body.position - went * stopped, heading: body.heading - turned * stopped }
+        Pose { position: body.position - velocity * stopped, heading: body.heading - yaw_rate * stopped }
     }
 
     fn next(&mut self, errors: [f64; 3]) -> [f64; 3] {

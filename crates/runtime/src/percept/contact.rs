@@ -31,7 +31,7 @@ impl Contact {
         let deviation = covariance.trace().sqrt();
         Self {
             point_world: base.position + rotate(position, base.heading),
-            covariance_world: turned(covariance, base.heading),
+            covariance_world: rotated(covariance, base.heading),
             deviation,
             recorded_deviation: deviation,
             is_recordable: true,
@@ -45,7 +45,7 @@ impl Contact {
 pub(super) const CONTACT_DEVIATION: f64 = 2.2e-5;
 
 /// Rotates a covariance by an angle (rad).
-pub(super) fn turned(covariance: &Matrix2<f64>, angle: f64) -> Matrix2<f64> {
+pub(super) fn rotated(covariance: &Matrix2<f64>, angle: f64) -> Matrix2<f64> {
     let turn = Rotation2::new(angle);
     turn * covariance * turn.inverse()
 }

@@ -15,6 +15,7 @@ mod recent_line;
 mod recursive;
 mod shaft_rest;
 mod sliding;
+mod sliding_contact;
 mod tip_curve;
 mod tip_table;
 mod whisker;

@@ -8,7 +8,7 @@ use crate::rig::{Sensing, Shaft, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
-use super::contact::{CONTACT_DEVIATION, Contact, turned};
+use super::contact::{CONTACT_DEVIATION, Contact, rotated};
 use super::contact_estimator::ContactEstimator;
 use super::recent_line::RecentLine;
 
@@ -79,8 +79,8 @@ impl MomentAndShear {
     fn covariance(&self, shape: &ShaftShape) -> Option<Matrix2<f64>> {
         let changes = self.elastica.changes(shape)?;
         let radius = self.shaft.radius_at(shape.contact_length / self.shaft.length);
-        let turned = -radius * perpendicular(unit(shape.force_direction));
-        let by_readings = changes.fixed_rows::<2>(0) + turned * changes.row(2);
+        let rotated = -radius * perpendicular(unit(shape.force_direction));
+        let by_readings = changes.fixed_rows::<2>(0) + rotated * changes.row(2);
         let deviation = by_readings * Matrix2::from_diagonal(&self.deviations);
         let covariance = deviation * deviation.transpose()
             + Matrix2::identity() * (CONTACT_DEVIATION.powi(2) + SHAPE_DEVIATION.powi(2));
@@ -116,7 +116,7 @@ impl ContactEstimator for MomentAndShear {
         let deviation = (normal.transpose() * covariance * normal).x.sqrt();
         Some(Contact {
             point_world: base.position + rotate(self.surface(&shape), base.heading),
-            covariance_world: turned(&covariance, base.heading),
+            covariance_world: rotated(&covariance, base.heading),
             deviation,
             recorded_deviation: deviation,
             is_recordable: true,

@@ -31,7 +31,7 @@ pub struct Perception {
     disturbance: Disturbance,
 }
 
-/// The reason for which a rig has no perception.
+/// An error of constructing the perception of a rig.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PerceptionError {
     /// A whisker has no tip curve.
@@ -48,7 +48,7 @@ pub enum PerceptionError {
     },
     /// The mechanics of a whisker give too few positions for the polynomial of `recursive`.
     #[error(
-        "whisker {whisker}: its mechanics give too few places for recursive; calibrate it, or perceive it by sliding"
+        "whisker {whisker}: its mechanics give too few contact positions for recursive; calibrate it, or perceive it by sliding"
     )]
     NoSurface {
         /// The whisker.

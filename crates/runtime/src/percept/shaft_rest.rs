@@ -289,7 +289,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_shaft_that_rests_on_a_corner_puts_its_tip_in_doubt(share in 0.4..0.85_f64, force in 1.0..3.0_f64, slide in 3e-3..8e-3_f64) {
+        fn a_shaft_that_rests_on_a_corner_gives_a_possible_error(share in 0.4..0.85_f64, force in 1.0..3.0_f64, slide in 3e-3..8e-3_f64) {
             let (mut rest, whisker) = rest();
             for step in 0..10 {
                 take_on_corner(&mut rest, &whisker, Point2::new(0.3, -0.2), (share + slide * f64::from(step), force), 0.02 * f64::from(step));
@@ -299,7 +299,7 @@ mod tests {
         }
 
         #[test]
-        fn a_tip_that_slides_along_a_wall_is_not_in_doubt(lean in 0.4..1.0_f64, force in 0.5..1.5_f64) {
+        fn a_tip_that_slides_along_a_wall_has_no_possible_error(lean in 0.4..1.0_f64, force in 0.5..1.5_f64) {
             let (mut rest, whisker) = rest();
             let elastica = Elastica::new(&whisker);
             let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shaft_that_lies_along_a_surface_that_seems_to_turn_puts_its_tip_in_doubt() {
+    fn a_shaft_along_a_surface_that_seems_to_rotate_gives_a_possible_error() {
         let (mut rest, _) = rest();
         for step in 0..4 {
             let normal = FRAC_PI_2 - 0.02 * f64::from(step);
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_was_no_corner_leaves_a_shaft_in_doubt_that_lay_along_a_surface() {
+    fn a_refuted_corner_leaves_the_possible_error_of_a_shaft_that_lay_along_a_surface() {
         let (mut rest, whisker) = rest();
         // It lies along a surface while it seems to rest on one corner, and then it seems to rest on another.
         for (position, normal) in [(Point2::new(0.3, -0.2), FRAC_PI_2), (Point2::new(0.3, -0.19), PI)] {
@@ -336,7 +336,7 @@ mod tests {
                 take_on_corner(&mut rest, &whisker, position, (0.9 + 5e-3 * f64::from(step), 2.0), turned);
             }
         }
-        // Readings that no fixed place explains end the rest.
+        // Readings that no fixed position explains end the rest.
         for _ in 0..4 {
             rest.take(1e-4, Pose::default(), SPACING, Point2::new(0.1, 0.0), PI);
         }

@@ -10,9 +10,10 @@ use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
 use super::base_angle::BaseAngle;
-use super::contact::{CONTACT_DEVIATION, Contact};
+use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::shaft_rest::ShaftRest;
+use super::sliding_contact::{SHAFT_FIRST, SlidingContact};
 use super::tip_table::{TipPosition, TipTable};
 
 /// Estimates the contact position of a sliding tip and the direction of the surface from base angles and poses.
@@ -58,29 +59,6 @@ enum State {
     Settled(SlidingContact),
 }
 
-/// The contact of a sliding tip.
-#[derive(Debug, Clone, Copy)]
-struct SlidingContact {
-    /// +1 for a counter-clockwise bend, −1 for a clockwise one.
-    bend_sign: f64,
-    /// The tip's centre (m, world frame), and its positions at the three previous samples.
-    centre: Point2,
-    before: [Point2; 3],
-    /// Direction of the surface normal (rad, world frame), towards the whisker.
-    normal: f64,
-    /// Covariance of the normal's direction (rad) and of the centre's position along the normal (m).
-    covariance: Matrix2<f64>,
-    /// The same covariance with the errors that the gain ignores: contacts with different compliance.
-    considered: Matrix2<f64>,
-    /// The tip position by the mechanics, with its derivatives by the base angle and by the normal's direction.
-    tip: TipPosition,
-    /// Position of the first contact (m, world frame), and the largest distance from it since (m). The variance of the
-    /// position (m²) covers the case that the shaft and not the tip touched first.
-    first: Point2,
-    farthest: f64,
-    first_variance: f64,
-}
-
 /// Growth of the variance of the surface direction per path (rad²/m): a curve of 0.1 rad in 10 mm.
 const BENDING: f64 = 1.0;
 /// Growth of that variance per sample (rad²). It keeps the filter from becoming certain.
@@ -92,11 +70,6 @@ const GIVING: f64 = 1.5e-6;
 const FIRST_DIRECTION: f64 = 30.0 * PI / 180.0;
 /// The same after an edge, where a surface may have any direction.
 const DIRECTION_BEHIND_EDGE: f64 = FRAC_PI_2 / 2.0;
-/// Standard deviation of the centre's position at a light contact (m).
-const FIRST_POSITION: f64 = 2e-5;
-/// Standard deviation (m) of the position at a first contact with an unknown surface, because an edge may have touched
-/// the shaft first. The path (m) on which this variance decreases by a factor e while the tip approaches the edge.
-const SHAFT_FIRST: (f64, f64) = (2.7e-4, 1.5e-3);
 /// Distance (m) of a surface from the position from which it is assumed to continue: a constant, and a share of the
 /// distance between the two.
 const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
@@ -144,11 +117,11 @@ impl Sliding {
         let bend_sign = angle.signum();
         let force = (bend_sign * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
         let position = self.table.at(angle.abs(), force)?;
-        let turned = |v: Column<f64>| rotate(Vector2::new(v.x, bend_sign * v.y), base.heading);
+        let rotated = |v: Column<f64>| rotate(Vector2::new(v.x, bend_sign * v.y), base.heading);
         Some(TipPosition {
-            tip_base: turned(position.tip_base) + base.position.coords,
-            by_angle: bend_sign * turned(position.by_angle),
-            by_direction: bend_sign * turned(position.by_direction),
+            tip_base: rotated(position.tip_base) + base.position.coords,
+            by_angle: bend_sign * rotated(position.by_angle),
+            by_direction: bend_sign * rotated(position.by_direction),
         })
     }
 
@@ -158,7 +131,7 @@ impl Sliding {
         let normal = base.heading + bend_sign * self.usual_normal;
         let unsettled = State::Unsettled { left: None, bend_sign };
         let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
-        let contact = SlidingContact::begun(bend_sign, &tip, normal, FIRST_DIRECTION.powi(2));
+        let contact = SlidingContact::new(bend_sign, &tip, normal, FIRST_DIRECTION.powi(2));
         State::Settled(SlidingContact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
     }
 
@@ -227,44 +200,45 @@ impl Sliding {
         let usual = base.heading + bend_sign * self.usual_normal;
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
         let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
-        let turned = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
+        let direction_cost = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
         // The tip, the distance of the surface through it from `left`, and the total squared misfit in standard
         // deviations, including that of the direction.
-        let judged = |normal: f64| {
+        let evaluate = |normal: f64| {
             let tip = self.tip(angle, base, normal)?;
-            let gone = tip.tip_base - left.coords;
-            let miss = unit(normal).dot(&gone);
-            let apart = (miss / off).powi(2) + gone.norm_squared() / LANDED_WITHIN.powi(2) + turned(normal);
-            Some((tip, miss, apart))
+            let displacement = tip.tip_base - left.coords;
+            let offset = unit(normal).dot(&displacement);
+            let cost =
+                (offset / off).powi(2) + displacement.norm_squared() / LANDED_WITHIN.powi(2) + direction_cost(normal);
+            Some((tip, offset, cost))
         };
         // The search goes outwards from the usual direction on both sides, as long as the direction's own misfit is
         // below the best total.
         let mut nearest: Option<(f64, f64)> = None;
         for step in std::iter::once(0).chain((1..=LANDING_STEPS).flat_map(|steps| [-steps, steps])) {
             let normal = usual + f64::from(step) * LANDING_STEP;
-            if nearest.is_none_or(|(_, least)| turned(normal) <= least)
-                && let Some((.., apart)) = judged(normal)
-                && nearest.is_none_or(|(at, least)| apart.total_cmp(&least).then(normal.total_cmp(&at)).is_lt())
+            if nearest.is_none_or(|(_, least)| direction_cost(normal) <= least)
+                && let Some((.., cost)) = evaluate(normal)
+                && nearest.is_none_or(|(at, least)| cost.total_cmp(&least).then(normal.total_cmp(&at)).is_lt())
             {
-                nearest = Some((normal, apart));
+                nearest = Some((normal, cost));
             }
         }
         let Some((mut normal, _)) = nearest else { return unsettled };
         let prior = DIRECTION_BEHIND_EDGE.powi(-2);
         for _ in 0..LANDING_ITERATIONS {
-            let Some((tip, miss, _)) = judged(normal) else { return unsettled };
-            let slope = miss_slope(&tip, normal, left) / off;
-            let going = tip.by_direction / LANDED_WITHIN;
-            let gone = (tip.tip_base - left.coords) / LANDED_WITHIN;
-            let gradient = slope * miss / off + going.dot(&gone) + (normal - usual) * prior;
-            let step = gradient / (slope * slope + going.norm_squared() + prior);
+            let Some((tip, offset, _)) = evaluate(normal) else { return unsettled };
+            let slope = offset_slope(&tip, normal, left) / off;
+            let displacement_slope = tip.by_direction / LANDED_WITHIN;
+            let displacement = (tip.tip_base - left.coords) / LANDED_WITHIN;
+            let gradient = slope * offset / off + displacement_slope.dot(&displacement) + (normal - usual) * prior;
+            let step = gradient / (slope * slope + displacement_slope.norm_squared() + prior);
             normal -= step.clamp(-LANDING_STEP, LANDING_STEP);
         }
-        let Some((tip, _, _)) = judged(normal) else { return unsettled };
-        let slope = miss_slope(&tip, normal, left) / off;
-        let going = tip.by_direction / LANDED_WITHIN;
-        let variance = (slope * slope + going.norm_squared() + prior).recip();
-        State::Settled(SlidingContact::begun(bend_sign, &tip, normal, variance))
+        let Some((tip, _, _)) = evaluate(normal) else { return unsettled };
+        let slope = offset_slope(&tip, normal, left) / off;
+        let displacement_slope = tip.by_direction / LANDED_WITHIN;
+        let variance = (slope * slope + displacement_slope.norm_squared() + prior).recip();
+        State::Settled(SlidingContact::new(bend_sign, &tip, normal, variance))
     }
 }
 
@@ -346,52 +320,7 @@ const CAUGHT: f64 = 5e-3;
 const LANDING_ITERATIONS: usize = 6;
 
 /// Rate (m/rad) at which a surface through the tip moves away from `left` when its normal rotates.
-fn miss_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {
+fn offset_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {
     let normal = unit(normal);
     tip.by_direction.dot(&normal) + perpendicular(normal).dot(&(tip.tip_base - left.coords))
-}
-
-impl SlidingContact {
-    /// Creates the contact of a tip that has just touched. `normal` (rad, world frame) is the direction of the surface
-    /// normal, and `variance` (rad²) its variance.
-    fn begun(bend_sign: f64, tip: &TipPosition, normal: f64, variance: f64) -> Self {
-        let centre = Point2::from(tip.tip_base);
-        // The position depends on the direction, so their errors are correlated.
-        let slope = tip.by_direction.dot(&unit(normal));
-        let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
-            + Matrix2::new(0.0, 0.0, 0.0, FIRST_POSITION.powi(2));
-        let before = [centre; 3];
-        Self {
-            bend_sign,
-            centre,
-            before,
-            normal,
-            covariance,
-            considered: covariance,
-            tip: *tip,
-            first: centre,
-            farthest: 0.0,
-            first_variance: 0.0,
-        }
-    }
-
-    /// Standard deviation of the position along the normal (m), for a covariance like that of the contact.
-    fn position_deviation(&self, covariance: &Matrix2<f64>) -> f64 {
-        let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
-        (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_DEVIATION)
-    }
-
-    /// Covariance of the contact position (m², world frame) for a tip of this radius (m). `angle_deviation` (rad) is
-    /// the standard deviation of the base angle. Along the surface the position follows from base angle and direction.
-    fn position_covariance(&self, tip_radius: f64, angle_deviation: f64) -> Matrix2<f64> {
-        let normal = unit(self.normal);
-        let tangent = perpendicular(normal);
-        let by_direction = self.tip.by_direction.dot(&tangent) - tip_radius;
-        let along =
-            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_deviation).powi(2);
-        let both = by_direction * self.covariance.m12;
-        along * tangent * tangent.transpose()
-            + both * (tangent * normal.transpose() + normal * tangent.transpose())
-            + self.position_deviation(&self.covariance).powi(2) * normal * normal.transpose()
-    }
 }

@@ -35,7 +35,7 @@ struct Knot {
     unknown: Matrix2<f64>,
 }
 
-/// The reason for which a whisker has no tip curve.
+/// An error of computing a tip curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TipCurveError {
     /// The whisker is too nearly perpendicular to the heading.

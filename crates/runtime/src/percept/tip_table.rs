@@ -144,7 +144,7 @@ fn from_straight(
     let mut last = [Some(straight); SIDE_BY_SIDE];
     for index in 1..=ANGLE_STEPS {
         let base_angle = angle_step * index as f64;
-        let sought = array::from_fn(|lane| {
+        let problems = array::from_fn(|lane| {
             let force_direction = directions[lane];
             let guess = match (last[lane], before[lane]) {
                 (Some(last), Some(before)) => extrapolated(&last, &before),
@@ -160,7 +160,7 @@ fn from_straight(
             Some(EquilibriumProblem { base_angle, force_direction, guess })
         });
         before = last;
-        last = chain.solve_each(sought);
+        last = chain.solve_each(problems);
         for (column, &solution) in columns.iter_mut().zip(&last) {
             column.push(solution);
         }
@@ -177,12 +177,12 @@ fn continued(
 ) -> Vec<Option<Equilibrium>> {
     let mut column = Vec::with_capacity(last.len());
     for (last, before) in last.chunks(SIDE_BY_SIDE).zip(before.chunks(SIDE_BY_SIDE)) {
-        let sought = array::from_fn(|lane| {
+        let problems = array::from_fn(|lane| {
             let last = last.get(lane).copied().flatten()?;
             let guess = before[lane].map_or(last, |before| extrapolated(&last, &before));
             Some(EquilibriumProblem { base_angle: last.base_angle, force_direction, guess })
         });
-        let found = chain.solve_each::<SIDE_BY_SIDE>(sought);
+        let found = chain.solve_each::<SIDE_BY_SIDE>(problems);
         column.extend(last.iter().zip(found).map(|(last, found)| found.filter(|found| is_next(last.as_ref(), found))));
     }
     column

@@ -31,7 +31,7 @@ mod tests {
     use crate::units::{parse_quantity, simple_units};
 
     #[test]
-    fn what_is_told_of_a_foreign_unit_can_be_written_and_the_unit_cannot() {
+    fn the_value_of_an_unsupported_unit_can_be_parsed_and_the_unit_cannot() {
         for (symbol, same) in FOREIGN {
             assert!(parse_quantity(same).is_ok(), "{same}");
             assert!(simple_units().all(|unit| unit != *symbol), "{symbol}");

@@ -24,7 +24,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// The reason for which a text is not a quantity. Ranges are byte ranges of that text.
+/// An error of parsing a quantity. Ranges are byte ranges of that text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum QuantityError {
     /// The text does not begin with a number.
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_refused_with_its_place() {
+    fn a_text_without_a_number_is_refused_with_its_position() {
         assert_eq!(parse_quantity(" wide "), Err(QuantityError::Number { range: 1..5 }));
         assert_eq!(parse_quantity("nan mm"), Err(QuantityError::Number { range: 0..6 }));
         assert_eq!(parse_quantity(""), Err(QuantityError::Number { range: 0..0 }));

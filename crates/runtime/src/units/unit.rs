@@ -107,7 +107,7 @@ impl Instead {
     }
 }
 
-/// The reason for which a text is not a unit. Ranges are byte ranges of that text.
+/// An error of parsing a unit. Ranges are byte ranges of that text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum UnitError {
     /// The unit is missing.
