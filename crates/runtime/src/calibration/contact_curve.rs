@@ -70,6 +70,7 @@ impl ContactCurve {
     }
 }
 
+/// The powers of a value from 0 to 5.
 fn powers(value: f64) -> [f64; COUNT] {
     let mut powers = [1.0; COUNT];
     for index in 1..COUNT {

@@ -17,8 +17,11 @@ pub const TIME_SLACK: f64 = 1e-9;
 /// The state of execution of a machine. Every method receives the same program.
 #[derive(Debug, Clone)]
 pub(super) struct Activity {
+    /// Values of the registers.
     registers: Vec<f64>,
+    /// The active states.
     active: Configuration,
+    /// True after the first tick has begun.
     has_begun: bool,
     /// Time at which each state was last entered (s).
     entered_at: Vec<f64>,
@@ -142,6 +145,7 @@ impl Activity {
         }
     }
 
+    /// Enters one state: records the time, resets its timers and runs its entry code.
     fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
         let state = &program.states[index];
         self.active = Configuration::to(program, index);

@@ -26,6 +26,7 @@ pub const FORMAT: u32 = 5;
 /// Maximum size of an artifact in bytes. The largest program of the compiler has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 
+/// Length of the SHA-256 checksum in bytes.
 const CHECKSUM_LENGTH: usize = 32;
 /// Maximum length of the texts in [`Origin`], in bytes.
 const TEXT_LIMIT: usize = 255;
@@ -148,10 +149,12 @@ impl Artifact {
         Ok(artifact)
     }
 
+    /// Encodes the content without header and checksum.
     fn content(&self) -> Result<Vec<u8>, ArtifactError> {
         postcard::to_allocvec(self).map_err(|_| ArtifactError::Content)
     }
 
+    /// Checks the texts, the program and the positions.
     fn verify(&self) -> Result<(), ArtifactError> {
         for text in [&self.origin.file, &self.origin.compiler] {
             if text.len() > TEXT_LIMIT || text.chars().any(char::is_control) {

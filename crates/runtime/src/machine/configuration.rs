@@ -5,6 +5,7 @@ use super::program::{NESTING_LIMIT, Program};
 /// The active configuration: an innermost state and all its outer states, the outermost first.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Configuration {
+    /// States in the first `count` entries, the outermost first.
     states: [usize; NESTING_LIMIT],
     count: usize,
 }

@@ -165,14 +165,17 @@ pub fn compute<S: Senses>(code: &[Op], block: &Block, registers: &mut [f64], sen
 struct File<'a>(&'a mut [f64]);
 
 impl File<'_> {
+    /// The number in a register.
     fn at(&self, register: Register) -> f64 {
         self.0[usize::from(register)]
     }
 
+    /// Writes a number.
     fn put(&mut self, register: Register, value: f64) {
         self.0[usize::from(register)] = value;
     }
 
+    /// The memory of a stateful operation, from its first register on.
     fn memory<const N: usize>(&self, register: Register) -> [f64; N] {
         let start = usize::from(register);
         std::array::from_fn(|offset| self.0[start + offset])
@@ -185,18 +188,22 @@ impl File<'_> {
         value
     }
 
+    /// The boolean in a register.
     fn truth(&self, register: Register) -> bool {
         self.at(register) > 0.5
     }
 
+    /// Writes a boolean as 1 or 0.
     fn put_truth(&mut self, register: Register, truth: bool) {
         self.put(register, f64::from(u8::from(truth)));
     }
 
+    /// The vector in two registers.
     fn vector(&self, register: Wide) -> Vector2 {
         Vector2::new(self.at(register), self.at(register + 1))
     }
 
+    /// Writes a vector to two registers.
     fn put_vector(&mut self, register: Wide, vector: Vector2) {
         self.put(register, vector.x);
         self.put(register + 1, vector.y);
@@ -212,6 +219,7 @@ impl File<'_> {
         usize::from(lowest)
     }
 
+    /// Creates a steering action from registers.
     fn steer(&self, mover: Mover, along: Wide, speed: Register, turn: Turn) -> Action {
         Action::Steer { mover, along_world: self.vector(along), speed: self.at(speed), turn }
     }
@@ -243,6 +251,7 @@ fn direction(angle: f64) -> Vector2 {
     unit(angle)
 }
 
+/// The sign of a number: −1, 0 or 1. NaN for NaN.
 fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
 }

@@ -202,6 +202,7 @@ pub enum SetError {
     },
 }
 
+/// The indefinite article of a noun.
 fn article(noun: &str) -> &'static str {
     if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }

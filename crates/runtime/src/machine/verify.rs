@@ -76,6 +76,7 @@ impl Program {
         self.verify_operands()
     }
 
+    /// Checks that initial registers are finite and parameters are within their ranges.
     fn verify_numbers(&self) -> Result<(), Unsound> {
         if let Some(register) = self.initial_registers.iter().position(|value| !value.is_finite()) {
             return Err(Unsound::NotFinite(register));
@@ -148,6 +149,7 @@ impl Program {
         of_states.chain(&self.fallback).try_for_each(|target| self.verify_target(target))
     }
 
+    /// Checks the registers, the timer and the target of a transition. `timers` are the timers that it may use.
     fn verify_transition(&self, transition: &Transition, timers: std::ops::Range<usize>) -> Result<(), Unsound> {
         let registers = match &transition.guard {
             Guard::When { truth, lasting: Some((duration, timer)), .. } => {
@@ -164,6 +166,7 @@ impl Program {
         self.verify_target(&transition.target)
     }
 
+    /// Checks the state or the reason of a target.
     fn verify_target(&self, target: &Target) -> Result<(), Unsound> {
         match target {
             Target::State { state, resume, .. } => {
@@ -179,6 +182,8 @@ impl Program {
         }
     }
 
+    /// Checks that blocks are within the code and do not overlap, that jumps go forward within their block, and that
+    /// the work of a tick is bounded.
     fn verify_blocks(&self) -> Result<(), Unsound> {
         let of_target = |target: &Target| match target {
             Target::State { arguments, .. } => arguments.clone(),
@@ -293,6 +298,7 @@ impl Program {
     }
 }
 
+/// Checks that an index is less than a count.
 fn within(what: &'static str, index: usize, count: usize) -> Result<(), Unsound> {
     if index < count { Ok(()) } else { Err(Unsound::Index { what, index, count }) }
 }
@@ -304,6 +310,7 @@ fn is_name(name: &str) -> Result<(), Unsound> {
     if holds { Ok(()) } else { Err(Unsound::Name(name.to_owned())) }
 }
 
+/// Checks that all names are valid and different.
 fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Result<(), Unsound> {
     let mut known = HashSet::new();
     for name in names {

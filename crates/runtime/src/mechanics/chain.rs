@@ -11,7 +11,9 @@ use crate::rig::Whisker;
 /// its left.
 #[derive(Debug, Clone)]
 pub struct ShaftChain {
+    /// Length of a link (m).
     link_length: f64,
+    /// Stiffness of the base hinge (N m/rad).
     hinge_stiffness: f64,
     /// Joint stiffnesses from the base to the tip (N m/rad).
     joint_stiffnesses: Vec<f64>,
@@ -147,8 +149,11 @@ impl ShaftChain {
 /// A number with its derivatives by the two unknowns.
 #[derive(Debug, Clone, Copy, Default)]
 struct Dual {
+    /// Value.
     value: f64,
+    /// Derivative by the angle of the last link.
     by_angle: f64,
+    /// Derivative by the magnitude of the force.
     by_force: f64,
 }
 

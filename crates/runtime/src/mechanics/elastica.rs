@@ -35,6 +35,7 @@ pub struct Elastica {
 /// The conditions of a solution, in the units of [`Load`].
 #[derive(Debug, Clone, Copy)]
 struct Aim {
+    /// Length of the shaft from the base to the force.
     contact: f64,
     /// Bending moment at the base.
     moment: f64,

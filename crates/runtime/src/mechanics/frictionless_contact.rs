@@ -24,15 +24,20 @@ pub(super) struct FrictionlessContact {
 /// A quantity of a contact with its derivatives by the two coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
+    /// Value.
     pub(super) value: f64,
+    /// Derivative by the first coordinate.
     pub(super) by_position: f64,
+    /// Derivative by the second coordinate.
     pub(super) by_force: f64,
 }
 
 /// A contact and the state of the shaft under it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadedContact {
+    /// The contact.
     pub(super) contact: FrictionlessContact,
+    /// The shaft from the contact to the base.
     pub(super) shot: Shot,
     /// Bending moment and shear at the base.
     pub(super) moment: Change,
@@ -45,6 +50,7 @@ pub(super) struct LoadedContact {
 }
 
 impl FrictionlessContact {
+    /// The coordinates of the contact of a shape.
     pub(super) fn of(shape: &ShaftShape, elastica: &Elastica) -> Self {
         let length = shape.contact_length / elastica.length;
         let position = if length < 1.0 {
@@ -73,6 +79,7 @@ impl FrictionlessContact {
         Self { position: FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0), force: (square * softer).ln() }
     }
 
+    /// The load at this contact.
     pub(super) fn load(self) -> Load {
         let angle = PI - FRAC_PI_2 * (-self.position.max(0.0) / FRAC_PI_2).exp();
         Load { contact: self.position.min(0.0).exp(), angle, force: self.force.exp() }

@@ -40,7 +40,9 @@ const ABSURD: f64 = 1e6;
 /// of `1 / L`. Each point of their plane has exactly one contact that bends the shaft to one side.
 #[derive(Debug, Clone, Copy)]
 struct Aim {
+    /// Logarithm of the base moment.
     moment: f64,
+    /// Shear over moment.
     ratio: f64,
 }
 

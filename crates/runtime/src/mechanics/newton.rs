@@ -11,7 +11,9 @@ const SETTLED: f64 = 1e-6;
 
 /// The residuals of two equations and their derivatives by the two unknowns, one row per equation.
 pub(super) struct Residual {
+    /// Residuals.
     pub(super) value: Vector2<f64>,
+    /// Their derivatives, one row per equation.
     pub(super) slope: Matrix2<f64>,
 }
 

@@ -17,9 +17,13 @@ pub(super) struct Load {
 /// A number with its derivatives by the parts of a [`Load`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Varied {
+    /// Value.
     pub(super) value: f64,
+    /// Derivative by the length to the force.
     pub(super) by_contact: f64,
+    /// Derivative by the angle of the force.
     pub(super) by_angle: f64,
+    /// Derivative by the magnitude of the force.
     pub(super) by_force: f64,
 }
 

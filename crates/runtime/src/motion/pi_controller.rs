@@ -10,6 +10,7 @@ pub struct PiController {
     integral: f64,
     /// Largest magnitude of the output.
     limit: f64,
+    /// Integral part of the output.
     accumulated: f64,
 }
 

@@ -38,6 +38,7 @@ pub(super) struct PoseHold {
 }
 
 impl PoseHold {
+    /// Creates the pose hold of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
         let (servo, period) = (rig.platform.servo, 1.0 / rig.sensing.control_rate);
         let proportional = PROPORTIONAL / (servo + period);
@@ -85,6 +86,7 @@ impl PoseHold {
         Pose { position: body.position - velocity * stopped, heading: body.heading - yaw_rate * stopped }
     }
 
+    /// The outputs of the controllers for errors of x, y and heading.
     fn next(&mut self, errors: [f64; 3]) -> [f64; 3] {
         let mut outputs = [0.0; 3];
         for ((output, controller), error) in outputs.iter_mut().zip(&mut self.controllers).zip(errors) {

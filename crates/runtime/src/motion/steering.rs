@@ -17,9 +17,13 @@ pub struct Steering {
     pose_hold: PoseHold,
     /// True if the last action was a stop.
     is_stopped: bool,
+    /// Speed limit of the platform (m/s).
     speed_limit: f64,
+    /// Yaw rate limit of the platform (rad/s).
     yaw_rate_limit: f64,
+    /// Control period (s).
     period: f64,
+    /// The last command.
     last: Command,
 }
 

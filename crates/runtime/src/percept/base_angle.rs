@@ -10,6 +10,7 @@ use super::recent_line::RecentLine;
 /// hinge delays the base angle, so the line is extrapolated by this delay.
 #[derive(Debug, Clone)]
 pub(super) struct BaseAngle {
+    /// Line through the newest readings (rad).
     line: RecentLine,
     /// Delay (s) of the base angle behind the base moment: damping over stiffness of the hinge.
     delay: f64,
@@ -28,6 +29,7 @@ const WANTED_DEVIATION: f64 = 4.5e-7;
 const CALM_RATE: f64 = 6e-4;
 
 impl BaseAngle {
+    /// Creates the estimate for `whisker`.
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         let delay = whisker.hinge.damping / whisker.hinge.stiffness;
         let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());

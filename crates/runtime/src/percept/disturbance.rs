@@ -32,6 +32,7 @@ pub(super) struct Disturbance {
     pushes: [f64; MAX_WHISKERS],
     /// Newest base angle of each whisker (rad).
     base_angles: [f64; MAX_WHISKERS],
+    /// The current command.
     command: Command,
     /// Expected speed of the servos.
     speed: Motion,
@@ -52,6 +53,7 @@ pub(super) struct Disturbance {
 type Motion = Vector3<f64>;
 
 impl Disturbance {
+    /// Creates the detection for the body of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
         let platform = &rig.platform;
         let corners_body = platform.outline_body();

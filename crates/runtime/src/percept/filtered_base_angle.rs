@@ -21,6 +21,7 @@ pub(super) struct FilteredBaseAngle {
 }
 
 impl FilteredBaseAngle {
+    /// Creates the filtered base angle, initially 0.
     pub(super) fn new(filter: LowPass) -> Self {
         Self { filter, reading: 0.0, has_reading: true, had_reading: true, value: 0.0 }
     }

@@ -17,7 +17,9 @@ const SPACING: f64 = 1e-3;
 pub struct LocalContour {
     /// The newest keypoints, oldest first.
     keypoints: [Point2; WINDOW],
+    /// Number of keypoints.
     count: usize,
+    /// The curve, if there are enough keypoints.
     curve: Option<Curve>,
 }
 
@@ -25,6 +27,7 @@ pub struct LocalContour {
 /// it.
 #[derive(Debug, Clone, Copy)]
 struct Curve {
+    /// The newest keypoint (m).
     newest: Point2,
     /// Coefficients of the position relative to the newest keypoint (m), by powers of the length.
     parts: [Vector2; 3],
@@ -38,6 +41,7 @@ impl Curve {
         -(back * 1e3).clamp(0.0, self.reach)
     }
 
+    /// The point at the distance `back` (m) behind the end.
     fn point(&self, back: f64) -> Point2 {
         let length = self.length_at(back);
         self.newest + self.parts[0] + self.parts[1] * length + self.parts[2] * length * length

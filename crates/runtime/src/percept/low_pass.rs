@@ -6,7 +6,9 @@ use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
 /// second-order section with the quality factor 1.
 #[derive(Debug, Clone)]
 pub struct LowPass {
+    /// First-order section.
     first: DirectForm2Transposed<f64>,
+    /// Second-order section.
     second: DirectForm2Transposed<f64>,
     /// Input value for which the sections are at rest.
     rest: f64,
@@ -19,7 +21,9 @@ const FADED: f64 = 1e-290;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a filter for samples at {rate} Hz needs a cutoff above 0 Hz and below {} Hz, not {cutoff} Hz", 0.5 * rate)]
 pub struct CutoffError {
+    /// Cutoff frequency (Hz).
     cutoff: f64,
+    /// Sample rate (Hz).
     rate: f64,
 }
 

@@ -22,10 +22,13 @@ use super::recent_line::RecentLine;
 pub(super) struct MomentAndShear {
     elastica: Elastica,
     shaft: Shaft,
+    /// Equilibrium base angle.
     angle: BaseAngle,
+    /// Line through the newest readings of the shear (N).
     shear: RecentLine,
     /// Standard deviations of the base angle (rad) and of the shear (N).
     deviations: Column<f64>,
+    /// Contact threshold (rad).
     contact_threshold: f64,
     /// True if the newest sample has both readings.
     has_readings: bool,
@@ -42,6 +45,7 @@ const WANTED_SHEAR: f64 = 5e-4;
 const SHAPE_DEVIATION: f64 = 3.5e-5;
 
 impl MomentAndShear {
+    /// Creates the estimator of `whisker`.
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         let elastica = Elastica::new(whisker);
         let shaft = whisker.shaft.clone();

@@ -14,6 +14,7 @@ pub(super) struct OneChannel {
     curve: Arc<TipCurve>,
     /// Standard deviation of the filtered base angle (rad).
     base_angle_deviation: f64,
+    /// Length of the shaft (m).
     length: f64,
 }
 

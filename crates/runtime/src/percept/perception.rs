@@ -22,7 +22,9 @@ use super::whisker::{PerceivedWhisker, base_angle_deviation};
 /// Perception of a rig with the whiskers that a policy binds.
 #[derive(Debug, Clone)]
 pub struct Perception {
+    /// Time of the newest sample (s).
     time: f64,
+    /// Pose of the body in this tick, or unknown.
     body: Pose,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,

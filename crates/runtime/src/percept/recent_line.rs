@@ -9,6 +9,7 @@ pub(super) struct RecentLine {
     window: usize,
     /// Readings, the newest last.
     readings: [f64; LONGEST],
+    /// Number of readings since the last gap, at most [`LONGEST`].
     count: usize,
 }
 

@@ -22,14 +22,21 @@ use super::tip_table::TipTable;
 /// contact, and its uncertainty grows with the path.
 #[derive(Debug, Clone)]
 pub(super) struct Recursive {
+    /// The base angle by contact position.
     surface: Arc<AngleSurface>,
+    /// The tip curve, for first contacts and predictions.
     curve: Arc<TipCurve>,
+    /// Equilibrium base angle.
     angle: BaseAngle,
     /// Standard deviation of the base angle (rad), including the residual of the polynomial.
     angle_deviation: f64,
+    /// Contact threshold (rad).
     contact_threshold: f64,
+    /// Length of the shaft (m).
     length: f64,
+    /// The tip, during a contact.
     tip: Option<Tip>,
+    /// Pose of the base at the previous sample.
     base_before: Option<Pose>,
 }
 
@@ -38,9 +45,11 @@ pub(super) struct Recursive {
 struct Tip {
     /// +1 for a counter-clockwise bend, −1 for a clockwise one.
     bend_sign: f64,
+    /// Magnitude of the base angle (rad).
     base_angle: f64,
     /// Position (m, frame of the base).
     position: Vector2,
+    /// Covariance of the position (m²).
     covariance: Matrix2<f64>,
 }
 
@@ -66,6 +75,7 @@ pub(super) fn surface(whisker: &Whisker, table: &TipTable) -> Option<AngleSurfac
 }
 
 impl Recursive {
+    /// Creates the estimator of `whisker`.
     pub(super) fn new(whisker: &Whisker, surface: Arc<AngleSurface>, curve: Arc<TipCurve>, sensing: &Sensing) -> Self {
         let angle = BaseAngle::new(whisker, sensing);
         Self {

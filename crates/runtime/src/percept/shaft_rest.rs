@@ -20,6 +20,7 @@ pub(super) struct ShaftRest {
     angle_deviation: f64,
     /// Newest readings, oldest first.
     readings: [PosedReading; REMEMBERED],
+    /// Number of readings.
     count: usize,
     /// Path of the whisker (m) since the newest of them.
     path: f64,
@@ -29,6 +30,7 @@ pub(super) struct ShaftRest {
     offset: f64,
     /// Possible error (m) from earlier contacts of the shaft.
     possible_error: f64,
+    /// The current rest, if any.
     rest: Option<Rest>,
 }
 
@@ -87,6 +89,7 @@ const FADING: f64 = 12e-3;
 const FLAT: f64 = 5e-3;
 
 impl ShaftRest {
+    /// Creates the detection for `whisker`. `angle_deviation` (rad) is the standard deviation of a base angle.
     pub(super) fn new(whisker: &Whisker, angle_deviation: f64) -> Self {
         Self {
             pivot: Pivot::new(whisker),
@@ -154,6 +157,7 @@ impl ShaftRest {
         }
     }
 
+    /// Updates the rest with the fixed position that explains the readings, if there is one.
     fn update_rest(&mut self, tip: Point2) {
         let Some(position) = self.fixed_position() else {
             self.offset = 0.0;
@@ -243,10 +247,12 @@ fn refined(
 }
 
 impl PosedReading {
+    /// Transforms a position in the frame of the base to the world frame.
     fn to_world(self, position: Vector2) -> Point2 {
         self.base + position.x * self.axis + position.y * perpendicular(self.axis)
     }
 
+    /// Transforms a position in the world frame to the frame of the base.
     fn to_base(self, position: Point2) -> Vector2 {
         let offset = position - self.base;
         Vector2::new(self.axis.dot(&offset), perpendicular(self.axis).dot(&offset))

@@ -28,34 +28,41 @@ use super::tip_table::{TipPosition, TipTable};
 /// it is assumed to touch a surface that continues from where the tip left, if that is possible.
 #[derive(Debug, Clone)]
 pub(super) struct Sliding {
+    /// Tip positions by base angle and force direction.
     table: Arc<TipTable>,
+    /// Radius of the tip (m).
     tip_radius: f64,
+    /// Length of the shaft (m).
     length: f64,
     /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a counter-clockwise
     /// bend.
     usual_normal: f64,
     /// Angle (rad) by which friction rotates the force from the normal.
     friction_angle: f64,
+    /// Equilibrium base angle.
     angle: BaseAngle,
+    /// Contact threshold (rad).
     contact_threshold: f64,
     /// Number of calm samples required before a new contact is estimated.
     calm_samples: usize,
     /// Number of successive calm samples so far.
     calm_for: usize,
+    /// State of the estimator.
     state: State,
+    /// Detection of shaft contacts.
     rest: ShaftRest,
     /// Position of the base (m, world frame) and direction of the undeflected shaft (rad) at the previous sample.
     base_before: Option<(Point2, f64)>,
 }
 
+/// The state of the estimator.
 #[derive(Debug, Clone, Copy)]
 enum State {
+    /// Not in contact.
     Free,
     /// In contact but not sliding. `left` is the last position of sliding, if any.
-    Unsettled {
-        left: Option<Point2>,
-        bend_sign: f64,
-    },
+    Unsettled { left: Option<Point2>, bend_sign: f64 },
+    /// Sliding in contact.
     Settled(SlidingContact),
 }
 
@@ -86,6 +93,7 @@ const TURNS_BACK: i32 = 3;
 const CALM_TIME: f64 = 0.02;
 
 impl Sliding {
+    /// Creates the estimator of `whisker`.
     pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;

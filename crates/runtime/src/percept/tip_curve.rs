@@ -19,6 +19,7 @@ use crate::rig::Whisker;
 /// Hermite polynomials.
 #[derive(Debug, Clone)]
 pub struct TipCurve {
+    /// Step of the base angle between knots (rad).
     step: f64,
     /// Smallest base angle (rad) with known contact.
     least: f64,
@@ -26,8 +27,10 @@ pub struct TipCurve {
     knots: Vec<Knot>,
 }
 
+/// A knot of the interpolation.
 #[derive(Debug, Clone, Copy)]
 struct Knot {
+    /// Contact position (m, frame of the base).
     contact_base: Vector2<f64>,
     /// Change of the position per step of the base angle.
     slope: Vector2<f64>,

@@ -122,6 +122,7 @@ impl TipTable {
     }
 }
 
+/// The force direction (rad) with this index.
 fn direction(index: usize) -> f64 {
     FIRST_DIRECTION + DIRECTION_STEP * index as f64
 }
@@ -210,6 +211,7 @@ struct Stencil {
 }
 
 impl Stencil {
+    /// Creates the interpolation at the position `along` between the knots 0 to `last`. `None` outside.
     fn new(along: f64, last: usize) -> Option<Self> {
         if !(along >= 0.0 && along <= last as f64) {
             return None;

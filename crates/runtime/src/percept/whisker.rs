@@ -17,9 +17,13 @@ use super::tip_curve::TipCurve;
 /// The perception of one whisker: its pose, base angle, contact and local contour.
 #[derive(Debug, Clone)]
 pub(super) struct PerceivedWhisker {
+    /// Position of the base (m, body frame).
     base_body: Vector2,
+    /// Direction of the undeflected shaft (rad, body frame).
     direction_body: f64,
+    /// −1 for a whisker on the right, +1 for one on the left.
     pub(super) side: f64,
+    /// Length of the shaft (m).
     pub(super) length: f64,
     pub(super) base_angle: FilteredBaseAngle,
     estimator: Box<dyn ContactEstimator>,
@@ -27,11 +31,15 @@ pub(super) struct PerceivedWhisker {
     contact: Option<Contact>,
     /// The tip position that is used without an estimate.
     curve: Arc<TipCurve>,
+    /// Contact threshold (rad).
     contact_threshold: f64,
     /// Standard deviation of the filtered base angle (rad).
     base_angle_deviation: f64,
+    /// Position of the base (m, world frame).
     pub(super) base_world: Point2,
+    /// Direction of the undeflected shaft (rad, world frame).
     pub(super) yaw: f64,
+    /// Local contour behind the tip.
     pub(super) contour: LocalContour,
     /// Position of the base at the newest point of the contour (m, world frame).
     recorded_from: Point2,
@@ -43,6 +51,7 @@ pub(super) struct PerceivedWhisker {
 }
 
 impl PerceivedWhisker {
+    /// Creates the perception of `whisker` with its filter, tip curve and contact estimator.
     pub(super) fn new(
         whisker: &Whisker,
         filter: LowPass,
@@ -112,6 +121,7 @@ impl PerceivedWhisker {
         }
     }
 
+    /// True if the filtered base angle exceeds the contact threshold.
     pub(super) fn is_touching(&self) -> bool {
         self.base_angle().abs() > self.contact_threshold
     }

@@ -93,6 +93,7 @@ impl Dimension {
         self.combine(Self::new(exponent, exponent, exponent, exponent), i8::checked_mul)
     }
 
+    /// Combines the exponents of two dimensions with `op`.
     fn combine(self, other: Self, op: fn(i8, i8) -> Option<i8>) -> Option<Self> {
         Some(Self {
             length: op(self.length, other.length)?,
@@ -156,6 +157,7 @@ impl Dimension {
         }
     }
 
+    /// The unit as a product of kg, m, rad and s.
     fn base_units(self) -> String {
         let factors = [("kg", self.mass), ("m", self.length), ("rad", self.angle), ("s", self.time)];
         let powers = |positive: bool| {

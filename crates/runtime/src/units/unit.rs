@@ -12,8 +12,11 @@ use thiserror::Error;
 /// nearest to 0.072 m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
+    /// Dimension of the unit.
     dimension: Dimension,
+    /// Numerator of the factor to SI units.
     numerator: f64,
+    /// Denominator of this factor.
     denominator: f64,
 }
 
@@ -43,6 +46,7 @@ const SIMPLE: &[(&str, Unit)] = &[
 ];
 
 impl Unit {
+    /// Creates a unit from its dimension and its factor.
     const fn new(dimension: Dimension, numerator: f64, denominator: f64) -> Self {
         Self { dimension, numerator, denominator }
     }
@@ -65,6 +69,7 @@ impl Unit {
         value_si * self.denominator / self.numerator
     }
 
+    /// A power of the unit. `None` on overflow.
     fn powi(self, exponent: i8) -> Option<Self> {
         let (numerator, denominator) =
             if exponent < 0 { (self.denominator, self.numerator) } else { (self.numerator, self.denominator) };
@@ -72,11 +77,13 @@ impl Unit {
         Self::new(self.dimension.checked_powi(exponent)?, numerator.powi(power), denominator.powi(power)).if_finite()
     }
 
+    /// The product of two units. `None` on overflow.
     fn checked_mul(self, other: Self) -> Option<Self> {
         let dimension = self.dimension.checked_mul(other.dimension)?;
         Self::new(dimension, self.numerator * other.numerator, self.denominator * other.denominator).if_finite()
     }
 
+    /// The unit, if its factor is a normal number.
     fn if_finite(self) -> Option<Self> {
         [self.numerator, self.denominator].iter().all(|factor| factor.is_normal()).then_some(self)
     }
