@@ -1,12 +1,55 @@
 //! The calibration of a whisker: contacts at known positions, and functions fitted to them.
 
 mod angle_surface;
-mod calibration;
 mod contact_curve;
 mod contact_set;
 mod least_squares;
 
 pub use angle_surface::AngleSurface;
-pub use calibration::{Calibration, UnsoundCalibration};
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
+
+/// Measured properties of a whisker. Perception derives missing ones from the mechanics.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Calibration {
+    /// A description of the measurement, for people.
+    pub about: String,
+    /// Stiffness of the base hinge (N m/rad).
+    pub hinge_stiffness: Option<f64>,
+    /// The contact position by base angle, for the contact estimator `one_channel`.
+    pub one_channel: Option<ContactCurve>,
+    /// The base angle by contact position, for the contact estimator `recursive`.
+    pub recursive: Option<AngleSurface>,
+}
+
+/// A value of a calibration that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{key}` cannot be used: a number is not finite, a range is empty, or a variance is negative; calibrate again")]
+pub struct UnsoundCalibration {
+    /// The key of the value.
+    pub key: &'static str,
+}
+
+impl Calibration {
+    /// A calibration without values.
+    #[must_use]
+    pub fn new(about: String) -> Self {
+        Self { about, ..Self::default() }
+    }
+
+    /// Checks that perception can use every value.
+    ///
+    /// # Errors
+    /// [`UnsoundCalibration`] with the key of the first value that it cannot use.
+    pub fn check(&self) -> Result<(), UnsoundCalibration> {
+        let checks = [
+            ("hinge_stiffness", self.hinge_stiffness.is_none_or(|stiffness| (1e-6..=1e6).contains(&stiffness))),
+            ("one_channel", self.one_channel.as_ref().is_none_or(ContactCurve::is_sound)),
+            ("recursive", self.recursive.as_ref().is_none_or(AngleSurface::is_sound)),
+        ];
+        match checks.iter().find(|(_, sound)| !sound) {
+            Some((key, _)) => Err(UnsoundCalibration { key }),
+            None => Ok(()),
+        }
+    }
+}

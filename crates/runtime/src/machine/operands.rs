@@ -16,6 +16,7 @@ pub struct Operands {
 
 impl Operands {
     /// All registers that are read: numbers, memory and the index of a whisker.
+    #[must_use]
     pub fn all_reads(&self) -> [RegisterSpan; 4] {
         let [a, b, c] = self.reads;
         [a, b, c, self.whisker.map_or_else(RegisterSpan::default, number)]
@@ -33,6 +34,7 @@ pub struct RegisterSpan {
 
 impl RegisterSpan {
     /// The indices of the registers.
+    #[must_use]
     pub fn registers(self) -> std::ops::Range<usize> {
         usize::from(self.first)..usize::from(self.first) + usize::from(self.width)
     }
@@ -70,6 +72,7 @@ pub enum Effect {
 
 impl Op {
     /// The effect of the operation besides its result.
+    #[must_use]
     pub fn effect(self) -> Effect {
         match self {
             Self::Time { .. }
@@ -100,6 +103,7 @@ impl Op {
     }
 
     /// The registers that the operation reads and writes.
+    #[must_use]
     pub fn operands(mut self) -> Operands {
         let mut operands = Operands::default();
         let mut reads = 0;
@@ -119,6 +123,7 @@ impl Op {
     }
 
     /// Target of a jump.
+    #[must_use]
     pub fn target(mut self) -> Option<u32> {
         self.target_mut().copied()
     }

@@ -209,6 +209,7 @@ fn article(noun: &str) -> &'static str {
 
 impl Guard {
     /// The code of the guard.
+    #[must_use]
     pub fn code(&self) -> &Block {
         match self {
             Self::When { code, .. } | Self::After { code, .. } => code,

@@ -71,6 +71,7 @@ impl Machine {
     }
 
     /// Creates a machine that is about to enter a state, with the given registers.
+    #[must_use]
     pub fn entering(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
         Self { activity: Activity::new(&program, state, registers), failure: None, program }
     }

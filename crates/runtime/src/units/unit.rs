@@ -106,6 +106,7 @@ impl Instead {
     }
 
     /// Formats the replacement as a hint.
+    #[must_use]
     pub fn hint(&self, name: &str) -> String {
         match self {
             Self::Same(same) => format!("1 {name} is {same}"),
