@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rstar::RTree;
 
 use super::distance::Leaf;
-use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, joint, simple};
+use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, simple};
 
 /// How far apart (m) the end of a piece and the start of the next may be.
 pub const JOIN_TOLERANCE: f64 = 1e-9;
@@ -202,7 +202,7 @@ fn turns(pieces: &[Piece], closed: bool) -> Result<Vec<f64>, ContourError> {
                 return Ok(0.0);
             }
             let before = index.checked_sub(1).unwrap_or(last);
-            joint::turn(&pieces[before], &pieces[index]).ok_or_else(|| ContourError::SelfIntersection {
+            corner::turn(&pieces[before], &pieces[index]).ok_or_else(|| ContourError::SelfIntersection {
                 first: before.min(index),
                 second: before.max(index),
                 at: pieces[index].start(),

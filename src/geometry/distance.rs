@@ -2,7 +2,7 @@
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
-use super::{Contour, Piece, Point2, Vector2, joint, least_distance};
+use super::{Contour, Piece, Point2, Vector2, corner, min_distance};
 
 /// The point of a contour nearest to a given one.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl Contour {
 
     /// The same, or `within` (m) if it is not nearer than that.
     pub(super) fn distance_within(&self, point: Point2, within: f64) -> f64 {
-        least_distance(&self.tree, point, within, |leaf| leaf.distance(point))
+        min_distance(&self.tree, point, within, |leaf| leaf.distance(point))
     }
 
     /// Distance (m) from the contour: positive on the right of the direction of travel, which is the outside of a closed
@@ -99,13 +99,15 @@ impl Contour {
             (to_end, self.after(index).map(|after| (index, after)))
         };
         match joint {
-            Some((_, after)) if joint::hides(self.turns[after], to_joint, from_foot) => self.turns[after].signum(),
+            Some((_, after)) if corner::is_ambiguous_at_cusp(self.turns[after], to_joint, from_foot) => {
+                self.turns[after].signum()
+            }
             Some((before, after)) if to_joint <= 0.0 => {
                 let incoming = self.pieces[before].tangent_at(self.pieces[before].length());
                 let outgoing = self.pieces[after].tangent_at(0.0);
-                joint::side(self.turns[after], incoming, outgoing, from_foot)
+                corner::side(self.turns[after], incoming, outgoing, from_foot)
             }
-            _ => joint::right_of(piece.tangent_at(along), from_foot),
+            _ => corner::right_of(piece.tangent_at(along), from_foot),
         }
     }
 

@@ -10,7 +10,7 @@ use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segme
 pub(super) const MOST_PAIRS: usize = 2_000_000;
 
 /// Checks that the pieces of a chain meet nowhere but at their joints. Neighbours that go back over each other from a
-/// joint are for [`turn`](super::joint::turn) to find.
+/// joint are for [`turn`](super::corner::turn) to find.
 pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
     let mut pairs = 0;
     for (first, piece) in pieces.iter().enumerate() {

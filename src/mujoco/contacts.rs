@@ -1,4 +1,4 @@
-//! What can touch what in a MuJoCo model.
+//! The declaration of contacts in a MuJoCo model.
 
 use std::fmt::{self, Write};
 
@@ -8,33 +8,33 @@ use vibrissa_runtime::rig::Rig;
 use super::prune::Scope;
 use crate::solid::Part;
 
-/// How much slower a contact takes up sliding than sinking in, and how much harder it then holds against it.
+/// The ratio of the time constants of friction and normal force, and MuJoCo's `impratio`.
 ///
-/// The engine's law of friction pushes a sliding contact apart: with one time constant `T` for both directions, a contact that slides at
-/// `v` with the friction `mu` stands `2 mu v T` higher than one that rests. For a whisker that is more than it sinks in: the tip
-/// lifts off, falls back, and rings by millimetres. A longer time constant for sliding makes that as much less; the other
-/// factor keeps the creep of a tip that sticks what it was.
+/// MuJoCo's friction model separates a sliding contact. With one time constant `T` for both directions, a contact that
+/// slides at `v` with the coefficient `mu` is `2 mu v T` higher than a contact at rest. For a whisker this exceeds the
+/// penetration depth: the tip lifts off, falls back, and vibrates by millimetres. A longer time constant for friction
+/// reduces the effect by this ratio. `impratio` keeps the creep of a sticking tip unchanged.
 const SLIDING: f64 = 20.0;
 
-/// How a model says what can touch what: each part of a solid, and each link of a whisker and the platform. Nothing else can.
+/// The way in which a model declares contacts. Only links or the platform can touch a part of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contacts {
-    /// Pair by pair. Geoms that collide by their masks would make the engine look at every two bodies in every step, which
-    /// costs a seventh of the time. A pruned model always has pairs, few, and others from time to time.
+    /// Explicit pairs. With masks, the engine would test every pair of bodies in every step, which takes a seventh of
+    /// the time. A pruned model always has explicit pairs. They are few and change during the run.
     Pairs,
-    /// By the masks of the geoms, in a model with everything (`--no-prune`, `vibrissa mjcf`), where there would be a pair of every link and
-    /// every part. The engine keeps the parts of all solids in one tree of boxes, and asks it for those near each link.
+    /// Masks of the geoms, for a complete model (`--no-prune`, `vibrissa mjcf`) with too many pairs. The engine keeps
+    /// the parts of all solids in one bounding volume tree and queries it for each link.
     Masks,
 }
 
 impl Contacts {
-    /// The way for this many parts: pairs where they are named as they come in reach, where there is friction, which only pairs do well,
-    /// and where they are few; else masks.
+    /// Selects the declaration for this number of parts. Pairs are used for pruned models, for models with friction,
+    /// and for a single part. Friction is accurate only with pairs.
     pub(super) fn with(parts: usize, physics: &Physics, scope: &Scope) -> Self {
         if parts <= 1 || physics.friction > 0.0 || scope.room().is_some() { Self::Pairs } else { Self::Masks }
     }
 
-    /// The attributes of a solid's part.
+    /// The attributes of a part of a solid.
     pub(super) fn of_part(self) -> &'static str {
         match self {
             Self::Pairs => r#"contype="0" conaffinity="0""#,
@@ -50,7 +50,7 @@ impl Contacts {
         }
     }
 
-    /// How contacts behave, where it is a matter of the geoms. It is the same for all of them.
+    /// Writes the contact parameters of the geoms, if contacts are declared by masks. They are the same for all geoms.
     pub(super) fn write_defaults(self, xml: &mut String, physics: &Physics) -> fmt::Result {
         if self == Self::Pairs {
             return Ok(());
@@ -58,8 +58,8 @@ impl Contacts {
         writeln!(xml, "  <default>\n    <geom {}/>\n  </default>", contact(physics, "0 0 0"))
     }
 
-    /// The pairs of every part with every link and the platform, where it is a matter of them; as many of them as there is room for, whose
-    /// parts and links are then others from time to time.
+    /// Writes the pairs of every part with every link and the platform, if contacts are declared by pairs. Their number
+    /// is limited by the capacity of the scope. The geoms of these pairs change during the run.
     pub(super) fn write_pairs(
         self,
         xml: &mut String,
@@ -76,7 +76,7 @@ impl Contacts {
             .flat_map(|(_, whisker)| (0..whisker.shaft.links).map(move |link| format!("{}.{link}", whisker.name)));
         let mut contact = contact(physics, &format!("{0} {0}", physics.friction));
         if physics.friction > 0.0 {
-            // With most integrators the engine takes no time constant below two steps.
+            // Most integrators of the engine limit the time constant to at least two steps.
             let time = physics.contact_time.max(2.0 * physics.step);
             write!(contact, r#" solreffriction="{} 1""#, SLIDING * time)?;
         }
@@ -90,12 +90,12 @@ impl Contacts {
     }
 }
 
-/// The attribute of the engine's options by which friction holds harder; none without friction.
+/// Returns the option attribute for stiffer friction, empty without friction.
 pub(super) fn hold(physics: &Physics) -> String {
     if physics.friction > 0.0 { format!(r#" impratio="{SLIDING}""#) } else { String::new() }
 }
 
-/// The attributes of a contact, with its coefficients of friction.
+/// Returns the attributes of a contact with these friction coefficients.
 fn contact(physics: &Physics, friction: &str) -> String {
     let [surface, full, depth] = physics.contact_impedance;
     let condim = if physics.friction > 0.0 { 3 } else { 1 };

@@ -1,4 +1,4 @@
-//! A compiled model and its state.
+//! A compiled MuJoCo model and its state.
 
 use std::ops::Range;
 
@@ -15,26 +15,26 @@ use vibrissa_runtime::rig::{Rig, Shaft, Whisker};
 use super::messages::WARNINGS;
 use super::world::MujocoError;
 
-/// The joints of the platform come first: along x, along y, yaw.
+/// The platform's joints come first: x, y, yaw.
 const PLATFORM_JOINTS: usize = 3;
 
-/// What of a rig may touch something.
+/// A part of the rig that can touch a solid.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Member {
     /// The platform's body.
     Body,
-    /// A link, by the indices of its whisker and along that.
+    /// A link, by the index of its whisker and its index on the whisker.
     Link(usize, usize),
 }
 
-/// A part of a solid, by its index, and what may touch it.
+/// A part of a solid, by its index, and a member of the rig that may touch it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub(super) of: Member,
     pub(super) part: usize,
 }
 
-/// A state: positions, velocities, and the accelerations that the solver begins with.
+/// A state: positions, velocities, and the accelerations for a warm start of the solver.
 #[derive(Debug, Clone)]
 struct State {
     positions: Vec<f64>,
@@ -42,27 +42,27 @@ struct State {
     accelerations: Vec<f64>,
 }
 
-/// Where a whisker's joints stand in the state: its hinge, then those along the shaft.
+/// The ranges of a whisker's joints in the state: its hinge, followed by the joints of the shaft.
 #[derive(Debug, Clone)]
 struct Joints {
     positions: Range<usize>,
     velocities: Range<usize>,
 }
 
-/// A compiled model of as much of a scene as its scope says, and its state.
+/// A compiled model within a scope, and its state.
 pub(super) struct Engine {
     data: MjData<Box<MjModel>>,
     kept: State,
     pub(super) scope: Scope,
-    /// The joints of every whisker that bends.
+    /// The joints of every flexible whisker.
     joints: Vec<Option<Joints>>,
     shafts: ShaftModel,
-    /// The geom of the first link of every whisker that bends; those of the others come one after the other.
+    /// The geom of the first link of every flexible whisker. The geoms of its other links follow.
     first_links: Vec<Option<usize>>,
-    /// The geoms of the parts that are there, ascending by the parts' indices.
+    /// The geoms of the parts in the model, ascending by the parts' indices.
     part_geoms: Vec<i32>,
     platform_geom: i32,
-    /// How many pairs there is room for.
+    /// The capacity of the model's pair list.
     room: usize,
 }
 
@@ -93,7 +93,7 @@ impl Engine {
             let freedom = shafts.degrees_of_freedom(whisker.shaft.links);
             let numbers = match shafts {
                 ShaftModel::Chain => freedom,
-                // A ball joint's position is a quaternion.
+                // The position of a ball joint is a quaternion.
                 ShaftModel::Cable => freedom / 3 * 4,
             };
             let positions = position..position + 1 + numbers;
@@ -112,7 +112,8 @@ impl Engine {
         Ok(Self { data, kept, scope, joints, shafts, first_links, part_geoms, platform_geom, room })
     }
 
-    /// Goes on from another's state. A whisker that was rigid there is straight and at rest; one that is rigid here was.
+    /// Copies the state of another engine. A whisker that was rigid there becomes straight and at rest. A whisker that
+    /// is rigid here was already straight.
     pub(super) fn resume(&mut self, other: &Self) {
         self.data.ctrl_mut().copy_from_slice(other.data.ctrl());
         let platform = Joints { positions: 0..PLATFORM_JOINTS, velocities: 0..PLATFORM_JOINTS };
@@ -135,9 +136,11 @@ impl Engine {
         }
     }
 
-    /// Lets the engine look for contacts of these pairs alone, ascending by what may touch; there must be [room](Scope::room) for them.
-    pub(super) fn look_for(&mut self, pairs: &[Pair]) {
-        // A part that is not there is out of the window, and so out of reach until the model is another; rigid whiskers have no geoms.
+    /// Sets the pairs that the engine tests, ascending by member. Their number must not exceed the
+    /// [capacity](Scope::room).
+    pub(super) fn set_pairs(&mut self, pairs: &[Pair]) {
+        // A part that is not in the model is outside of the window, so it is out of reach until the model is replaced.
+        // Rigid whiskers have no geoms.
         let geoms = pairs.iter().filter_map(|pair| Some((self.part_geom(pair.part)?, self.geom(pair.of)?)));
         let geoms: Vec<_> = geoms.collect();
         debug_assert!(geoms.len() <= self.room, "{} pairs, but room for {}", geoms.len(), self.room);
@@ -147,17 +150,19 @@ impl Engine {
             clippy::cast_possible_wrap,
             reason = "no more than the model was compiled with, whose count is such a number"
         )]
-        // SAFETY: `model_mut` demands that every size stays equal, and `npair` is one that does not. Why that is sound here:
-        // - No array of the data is as long as there are pairs; its buffers and its arena stay as they were allocated.
-        // - The model's own arrays of pairs stay where they are, as long as at first: `npair` is never above `room`, the number that was
-        //   compiled. Beyond geoms and signatures all pairs are alike, so that what the others tell of a slot holds for any pair in it.
-        // - A model with another `npair` than was allocated must not be copied, written out, swapped for another, or told compatible by
-        //   its layout: this one belongs to the data alone, and nobody does any of that.
-        // - All ids are those of geoms of this very model, looked up by name. The engine checks for each pair that there is a function for
-        //   the kinds of its two geoms. A prism's mesh has a graph of its hull whether or not a pair named it at first, because
-        //   it is given by its corners alone.
-        // - The engine merges pairs with what its search by masks finds, by signatures that ascend: so they do, as bodies come in the
-        //   order of pairs. In a model with room all masks are 0, and that search finds nothing.
+        // SAFETY: `model_mut` requires that no size changes, and `npair` changes. It is sound for these reasons:
+        // - No array of the data depends on the number of pairs. Its buffers and its arena keep their sizes.
+        // - The arrays of pairs in the model keep their addresses and lengths. `npair` never exceeds `room`, the
+        //   compiled number. All pairs have equal properties except geoms and signatures, so the other arrays of a slot
+        //   hold for any pair.
+        // - A model with a changed `npair` must not be copied, saved, swapped, or compared by its layout. This model is
+        //   owned by the data alone, and none of these operations occurs.
+        // - All ids are geoms of this model, looked up by name. The engine checks that a collision function exists for
+        //   the types of both geoms. The mesh of a prism always has a convex hull graph, because the mesh is defined by
+        //   its vertices only.
+        // - The engine merges pairs with the candidates of its mask-based broad phase by ascending signature. The
+        //   signatures ascend, because bodies are in the order of the pairs. In a model with a capacity all masks are
+        //   0, and there are no such candidates.
         let model = unsafe {
             let model = self.data.model_mut();
             model.ffi_mut().npair = geoms.len() as i64;
@@ -168,7 +173,7 @@ impl Engine {
             model
         };
         for (slot, (_, other)) in geoms.into_iter().enumerate() {
-            // The two bodies, of which the part's is the world, 0: it comes first, in the high half.
+            // The signature contains both bodies. The part belongs to the world, body 0, in the high half.
             let body = usize::try_from(other).map(|geom| model.geom_bodyid()[geom]);
             model.pair_signature_mut()[slot] = body.unwrap_or_default();
         }
@@ -185,45 +190,47 @@ impl Engine {
         }
     }
 
-    /// Sets the velocities that the servos are to reach (m/s, rad/s).
+    /// Sets the target velocities of the servos (m/s, rad/s).
     pub(super) fn command(&mut self, velocity: Vector2, yaw_rate: f64) {
         self.data.ctrl_mut().copy_from_slice(&[velocity.x, velocity.y, yaw_rate]);
     }
 
-    /// Takes a step of this length (s).
+    /// Simulates a step of this length (s).
     pub(super) fn step(&mut self, length: f64) {
         self.data.model_opt_mut().timestep = length;
         self.data.step();
     }
 
-    /// Keeps the state, for [`Self::back`].
-    pub(super) fn keep(&mut self) {
+    /// Saves the state for [`Self::restore`].
+    pub(super) fn save(&mut self) {
         let Self { data, kept, .. } = self;
         kept.positions.clone_from_slice(data.qpos());
         kept.velocities.clone_from_slice(data.qvel());
         kept.accelerations.clone_from_slice(data.qacc_warmstart());
     }
 
-    /// Goes back to the state that was kept last.
-    pub(super) fn back(&mut self) {
+    /// Restores the last saved state.
+    pub(super) fn restore(&mut self) {
         let Self { data, kept, .. } = self;
         data.qpos_mut().copy_from_slice(&kept.positions);
         data.qvel_mut().copy_from_slice(&kept.velocities);
         data.qacc_warmstart_mut().copy_from_slice(&kept.accelerations);
     }
 
-    /// What the engine has warned of. It resets its state when it diverges and goes on as if nothing had been; only its counters tell.
+    /// Returns the warning of the engine, if there is one. The engine resets its state silently after a divergence.
+    /// Only its warning counters show that.
     pub(super) fn warning(&self) -> Option<&'static str> {
         let mut warned = self.data.warning().iter().zip(WARNINGS);
         warned.find(|(warning, _)| warning.number > 0).map(|(_, cause)| cause)
     }
 
-    /// The depths (m) of all contacts before the last step, and whether the platform's body is in it.
+    /// The penetration depths (m) of all contacts before the last step. The flag is true for contacts of the platform's
+    /// body.
     pub(super) fn contacts(&self) -> impl Iterator<Item = (f64, bool)> {
         self.data.contact().iter().map(|contact| (-contact.dist, contact.geom.contains(&self.platform_geom)))
     }
 
-    /// The place (m, world frame) and link of a whisker's deepest contact.
+    /// Returns the position (m, world frame) and the link of a whisker's deepest contact.
     pub(super) fn deepest(&self, whisker: usize, links: usize) -> Option<(Point2, usize)> {
         let first = self.first_links[whisker]?;
         let link_of = |geom: &i32| usize::try_from(*geom).ok()?.checked_sub(first).filter(|link| *link < links);
@@ -233,24 +240,24 @@ impl Engine {
         Some((Point2::new(contact.pos[0], contact.pos[1]), link))
     }
 
-    /// Whether all positions are numbers.
+    /// True if all positions are finite.
     pub(super) fn is_finite(&self) -> bool {
         self.data.qpos().iter().all(|position| position.is_finite())
     }
 
-    /// Where the platform is.
+    /// The pose of the platform in the world frame.
     pub(super) fn body(&self) -> Pose {
         let positions = self.data.qpos();
         Pose { position: Point2::new(positions[0], positions[1]), heading: positions[2] }
     }
 
-    /// The platform's velocity (m/s) and yaw rate (rad/s).
+    /// The velocity (m/s, world frame) and the yaw rate (rad/s) of the platform.
     pub(super) fn body_velocity(&self) -> (Vector2, f64) {
         let velocities = self.data.qvel();
         (Vector2::new(velocities[0], velocities[1]), velocities[2])
     }
 
-    /// Of every link of a whisker that bends, where it begins (m, world frame), and its direction (rad).
+    /// The near end (m, world frame) and the direction (rad) of every link of a flexible whisker.
     pub(super) fn links(&self, rig: &Rig, whisker: usize) -> impl Iterator<Item = (Point2, f64)> {
         let Whisker { base_body, direction_body, shaft, .. } = &rig.whiskers[whisker];
         let (body, length) = (self.body(), shaft.link_length());
@@ -265,19 +272,20 @@ impl Engine {
         })
     }
 
-    /// The angles (rad) by which a whisker's hinge is turned, and then every link against what it is on; none if it is rigid.
+    /// The angle (rad) of a whisker's hinge, followed by the angle of every link relative to its predecessor. Empty for
+    /// a rigid whisker.
     pub(super) fn angles(&self, whisker: usize) -> impl Iterator<Item = f64> {
         let joints = self.joints[whisker].as_ref();
         let positions = joints.map_or(&[][..], |joints| &self.data.qpos()[joints.positions.clone()]);
         self.by_joint(positions, 4).map(|position| match position {
             [angle] => *angle,
-            // A quaternion about the vertical.
+            // A quaternion about the vertical axis.
             [cosine, .., sine] => 2.0 * sine.atan2(*cosine),
             [] => 0.0,
         })
     }
 
-    /// A bound on the speed (m/s) of a whisker's points against its base.
+    /// An upper bound of the speed (m/s) of any point of a whisker relative to its base.
     pub(super) fn speed(&self, rig: &Rig, whisker: usize) -> f64 {
         let joints = self.joints[whisker].as_ref();
         let velocities = joints.map_or(&[][..], |joints| &self.data.qvel()[joints.velocities.clone()]);
@@ -288,8 +296,8 @@ impl Engine {
         swing(&rig.whiskers[whisker].shaft, rates)
     }
 
-    /// What belongs to a whisker's hinge, and then to every link, of what its joints have, of which a ball has so many. A cable's first
-    /// link is clamped, and has nothing.
+    /// Splits per-joint values of a whisker into those of the hinge and of every link. A ball joint has `of_ball`
+    /// values. The first link of a cable is clamped and has none.
     fn by_joint<'a>(&self, of_joints: &'a [f64], of_ball: usize) -> impl Iterator<Item = &'a [f64]> + use<'a> {
         let (hinge, along) = of_joints.split_at(of_joints.len().min(1));
         let (clamped, of_link) = match self.shafts {
@@ -299,34 +307,37 @@ impl Engine {
         hinge.chunks_exact(1).chain(std::iter::repeat_n(&[][..], clamped)).chain(along.chunks_exact(of_link))
     }
 
-    /// A bound on how far (m) a whisker's points went against its base since its joints were at these angles (rad).
+    /// An upper bound of the displacement (m) of any point of a whisker relative to its base since its joints had these
+    /// angles (rad).
     pub(super) fn swing_since(&self, rig: &Rig, whisker: usize, angles: &[f64]) -> f64 {
         let turns = self.angles(whisker).zip(angles).map(|(angle, before)| angle - before);
         swing(&rig.whiskers[whisker].shaft, turns)
     }
 
-    /// Axial force and shear (N) that act on a whisker's shaft at its base. Needs forces to be sensed.
+    /// The axial force and the shear (N) that act on a whisker's shaft at its base. Requires force sensors in the
+    /// model.
     pub(super) fn base_forces(&self, whisker: usize) -> (f64, f64) {
         let force = &self.data.sensordata()[3 * whisker..3 * whisker + 3];
-        // MuJoCo reports what the platform does to the shaft.
+        // MuJoCo reports the force of the shaft's parent on the shaft with the opposite sign.
         (-force[0], -force[1])
     }
 
-    /// The energy (J) in springs and motion. Needs to be [refreshed](Self::refresh) after a step.
+    /// The energy (J) of springs and motion. Requires a [refresh](Self::refresh) after a step.
     pub(super) fn energy(&mut self) -> f64 {
         self.data.energy_pos();
         self.data.energy_vel();
         self.data.energy().iter().sum()
     }
 
-    /// After a step, what is derived from places and speeds, such as what sensors hold, belongs to the state before it.
+    /// Recomputes quantities that are derived from positions and velocities. After a step, they still belong to the
+    /// state before it.
     pub(super) fn refresh(&mut self) {
         self.data.forward();
     }
 }
 
-/// A bound on how far (m) turns (rad) of a whisker's joints move its points, or on their speed: no joint moves the tip by more than the
-/// shaft behind it is long.
+/// An upper bound of the displacement (m) that joint rotations (rad) cause, or of the speed that joint velocities
+/// cause. Each joint contributes its angle times the length of the shaft behind it.
 fn swing(shaft: &Shaft, turns: impl Iterator<Item = f64>) -> f64 {
     let length = |joint: usize| shaft.length - joint.saturating_sub(1) as f64 * shaft.link_length();
     turns.enumerate().map(|(joint, turn)| turn.abs() * length(joint)).sum()
@@ -344,7 +355,7 @@ mod tests {
     use super::*;
     use crate::geometry::{circle, polygon};
 
-    /// The geoms and the signatures of the pairs that an engine looks for.
+    /// The geoms and the signatures of the pairs that the engine tests.
     fn pairs(engine: &Engine) -> Vec<(i32, i32, i32)> {
         let model = engine.data.model();
         let geoms = model.pair_geom1().iter().zip(model.pair_geom2());
@@ -366,8 +377,8 @@ mod tests {
             links.flat_map(|(index, whisker)| (0..whisker.shaft.links).map(move |link| Member::Link(index, link)));
         let members = std::iter::once(Member::Body).chain(links);
         let all: Vec<_> = members.flat_map(|of| (0..parts).map(move |part| Pair { of, part })).collect();
-        engine.look_for(&all[..3]);
-        engine.look_for(&all);
+        engine.set_pairs(&all[..3]);
+        engine.set_pairs(&all);
         let mut named = pairs(&engine);
         assert!(parts > 2 && named.is_sorted_by_key(|(signature, ..)| signature), "{named:?}");
         compiled.sort_unstable();

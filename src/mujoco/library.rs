@@ -1,8 +1,8 @@
-//! MuJoCo's library, loaded when it is first needed, so that the program starts without it.
+//! Loads MuJoCo's library on first use, so that the program starts without it.
 //!
-//! mujoco-rs declares MuJoCo's functions and leaves them to the linker. Those that the program uses are defined here, so that the linker
-//! needs nothing of the library, and the library is no longer among those that the loader must find before the program starts. Each
-//! passes its call on to the function of that name in the library.
+//! mujoco-rs declares MuJoCo's functions as symbols for the linker. This module defines all symbols that the program
+//! uses. The linker then needs nothing from the library, and the loader does not search it at the start of the program.
+//! Each definition forwards its call to the function of the same name in the library.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error as _;
@@ -13,44 +13,44 @@ use libloading::Library;
 use mujoco_rs::mujoco_c;
 use mujoco_rs::mujoco_c::{mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS, mjfLogHandler};
 
-/// Why MuJoCo's library cannot be used.
+/// The reason why MuJoCo's library cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup`, or use the world `quasistatic`, which does not need it"
 )]
 pub struct LibraryError {
-    /// What the loader says.
+    /// The message of the loader.
     cause: String,
 }
 
-/// The functions, once the library is loaded. It is never unloaded.
+/// The functions of the loaded library. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
     let failed = |cause: libloading::Error| LibraryError { cause: told(&cause) };
     open(file_name()).and_then(|library| Functions::of(&library)).map_err(failed)
 });
 
-/// Loads the library, once in a process.
+/// Loads the library once per process.
 ///
 /// # Errors
-/// [`LibraryError`] when it is not where the loader looks for it, or is not usable.
+/// [`LibraryError`] if the loader does not find the library, or if it is not usable.
 pub(super) fn load() -> Result<(), LibraryError> {
     FUNCTIONS.as_ref().map(|_| ()).map_err(Clone::clone)
 }
 
-/// Loads a library for good.
+/// Loads a library for the rest of the process.
 pub(super) fn open(name: impl AsRef<std::ffi::OsStr>) -> Result<std::mem::ManuallyDrop<Library>, libloading::Error> {
     #[expect(unsafe_code, reason = "a library runs code of its own when it is loaded")]
-    // SAFETY: it is MuJoCo's, or a plugin of MuJoCo's. All that these do when they are loaded is to register themselves.
+    // SAFETY: it is MuJoCo's library or one of its plugins. Their initialisers only register themselves.
     let library = unsafe { Library::new(name.as_ref()) };
     library.map(std::mem::ManuallyDrop::new)
 }
 
-/// What the loader says, which names the file.
+/// The message of the loader, with the name of the file.
 pub(super) fn told(cause: &libloading::Error) -> String {
     cause.source().map_or_else(|| cause.to_string(), ToString::to_string)
 }
 
-/// What the library is called that mujoco-rs is written for. Its directory is among those in which the loader looks for the program.
+/// The file name of the library version that mujoco-rs requires. The program's loader path includes its directory.
 fn file_name() -> String {
     let [major, minor, patch] = [mjVERSION_HEADER / 1_000_000, mjVERSION_HEADER / 1000 % 1000, mjVERSION_HEADER % 1000];
     if cfg!(target_vendor = "apple") {
@@ -60,8 +60,8 @@ fn file_name() -> String {
     }
 }
 
-/// The functions for calls of mujoco-rs. Every use of MuJoCo in this crate comes after [`load`], so that there are some; what uses
-/// mujoco-rs without it ends here.
+/// The functions for calls of mujoco-rs. Every use of MuJoCo in this crate comes after [`load`], so they are available.
+/// A use of mujoco-rs without it ends the process here.
 #[expect(clippy::print_stderr, reason = "MuJoCo's functions cannot tell that they are missing")]
 fn functions() -> &'static Functions {
     FUNCTIONS.as_ref().unwrap_or_else(|error| {
@@ -70,8 +70,8 @@ fn functions() -> &'static Functions {
     })
 }
 
-/// Defines the functions, and a table of those in the library. One whose signature is not mujoco-rs's does not compile. A function that is
-/// missing here ties the program to the library again; a test sees to that.
+/// Defines the forwarding functions and the table of the library's functions. A signature that differs from mujoco-rs
+/// does not compile. A missing function would link the program to the library again; a test checks this.
 macro_rules! pass_on {
     ($(fn $name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
         #[expect(non_snake_case, reason = "MuJoCo's names")]
@@ -82,7 +82,7 @@ macro_rules! pass_on {
         impl Functions {
             fn of(library: &Library) -> Result<Self, libloading::Error> {
                 #[expect(unsafe_code, reason = "a library does not say what its functions take")]
-                // SAFETY: the name of the file has MuJoCo's version, and the signatures are those of that version.
+                // SAFETY: the file name contains MuJoCo's version, and the signatures are those of that version.
                 unsafe { Ok(Self { $($name: *library.get(stringify!($name))?,)* }) }
             }
         }
@@ -91,8 +91,8 @@ macro_rules! pass_on {
             const _: unsafe extern "C" fn($($type),*) $(-> $result)? = mujoco_c::$name;
 
             #[expect(unsafe_code, reason = "mujoco-rs leaves the function to the linker")]
-            // SAFETY: nothing else in the program has the name. What the function demands is the caller's to keep, as if it had called the
-            // function in the library.
+            // SAFETY: the name is unique in the program. The caller must meet the requirements of the function in the
+            // library.
             #[unsafe(no_mangle)]
             unsafe extern "C" fn $name($($argument: $type),*) $(-> $result)? {
                 unsafe { (functions().$name)($($argument),*) }

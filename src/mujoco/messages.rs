@@ -1,4 +1,4 @@
-//! What MuJoCo says.
+//! Messages of MuJoCo.
 
 use std::sync::Once;
 
@@ -9,7 +9,7 @@ use crate::diagnostic::printable;
 
 use super::library::{self, LibraryError};
 
-/// What each of MuJoCo's warning counters means and what to do about it, in their order.
+/// Texts for MuJoCo's warning counters, in their order, with advice.
 pub(super) const WARNINGS: [&str; 7] = [
     "an inertia matrix became singular; give the rig heavier parts",
     "there are more contacts than memory for them; make `links` smaller",
@@ -23,16 +23,16 @@ pub(super) const WARNINGS: [&str; 7] = [
 /// The version of MuJoCo.
 ///
 /// # Errors
-/// [`LibraryError`] when its library cannot be used.
+/// [`LibraryError`] if the library cannot be used.
 pub fn engine_version() -> Result<&'static str, LibraryError> {
     prepare_engine()?;
     Ok(mujoco_rs::mujoco_version())
 }
 
-/// Loads MuJoCo, and keeps it from writing a log file into the working directory.
+/// Loads MuJoCo and disables its log file in the working directory.
 ///
 /// # Errors
-/// [`LibraryError`] when its library cannot be used.
+/// [`LibraryError`] if the library cannot be used.
 pub(super) fn prepare_engine() -> Result<(), LibraryError> {
     static ROUTED: Once = Once::new();
     library::load()?;
@@ -40,13 +40,13 @@ pub(super) fn prepare_engine() -> Result<(), LibraryError> {
         unsafe_code,
         reason = "MuJoCo's log handler is global; nothing else in the process uses MuJoCo before this"
     )]
-    // SAFETY: every use of MuJoCo in this crate comes after a call of this function, and `Once` lets one thread through.
+    // SAFETY: every use of MuJoCo in this crate comes after a call of this function, and `Once` admits one thread.
     ROUTED.call_once(|| unsafe { set_log_handler(on_engine_message) });
     Ok(())
 }
 
-/// Warnings are counted by the engine and become [`Fault`](crate::world::Fault)s; an error ends the process, so its text must get
-/// out here.
+/// Prints errors of the engine. MuJoCo ends the process after an error, so this is the last chance to report it.
+/// Warnings are counted by the engine and become [`Fault`](crate::world::Fault)s.
 #[expect(clippy::print_stderr, reason = "MuJoCo ends the process right after an error")]
 fn on_engine_message(message: &MjLogMessage) {
     if matches!(message.level(), MjtLogLevel::mjLOG_ERROR) {

@@ -1,12 +1,13 @@
-//! The MuJoCo model of a rig before solids, as MJCF.
+//! The MuJoCo model of a rig among solids, as MJCF.
 //!
-//! The platform is one body on two slides and a hinge, driven by velocity servos. Every whisker is a chain of rigid links on
-//! planar hinges whose springs stand for the shaft's bending stiffness. The springs follow the trapezoid rule: `EI / l`
-//! between two links of length `l`, and twice that at the root, where only half a link bends; sixteen links then come within
-//! 0.1 % of the elastica's base moment. Where the wire tapers, each link is as thick as it is in its middle.
+//! The platform is one body on two slides and a hinge, driven by velocity servos. Every whisker is a chain of rigid
+//! links on planar hinges. The joint springs represent the bending stiffness of the shaft by the trapezoid rule:
+//! `EI / l` between two links of length `l`, and twice that at the root, because only half a link bends there. With
+//! sixteen links, the base moment differs from the elastica's by less than 0.1 %. In a tapered shaft, each link has the
+//! mean thickness.
 //!
-//! A cable is laid out as MuJoCo's composite of that name: its first link is clamped to the base, the others are on ball joints,
-//! and MuJoCo's plugin for cables takes the place of the springs.
+//! A cable has the layout of MuJoCo's composite of that name. Its first link is clamped to the base, and the others are
+//! on ball joints. MuJoCo's cable plugin replaces the springs.
 
 use std::fmt::{self, Write};
 
@@ -18,35 +19,40 @@ use super::contacts::{Contacts, hold};
 use super::prune::Scope;
 use crate::solid::{Part, Solid};
 
-/// Half of the height (m) of everything that can be touched; the world is planar, so that any height will do.
+/// Half of the height (m) of all geoms. Any height is possible, because the simulation is planar.
 const HALF_HEIGHT: f64 = 0.01;
-/// How far (m) the corner of a prism that is farthest from the middle lies lower than that would be. In one plane, hundreds of corners
-/// would make the search for faces slow, and after it the one for the corner that is farthest in a direction.
+/// The height (m) by which the farthest vertex of a prism is lowered. Hundreds of coplanar vertices would slow down the
+/// computation of faces, and later the support function.
 const DOME: f64 = 1e-3;
 
-/// Mass (kg) and moment of inertia (kg m²) of a whisker's base. The suspension's inertia is the hinge's armature; the body only needs
-/// enough to be a body.
+/// Mass (kg) and moment of inertia (kg m²) of a whisker's base. The suspension's inertia is the armature of the hinge.
+/// MuJoCo requires a positive mass of the body.
 const BASE_MASS: f64 = 1e-6;
 const BASE_INERTIA: f64 = 1e-9;
 
-/// The name of MuJoCo's plugin for cables.
+/// The name of MuJoCo's cable plugin.
 const CABLE: &str = "mujoco.elasticity.cable";
 
-/// Young's modulus over the shear modulus, for a Poisson's ratio of 0.3. Nothing twists in the plane, whatever this is.
+/// The ratio of Young's modulus and shear modulus for a Poisson's ratio of 0.3. It has no effect, because there is no
+/// torsion in the plane.
 const YOUNG_OVER_SHEAR: f64 = 2.6;
 
-/// Writes the MuJoCo model of `rig` at `start` before `solids`.
+/// Writes the MuJoCo model of `rig` at `start` among `solids`.
 ///
-/// Names in the model: the body and the geom `platform/body`; the joints `platform/x`, `platform/y` and `platform/yaw`, and an
-/// actuator of the same name each; for a whisker `w` the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along
-/// the shaft, of which a cable has no joint `w.0`, but an instance `w` of the plugin; the geom `object`, or where the solids have
-/// several convex parts the geoms `object/0`, `object/1`, …; the keyframe `start`.
+/// Names in the model:
+/// - the body and the geom `platform/body`
+/// - the joints `platform/x`, `platform/y` and `platform/yaw`, each with an actuator of the same name
+/// - for a whisker `w`: the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along the shaft. A cable
+///   has no joint `w.0`, but an instance `w` of the plugin
+/// - the geom `object`, or `object/0`, `object/1`, … if there are several convex parts
+/// - the keyframe `start`
 #[must_use]
 pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> String {
     mjcf_within(rig, physics, solids, start, &Scope::whole(rig, solids))
 }
 
-/// The same, with what `scope` says alone. A rigid whisker is one body, without joints and geoms; the other names stay as they are.
+/// Writes the part of the model that is in `scope`. A rigid whisker is one body without joints and geoms. The other
+/// names are the same.
 #[must_use]
 pub fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, scope: &Scope) -> String {
     let parts = named_parts(solids, scope);
@@ -56,7 +62,7 @@ pub fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, 
     xml
 }
 
-/// The parts of solids that are there, ascending, and what the model calls their geoms.
+/// The parts of solids in the scope, ascending, with the names of their geoms.
 fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
     let all = solids.iter().flat_map(Solid::parts).count();
     let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
@@ -64,7 +70,7 @@ fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)
     parts.map(|(index, part)| (name(index), part)).collect()
 }
 
-/// The names in the model of the geoms of the parts that `scope` has, ascending by the parts' indices.
+/// The names of the geoms of the parts in `scope`, ascending by the parts' indices.
 pub fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
     named_parts(solids, scope).into_iter().map(|(name, _)| name)
 }
@@ -79,9 +85,9 @@ fn write_model(
 ) -> fmt::Result {
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false" usethread="false"/>"#)?;
-    // A handful of contacts: conjugate gradients reach the same solution as Newton's method, to a millionth, and need not
-    // factor a matrix of all joints for it. The dual solver would be faster still, but delays the servos by a step. With a
-    // pyramid for the friction cone a tip that slides at a small coefficient chatters; with the exact cone it does not.
+    // There are few contacts. Conjugate gradients give the solution of Newton's method to a millionth, without a
+    // factorisation. The dual solver is faster, but delays the servos by a step. With a pyramidal friction cone, a tip
+    // that slides with a small coefficient vibrates; with an elliptic cone it does not.
     writeln!(
         xml,
         r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 0" jacobian="dense">"#,
@@ -91,7 +97,7 @@ fn write_model(
         hold(physics),
         tolerance(physics)
     )?;
-    // One tree of bodies is one island: looking for islands costs a quarter of the time and finds none.
+    // One tree of bodies is one island. The search for islands would take a quarter of the time.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
     writeln!(xml, r"  </option>")?;
     if physics.shafts == ShaftModel::Cable {
@@ -134,8 +140,8 @@ fn write_extension(xml: &mut String, rig: &Rig, scope: &Scope) -> fmt::Result {
     writeln!(xml, "    </plugin>\n  </extension>")
 }
 
-/// The attribute of the engine's options that ends the projected solver's search. A tip that is handed over from one part of a wall to the
-/// next touches both, and at the engine's own 1e-8 that takes some 70 rounds, for a force that hardly changes any more.
+/// The option attribute for the tolerance of the projected Gauss-Seidel solver. A tip between two parts of a wall
+/// touches both. With the default of 1e-8, this takes some 70 iterations with hardly any change of the force.
 fn tolerance(physics: &Physics) -> &'static str {
     if physics.solver == Solver::ProjectedGaussSeidel { r#" tolerance="1e-6""# } else { "" }
 }
@@ -151,11 +157,11 @@ fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]
     writeln!(xml, r"  </asset>")
 }
 
-/// Writes an upright prism whose ends are domes.
+/// Writes an upright prism with domed ends.
 fn write_prism(xml: &mut String, name: &str, outline: &[Point2]) -> fmt::Result {
     let sum = outline.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords);
     let middle = Point2::from(sum / outline.len() as f64);
-    // Points of a circle, lowered by the square of their distance, would lie in one plane again.
+    // Points of a circle, lowered by their squared distance, would be coplanar again.
     let from_middle =
         |corner: &Point2| (corner - middle).dot(&Vector2::new(corner.x - middle.x, 2.0 * (corner.y - middle.y)));
     let farthest = outline.iter().map(from_middle).fold(f64::MIN_POSITIVE, f64::max);
@@ -189,7 +195,7 @@ fn write_platform(xml: &mut String, rig: &Rig, physics: &Physics, contacts: Cont
     let mask = contacts.of_rig();
     writeln!(xml, r#"      <geom name="platform/body" type="mesh" mesh="platform" {mask}/>"#)?;
     for (index, whisker) in rig.whiskers.iter().enumerate() {
-        // A body without a name, so that none a whisker may have is one of MuJoCo's own, such as `world`.
+        // The body has no name, so that a whisker's name cannot collide with a name of MuJoCo such as `world`.
         writeln!(
             xml,
             r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
@@ -204,7 +210,7 @@ fn write_platform(xml: &mut String, rig: &Rig, physics: &Physics, contacts: Cont
     writeln!(xml, r"    </body>")
 }
 
-/// Writes a whisker that neither bends nor touches: its mass alone, where it is while the whisker is straight.
+/// Writes a rigid whisker without geoms: only its mass, in the undeflected position.
 fn write_rigid(xml: &mut String, whisker: &Whisker) -> fmt::Result {
     let shaft = &whisker.shaft;
     let links = || (0..shaft.links).map(|link| (shaft.link_mass(link), (link as f64 + 0.5) * shaft.link_length()));
@@ -273,7 +279,7 @@ fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
     for (joint, inertia) in
         [("platform/x", platform.mass), ("platform/y", platform.mass), ("platform/yaw", platform.inertia)]
     {
-        // A velocity servo of gain k on an inertia J follows with the time constant J / k.
+        // A velocity servo with the gain k moves the inertia J with the time constant J / k.
         writeln!(xml, r#"    <velocity name="{joint}" joint="{joint}" kv="{}"/>"#, inertia / platform.servo)?;
     }
     writeln!(xml, r"  </actuator>")

@@ -1,22 +1,22 @@
-//! The simulator MuJoCo: its model of a scene, the pruning of the model, and the world.
+//! The MuJoCo simulator: its model of a scene, the pruning of the model, and the world.
 //!
-//! The model and the pruning need no library. The world is behind the feature `sim`.
+//! The model and the pruning do not need the library. The world requires the feature `sim`.
 
+#[cfg(feature = "sim")]
+mod broad_phase;
 mod contacts;
 #[cfg(feature = "sim")]
 mod engine;
 #[cfg(feature = "sim")]
 mod library;
 #[cfg(feature = "sim")]
-mod lookout;
-#[cfg(feature = "sim")]
 mod messages;
 mod mjcf;
 #[cfg(feature = "sim")]
+mod model_selector;
+#[cfg(feature = "sim")]
 mod plugin;
 mod prune;
-#[cfg(feature = "sim")]
-mod pruner;
 #[cfg(feature = "sim")]
 mod world;
 

@@ -1,4 +1,4 @@
-//! MuJoCo's plugin for cables.
+//! MuJoCo's cable plugin.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
@@ -6,45 +6,46 @@ use std::sync::OnceLock;
 
 use super::library::{open, told};
 
-/// The directory of the library that the program is linked with; a MuJoCo of the system has none that is known.
+/// The directory of the library that the program was linked with. `None` for a system-wide MuJoCo.
 const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
 
-/// Why there is no plugin for cables.
+/// The reason why the cable plugin is not available.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PluginError {
-    /// The program is linked with a MuJoCo of the system, whose directory it does not know.
+    /// The program is linked with a system-wide MuJoCo, whose directory is unknown.
     #[error(
         "this program is linked with a MuJoCo of the system and does not know where its plugin for cables is: build it with \
          MUJOCO_DYNAMIC_LINK_DIR set to the directory of MuJoCo's library and put {file} there, \
          or leave `preset: peer_cable` out of the rig"
     )]
     NoDirectory {
-        /// The plugin's file.
+        /// The file name of the plugin.
         file: String,
     },
-    /// There is no such file.
+    /// The file does not exist.
     #[error(
         "MuJoCo's plugin for cables is not there ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
         path.display()
     )]
     NoPlugin {
-        /// Where it should be.
+        /// The expected path.
         path: PathBuf,
     },
-    /// It is there, and cannot be loaded.
+    /// The file exists but cannot be loaded.
     #[error(
         "MuJoCo's plugin for cables cannot be loaded ({cause}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig"
     )]
     Damaged {
-        /// What the loader says.
+        /// The message of the loader.
         cause: String,
     },
 }
 
-/// Loads the plugin, once in a process, as MuJoCo itself would; but MuJoCo ends the process where that fails.
+/// Loads the plugin once per process. MuJoCo's own loader would end the process on failure.
 ///
 /// # Errors
-/// [`PluginError`] when the plugin is not where the library is, or that is not known, or when it cannot be loaded.
+/// [`PluginError`] if the plugin is not in the directory of the library, if this directory is unknown, or if loading
+/// fails.
 pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
     static LOADED: OnceLock<Result<(), String>> = OnceLock::new();
     let path = plugin_in(DIRECTORY)?;
@@ -52,7 +53,8 @@ pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
     loaded.clone().map_err(|cause| PluginError::Damaged { cause })
 }
 
-/// Where the plugin is. For one that is not there the loader's message would be longer, and say less.
+/// Returns the path of the plugin. A missing file is reported here, because the loader's message is longer and less
+/// specific.
 fn plugin_in(directory: Option<&str>) -> Result<PathBuf, PluginError> {
     let file = format!("{DLL_PREFIX}elasticity{DLL_SUFFIX}");
     let Some(directory) = directory.filter(|directory| !directory.is_empty()) else {

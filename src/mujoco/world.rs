@@ -1,9 +1,9 @@
-//! A rig before solids, simulated by MuJoCo.
+//! A rig among solids, simulated by MuJoCo.
 
 use crate::geometry::{Point2, Pose, unit};
 use crate::physics::{Physics, ShaftModel};
 use crate::solid::Solid;
-use crate::world::{Fault, SPRINGING, World};
+use crate::world::{Fault, SNAP_OFF_SPEED, World};
 use crate::world::{Sensors, whole};
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, Sample};
@@ -11,19 +11,19 @@ use vibrissa_runtime::signal::{Command, Sample};
 use super::engine::Engine;
 use super::library::LibraryError;
 use super::messages::{WARNINGS, prepare_engine};
+use super::model_selector::ModelSelector;
 use super::plugin::{PluginError, load_cable_plugin};
-use super::pruner::Pruner;
 
-/// For how many pairs of what may touch a pruned model has room at first.
+/// The initial capacity for pairs of a pruned model.
 const ROOM: usize = 64;
 
-/// Why a MuJoCo world could not be built.
+/// The reason why a MuJoCo simulation cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum MujocoError {
-    /// MuJoCo refused the generated model.
+    /// MuJoCo rejected the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
     Model(String),
-    /// The cables of the rig need a plugin, which cannot be had.
+    /// The rig has cables, and their plugin is not available.
     #[error(transparent)]
     Plugin(#[from] PluginError),
     /// MuJoCo's library cannot be used.
@@ -31,40 +31,40 @@ pub enum MujocoError {
     Library(#[from] LibraryError),
 }
 
-/// A rig before solids, simulated by MuJoCo.
+/// A rig among solids, simulated by MuJoCo.
 ///
-/// The same rig, solids, start, seed and commands give the same samples, bit for bit.
+/// The same rig, solids, start, seed and commands give bit-identical samples.
 pub struct MujocoWorld {
     engine: Engine,
-    pruner: Pruner,
+    model_selector: ModelSelector,
     rig: Rig,
     physics: Physics,
     steps_per_sample: usize,
-    /// How many steps are taken in one while all whiskers are calm.
+    /// The number of steps that a calm step replaces.
     steps_in_calm: usize,
     samples_per_tick: usize,
     samples: Vec<Sample>,
     steps_done: u64,
     sensors: Sensors,
     body_touched: bool,
-    /// Of every whisker, whether it sprang since the last tick.
-    sprung: Vec<bool>,
+    /// For every whisker, true if it snapped off since the last tick.
+    snapped_off: Vec<bool>,
 }
 
 impl MujocoWorld {
-    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise. All parts and links are
-    /// there all the time.
+    /// Builds the simulation with the platform at rest at `start`. `seed` determines the noise of the sensors. The
+    /// model is complete: it contains all parts and links at all times.
     ///
     /// # Errors
-    /// [`MujocoError`] when MuJoCo refuses the model.
+    /// [`MujocoError`] if MuJoCo rejects the model.
     pub fn new(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
         Self::with(rig, physics, solids, start, seed, None)
     }
 
-    /// The same, but looks only at parts of solids and links that are in reach.
+    /// Builds a pruned simulation. Its model contains only parts and links that can touch.
     ///
     /// # Errors
-    /// [`MujocoError`] when MuJoCo refuses the model.
+    /// [`MujocoError`] if MuJoCo rejects the model.
     pub fn pruned(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
         Self::with(rig, physics, solids, start, seed, Some(ROOM))
     }
@@ -81,14 +81,14 @@ impl MujocoWorld {
         if physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }
-        let mut pruner = Pruner::new(rig, physics, solids, room);
-        let engine = pruner.first(rig, start)?;
+        let mut model_selector = ModelSelector::new(rig, physics, solids, room);
+        let engine = model_selector.initial_model(rig, start)?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
         let steps_per_sample = whole(1.0 / (sensing.sample_rate * physics.step));
         Ok(Self {
             engine,
-            pruner,
+            model_selector,
             steps_per_sample,
             steps_in_calm: physics.steps_in_calm(steps_per_sample),
             samples_per_tick,
@@ -96,15 +96,15 @@ impl MujocoWorld {
             steps_done: 0,
             sensors: Sensors::new(sensing, seed),
             body_touched: false,
-            sprung: vec![false; rig.whiskers.len()],
+            snapped_off: vec![false; rig.whiskers.len()],
             rig: rig.clone(),
             physics: physics.clone(),
         })
     }
 
-    /// Where a whisker (by its index in the rig) is touched, as the simulation has it: the place (m, world frame), half as deep as the
-    /// contact, and the length of the shaft from the base to there (m). Of several contacts it is the deepest. No sensor reports
-    /// this: it is for who measures with a ruler, never for policies.
+    /// The deepest simulated contact of a whisker, by its index in the rig. Returns the contact point (m, world frame)
+    /// at half of the penetration depth, and its distance from the base along the shaft (m). No sensor reports this. It
+    /// serves for measurements, never for policies.
     #[must_use]
     pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
         let shaft = &self.rig.whiskers[whisker].shaft;
@@ -114,10 +114,10 @@ impl MujocoWorld {
         Some((place, link as f64 * shaft.link_length() + along))
     }
 
-    /// The energy (J) in the springs and in the motion of platform and whiskers. No sensor reports this: it is for tests of the simulation.
+    /// The energy (J) of springs, platform and whiskers. No sensor reports this. It serves for tests of the simulation.
     ///
     /// # Errors
-    /// [`Fault::Model`] when MuJoCo refuses a model with room for more contacts.
+    /// [`Fault::Model`] if MuJoCo rejects a model with a larger capacity.
     pub fn energy(&mut self) -> Result<f64, Fault> {
         self.refresh()?;
         Ok(self.engine.energy())
@@ -127,11 +127,11 @@ impl MujocoWorld {
         self.steps_done as f64 * self.physics.step
     }
 
-    /// Takes so many steps in one.
+    /// Simulates one step that is as long as `steps` regular steps.
     fn step(&mut self, steps: usize) -> Result<(), Fault> {
         self.engine.step(steps as f64 * self.physics.step);
         self.steps_done += steps as u64;
-        // First: after a silent reset, contacts are those of another place.
+        // This check comes first: after a silent reset, the contacts belong to another state.
         self.engine.warning().map_or(Ok(()), |cause| self.diverged(cause))?;
         for (depth, is_body) in self.engine.contacts() {
             let (time, limit) = (self.time(), self.physics.penetration_limit);
@@ -147,29 +147,30 @@ impl MujocoWorld {
         Ok(())
     }
 
-    /// Whether no whisker moves fast, and the body touches nothing. A calm whisker goes a third of a millimetre in a step of 3.3 ms.
+    /// True if no whisker moves fast and the body touches nothing. A calm whisker moves at most a third of a millimetre
+    /// in a step of 3.3 ms.
     fn is_calm(&self) -> bool {
-        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_springing(whisker))
+        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_snapping_off(whisker))
     }
 
-    fn is_springing(&self, whisker: usize) -> bool {
-        self.engine.speed(&self.rig, whisker) >= SPRINGING
+    fn is_snapping_off(&self, whisker: usize) -> bool {
+        self.engine.speed(&self.rig, whisker) >= SNAP_OFF_SPEED
     }
 
     fn diverged(&self, cause: &'static str) -> Result<(), Fault> {
         Err(Fault::Diverged { time: self.time(), cause })
     }
 
-    /// Lets the time of a sample pass.
-    fn pass(&mut self) -> Result<(), Fault> {
+    /// Simulates one sample period.
+    fn simulate_sample(&mut self) -> Result<(), Fault> {
         let mut done = 0;
         while done < self.steps_per_sample {
-            if self.steps_in_calm == 1 || !self.passes_calmly()? {
+            if self.steps_in_calm == 1 || !self.try_calm_step()? {
                 for _ in 0..self.steps_in_calm {
-                    self.pruner.look(&self.rig, &mut self.engine)?;
+                    self.model_selector.update_pairs(&self.rig, &mut self.engine)?;
                     self.step(1)?;
-                    for whisker in 0..self.sprung.len() {
-                        self.sprung[whisker] |= self.is_springing(whisker);
+                    for whisker in 0..self.snapped_off.len() {
+                        self.snapped_off[whisker] |= self.is_snapping_off(whisker);
                     }
                 }
             }
@@ -178,26 +179,27 @@ impl MujocoWorld {
         Ok(())
     }
 
-    /// Takes several steps in one, unless a whisker is not calm before or after. What springs off an edge is at metres a second, and on
-    /// the next surface, within a millisecond or two: so it is what comes out that tells.
-    fn passes_calmly(&mut self) -> Result<bool, Fault> {
+    /// Replaces several steps by one, unless a whisker is not calm before or after it. After a snap-off, a whisker
+    /// reaches metres per second and the next surface within a few milliseconds. Therefore the state after the step
+    /// decides. Returns true if the step was accepted.
+    fn try_calm_step(&mut self) -> Result<bool, Fault> {
         if !self.is_calm() {
             return Ok(false);
         }
-        self.pruner.look(&self.rig, &mut self.engine)?;
-        self.engine.keep();
+        self.model_selector.update_pairs(&self.rig, &mut self.engine)?;
+        self.engine.save();
         self.step(self.steps_in_calm)?;
         let is_calm = self.is_calm();
         if !is_calm {
-            self.engine.back();
+            self.engine.restore();
             self.steps_done -= self.steps_in_calm as u64;
         }
         Ok(is_calm)
     }
 
-    /// Refreshes the engine, which looks for contacts where the last step has led: of what is near there, however far that is.
+    /// Refreshes the engine for the pairs that are near after the last step, however large that step was.
     fn refresh(&mut self) -> Result<(), Fault> {
-        self.pruner.look(&self.rig, &mut self.engine)?;
+        self.model_selector.update_pairs(&self.rig, &mut self.engine)?;
         self.engine.refresh();
         Ok(())
     }
@@ -221,13 +223,13 @@ impl MujocoWorld {
 
 impl World for MujocoWorld {
     fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
-        self.pruner.fit(&self.rig, &mut self.engine, command)?;
+        self.model_selector.select(&self.rig, &mut self.engine, command)?;
         self.engine.command(command.velocity_world, command.yaw_rate);
         self.body_touched = false;
-        self.sprung.fill(false);
+        self.snapped_off.fill(false);
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
-            self.pass()?;
+            self.simulate_sample()?;
             let sample = self.sample()?;
             self.samples.push(sample);
         }
@@ -241,8 +243,8 @@ impl World for MujocoWorld {
         self.body_touched
     }
 
-    fn springs(&self, whisker: usize) -> bool {
-        self.sprung[whisker]
+    fn snapped_off(&self, whisker: usize) -> bool {
+        self.snapped_off[whisker]
     }
 
     fn tip(&self, whisker: usize) -> Point2 {
@@ -265,7 +267,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Vector2, circle, polygon};
 
-    /// The platform's right whisker is drawn along a disk and plucked over the teeth of a comb behind it, and back; at that it springs from
+    /// The right whisker is moved along a disk and over the teeth of a comb behind it, and back. It snaps off from
     /// tooth to tooth.
     #[test]
     fn models_that_are_replaced_within_a_tick_for_more_room_change_no_bit() {

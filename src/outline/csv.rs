@@ -5,13 +5,13 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use crate::diagnostic::utf8;
 use crate::geometry::{Piece, Point2};
 
-use super::found::{Outline, Outlines};
-use super::plane::Plane;
-use super::{MOST_PIECES, OutlineError, OutlineFault, Request};
+use super::outline_list::{Outline, OutlineList};
+use super::transform::Transform;
+use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions};
 
 /// Reads a polygon: x and y in each line, with a header or without. The first corner may be repeated at the end.
-pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
-    let plane = Plane::scaled(request.unit.ok_or(OutlineFault::NoUnit)?);
+pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
+    let transform = Transform::scaled(options.unit.ok_or(OutlineFault::NoUnit)?);
     let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
     let mut reader =
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text.as_bytes());
@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
             let reason = format!("expected two numbers, x and y, found `{}`", shown(&record));
             return Err(OutlineFault::Syntax { reason }.at(line));
         };
-        let corner = plane.point(place).map_err(|fault| fault.at(line))?;
+        let corner = transform.point(place).map_err(|fault| fault.at(line))?;
         if corners.len() > MOST_PIECES {
             return Err(OutlineFault::TooLarge { what: "corners", limit: MOST_PIECES }.at(line));
         }
@@ -43,9 +43,9 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
     }
     let ends = corners.iter().cycle().skip(1);
     let sides = corners.iter().zip(ends).map(|(&start, &end)| Piece::segment(start, end));
-    let mut outlines = Outlines::default();
+    let mut outlines = OutlineList::default();
     outlines.add(sides.collect(), first_line)?;
-    outlines.into_found()
+    outlines.into_outlines()
 }
 
 fn place(record: &StringRecord) -> Option<[f64; 2]> {

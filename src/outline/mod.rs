@@ -1,4 +1,4 @@
-//! Outlines from files: SVG, DXF and CSV drawings, and STL meshes cut by a plane.
+//! OutlineList from files: SVG, DXF and CSV drawings, and STL meshes cut by a plane.
 //!
 //! What is round in a file stays round: circles and arcs are arcs of a [`Contour`], other curves are fitted by arcs to a
 //! micrometre. Files come from outside: whatever is in them, they give contours or an [`OutlineError`].
@@ -6,7 +6,7 @@
 //! Only builds with the feature `outlines` can read them.
 
 #[cfg(feature = "outlines")]
-mod apart;
+mod assemble;
 #[cfg(feature = "outlines")]
 mod chain;
 #[cfg(feature = "outlines")]
@@ -16,20 +16,18 @@ mod dxf;
 mod error;
 mod format;
 #[cfg(feature = "outlines")]
-mod found;
-#[cfg(feature = "outlines")]
-mod join;
-#[cfg(feature = "outlines")]
-mod plane;
-mod request;
+mod outline_list;
+mod read_options;
 #[cfg(feature = "outlines")]
 mod stl;
 #[cfg(feature = "outlines")]
 mod svg;
+#[cfg(feature = "outlines")]
+mod transform;
 
 pub use error::{OutlineError, OutlineFault};
 pub use format::Format;
-pub use request::Request;
+pub use read_options::ReadOptions;
 
 use crate::geometry::Contour;
 
@@ -53,7 +51,7 @@ const MOST_OUTLINES: usize = 256;
 /// # Errors
 /// [`OutlineError`], with the line where that is known.
 #[cfg(feature = "outlines")]
-pub fn read(bytes: &[u8], format: Format, request: &Request<'_>) -> Result<Vec<Contour>, OutlineError> {
+pub fn read(bytes: &[u8], format: Format, options: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineError> {
     if bytes.len() > SIZE_LIMIT {
         return Err(OutlineFault::TooLarge { what: "bytes", limit: SIZE_LIMIT }.into());
     }
@@ -61,12 +59,12 @@ pub fn read(bytes: &[u8], format: Format, request: &Request<'_>) -> Result<Vec<C
         return Err(OutlineFault::Empty.into());
     }
     let outlines = match format {
-        Format::Svg => svg::read(bytes, request),
-        Format::Dxf => dxf::read(bytes, request),
-        Format::Csv => csv::read(bytes, request),
-        Format::Stl => stl::read(bytes, request),
+        Format::Svg => svg::read(bytes, options),
+        Format::Dxf => dxf::read(bytes, options),
+        Format::Csv => csv::read(bytes, options),
+        Format::Stl => stl::read(bytes, options),
     }?;
-    apart::check(&outlines)?;
+    outline_list::check_nesting(&outlines)?;
     Ok(outlines.into_iter().map(|outline| outline.contour).collect())
 }
 
@@ -75,6 +73,6 @@ pub fn read(bytes: &[u8], format: Format, request: &Request<'_>) -> Result<Vec<C
 /// # Errors
 /// Always: reading them needs the feature `outlines`.
 #[cfg(not(feature = "outlines"))]
-pub fn read(_: &[u8], _: Format, _: &Request<'_>) -> Result<Vec<Contour>, OutlineError> {
+pub fn read(_: &[u8], _: Format, _: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineError> {
     Err(OutlineFault::NotBuilt.into())
 }

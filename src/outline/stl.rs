@@ -6,10 +6,10 @@ use stl_io::{Vector, Vertex, create_stl_reader};
 
 use crate::geometry::{Piece, Point2};
 
-use super::found::{Outline, Outlines};
-use super::join::{Loose, join};
-use super::plane::Plane;
-use super::{MOST_PIECES, OutlineError, OutlineFault, Request, TOLERANCE};
+use super::assemble::{LoosePiece, assemble};
+use super::outline_list::{Outline, OutlineList};
+use super::transform::Transform;
+use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
 
 /// How many bytes stand before the triangles of a binary file, and how many a triangle has.
 const HEADER: usize = 84;
@@ -19,11 +19,11 @@ const TRIANGLE: usize = 50;
 const MOST_SIDES: usize = 2 * MOST_PIECES;
 
 /// Reads the outlines in a plane of one height.
-pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
-    let unit = request.unit.ok_or(OutlineFault::NoUnit)?;
-    let mut sides: Vec<Loose> = Vec::new();
+pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
+    let unit = options.unit.ok_or(OutlineFault::NoUnit)?;
+    let mut sides: Vec<LoosePiece> = Vec::new();
     let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
-    let cut = Cut { plane: Plane::scaled(unit), unit, height: request.height };
+    let cut = Cut { plane: Transform::scaled(unit), unit, height: options.height };
     let mut bytes = Cursor::new(prepared(bytes));
     for triangle in create_stl_reader(&mut bytes).map_err(|error| refusal(&error))? {
         let corners = triangle.map_err(|error| refusal(&error))?.vertices.map(|vertex| cut.place(vertex));
@@ -46,15 +46,15 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
         }
         .into());
     }
-    let loops = join(&sides).map_err(|error| match error.fault {
+    let loops = assemble(&sides).map_err(|error| match error.fault {
         OutlineFault::Open { from, .. } => OutlineFault::NotWatertight { at: from }.into(),
         _ => error,
     })?;
-    let mut outlines = Outlines::default();
+    let mut outlines = OutlineList::default();
     for (pieces, _) in loops {
         outlines.add(straightened(&pieces), None)?;
     }
-    outlines.into_found()
+    outlines.into_outlines()
 }
 
 /// The bytes as the reader knows the two kinds of file apart: by `solid ` at the beginning. A text may do without the blank,
@@ -74,7 +74,7 @@ fn prepared(bytes: &[u8]) -> Vec<u8> {
 
 /// A cut by a plane.
 struct Cut {
-    plane: Plane,
+    plane: Transform,
     unit: f64,
     height: f64,
 }

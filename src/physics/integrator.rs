@@ -1,26 +1,26 @@
-//! How the simulator goes from step to step.
+//! The numerical integrator of MuJoCo.
 
-/// How the simulator goes from step to step; what each does, MuJoCo's documentation says under "Numerical integration".
+/// The numerical integrator, as documented by MuJoCo under "Numerical integration".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Integrator {
-    /// Implicit in springs, dampers and contacts at once: stable at every step that goes into a sample.
+    /// Implicit in springs, dampers and contacts. Stable for every step up to a sample period.
     #[default]
     Discrete,
-    /// Implicit in dampers but for what couples velocities.
+    /// Implicit in dampers, without the coupling of velocities.
     ImplicitFast,
     /// Implicit in dampers.
     Implicit,
-    /// Explicit but for dampers.
+    /// Explicit except for dampers.
     Euler,
-    /// Runge and Kutta's of fourth order, explicit: four evaluations a step.
+    /// Explicit fourth-order Runge-Kutta method with four evaluations per step.
     RungeKutta,
 }
 
 impl Integrator {
-    /// Every integrator.
+    /// All integrators.
     pub const ALL: [Self; 5] = [Self::Discrete, Self::ImplicitFast, Self::Implicit, Self::Euler, Self::RungeKutta];
 
-    /// The name in scenarios, which is MuJoCo's.
+    /// MuJoCo's name, also used in scenarios.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -1,38 +1,38 @@
-//! How the simulator steps and resolves contact.
+//! The physics settings of a simulation.
 
 use super::{Integrator, ShaftModel, Solver};
 
-/// How the simulator steps and resolves contact.
+/// The physics settings of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Physics {
-    /// What a whisker's shaft is made of.
+    /// The model of the whiskers' shafts.
     pub shafts: ShaftModel,
-    /// Length of one simulation step (s); a whole number of them makes up a sample.
+    /// Length of a simulation step (s). A sample period contains a whole number of steps.
     pub step: f64,
-    /// How it goes from step to step.
+    /// The integrator.
     pub integrator: Integrator,
-    /// How it finds the forces of contacts.
+    /// The solver for contact forces.
     pub solver: Solver,
-    /// Longest step (s) while all whiskers are calm: several steps are then taken in one, if there is no friction.
+    /// Longest step (s) while all whiskers are calm. Without friction, one such step replaces several regular ones.
     pub calm_step: f64,
-    /// Whether a whisker that hangs at rest, out of reach of everything, is a rigid part of the platform until it comes nearer.
+    /// True if a whisker at rest and out of reach of all solids is treated as a rigid part of the platform.
     pub rigid_in_air: bool,
     /// Time constant of the contact constraint (s).
     pub contact_time: f64,
-    /// Impedance of the contact constraint: at the surface, at full depth, and the depth at which it is full (m).
+    /// Impedance of the contact constraint: at the surface, at full depth, and the full depth (m).
     pub contact_impedance: [f64; 3],
-    /// Coefficient of sliding friction between whisker and object; 0 is frictionless.
+    /// Coefficient of sliding friction between whisker and object, 0 without friction.
     pub friction: f64,
-    /// A contact deeper than this (m) ends the run: the physics can no longer be trusted.
+    /// Permitted penetration depth (m). A deeper contact ends the run, because its simulation cannot be trusted.
     pub penetration_limit: f64,
 }
 
 impl Physics {
-    /// How many of so many steps a sample are taken in one while all whiskers are calm: the most that make up the sample and no longer
-    /// step than may be; one where there is friction, which is steady only in short steps.
+    /// The number of steps that a calm step replaces, out of `steps_per_sample`. It is the largest divisor for which
+    /// the calm step is not too long. It is 1 with friction, which is stable only in short steps.
     #[must_use]
     pub fn steps_in_calm(&self, steps_per_sample: usize) -> usize {
-        // A calm step may be as much longer as a rounded step may.
+        // The tolerance for a calm step equals that for a rounded step.
         let fits = |&steps: &usize| {
             steps_per_sample.is_multiple_of(steps) && steps as f64 * self.step < 1.002 * self.calm_step
         };

@@ -1,22 +1,22 @@
-//! Rigs to begin with.
+//! Predefined rigs.
 
 use vibrissa_runtime::rig::{Rig, Shaft};
 
 use super::{Integrator, Physics, ShaftModel};
 
-/// A rig that a scenario begins with; what else it says is different from that.
+/// A predefined rig. A scenario states only the differences from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Preset {
     /// The reference rig.
     #[default]
     Reference,
-    /// The reference rig with whiskers as they are in the thesis's public program: cables of 40 links, soft contacts, steps of
-    /// 1.67 ms.
+    /// The reference rig with the whiskers of the peer, the baseline's public program: cables of 40 links, soft
+    /// contacts, steps of 1.67 ms.
     PeerCable,
 }
 
 impl Preset {
-    /// Every preset.
+    /// All presets.
     pub const ALL: [Self; 2] = [Self::Reference, Self::PeerCable];
 
     /// The name in scenarios.
@@ -28,7 +28,7 @@ impl Preset {
         }
     }
 
-    /// The rig and its physics.
+    /// Returns the rig and its physics settings.
     #[must_use]
     pub fn rig(self) -> (Rig, Physics) {
         let (mut rig, mut physics) = (Rig::default(), Physics::default());
@@ -36,12 +36,13 @@ impl Preset {
         (rig, physics)
     }
 
-    /// Gives a rig the links and the physics of the preset; friction, the solver, whether whiskers are rigid in the air, and everything
-    /// that is no matter of how whiskers are simulated stay.
+    /// Applies the links and the physics settings of the preset to a rig. Friction, the solver, rigid whiskers, and all
+    /// settings that do not concern the simulation of whiskers are kept.
     ///
-    /// Known of the thesis's public program are 40 links, the integrator, steps of 2 ms (the next that goes into a sample is shorter),
-    /// that its whiskers ring at 4 Hz, which the armature of the reference hinge in every joint does, and that tips sink in by 0.23 to
-    /// 0.39 mm, which is what MuJoCo's own impedance with this time constant makes of it.
+    /// These properties of the peer are known: 40 links, the integrator, and steps of 2 ms (the next valid step is
+    /// shorter). Its whiskers have a residual vibration of 4 Hz, which results from the armature of the reference hinge
+    /// in every joint. Its tips penetrate by 0.23 to 0.39 mm, which results from MuJoCo's default impedance with this
+    /// time constant.
     pub fn apply(self, rig: &mut Rig, physics: &mut Physics) {
         let reference = Physics::default();
         let (links, preset) = match self {

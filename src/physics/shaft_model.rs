@@ -1,18 +1,18 @@
-//! What MuJoCo's world makes of a whisker's shaft.
+//! The model of a whisker's shaft in MuJoCo.
 
-/// What MuJoCo's world makes of a whisker's shaft. The quasi-static world and perception always take the chain.
+/// The model of a whisker's shaft in MuJoCo. The quasi-static simulator and perception always use the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ShaftModel {
-    /// A chain of links on planar hinges, whose springs follow the trapezoid rule: a spring at the root, too.
+    /// A chain of links on planar hinges. Joint springs follow the trapezoid rule, with a spring at the root.
     #[default]
     Chain,
-    /// A chain of links on ball joints, the first of them clamped, between which MuJoCo's plugin `mujoco.elasticity.cable` acts.
-    /// Each joint has the armature of the base hinge.
+    /// A chain of links on ball joints with MuJoCo's plugin `mujoco.elasticity.cable`. The first link is clamped. Each
+    /// joint has the armature of the base hinge.
     Cable,
 }
 
 impl ShaftModel {
-    /// Degrees of freedom of a shaft of so many links.
+    /// Degrees of freedom of a shaft with this number of links.
     #[must_use]
     pub fn degrees_of_freedom(self, links: usize) -> usize {
         match self {

@@ -1,22 +1,23 @@
-//! How the simulator finds the forces of contacts.
+//! The contact solver of MuJoCo.
 
-/// How the simulator finds the forces of contacts; what each does, MuJoCo's documentation says under "Algorithms".
+/// The solver for contact forces, as documented by MuJoCo under "Algorithms".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Solver {
-    /// Conjugate gradients: the same forces as Newton's method to a millionth, without factoring a matrix of all joints.
+    /// Conjugate gradients. The forces agree with Newton's method to a millionth, without a factorisation.
     ConjugateGradients,
     /// Newton's method.
     Newton,
-    /// Projected Gauss and Seidel's, in the dual problem, which is small where contacts are few. It delays the servos by a step.
+    /// Projected Gauss-Seidel for the dual problem, which is small if there are few contacts. It delays the servos by a
+    /// step.
     #[default]
     ProjectedGaussSeidel,
 }
 
 impl Solver {
-    /// Every solver.
+    /// All solvers.
     pub const ALL: [Self; 3] = [Self::ConjugateGradients, Self::Newton, Self::ProjectedGaussSeidel];
 
-    /// The name in scenarios, which is MuJoCo's.
+    /// MuJoCo's name, also used in scenarios.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

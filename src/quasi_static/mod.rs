@@ -1,14 +1,14 @@
-//! The quasi-static world: whiskers in static equilibrium at every sample, against exact outlines.
+//! The quasi-static simulator: whiskers in static equilibrium at every sample, with exact outlines.
 
-mod balance;
-mod bordered;
-mod carriage;
-mod hull;
-mod lag;
+mod bordered_tridiagonal;
+mod contact;
+mod equilibrium;
+mod first_order_lag;
+mod footprint;
+mod platform_dynamics;
+mod rod;
 mod surface;
-mod touch;
 mod whisker;
-mod wire;
 mod world;
 
 pub use world::{QuasiStaticError, QuasiStaticWorld};

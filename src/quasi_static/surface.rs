@@ -1,4 +1,4 @@
-//! The surfaces that whiskers and the platform touch.
+//! The surfaces that whiskers and the platform can touch.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use rstar::{AABB, RTree, RTreeObject};
 use crate::geometry::{BoundingBox, Contour, Piece, Point2, Vector2, perpendicular, unit};
 use crate::solid::Solid;
 
-/// The outlines of all solids, piece by piece.
+/// The outlines of all solids as facets, with a spatial index.
 #[derive(Debug)]
 pub(super) struct Surfaces {
     outlines: Vec<Contour>,
@@ -15,52 +15,52 @@ pub(super) struct Surfaces {
     tree: RTree<Leaf>,
 }
 
-/// A piece of an outline. What is solid is on its left.
+/// A piece of an outline. The solid is on its left.
 #[derive(Debug, Clone)]
 pub(super) struct Facet {
-    form: Form,
-    /// How far (m) it counts on beyond its start and its end: beyond a corner that points inwards, where what comes along the one
-    /// side meets the other.
-    beyond: [f64; 2],
-    /// How far (m) from its start and from its end it counts on, beyond such a corner, for what is known to be outside of it: what the
-    /// other side is to hold may come in behind that for a moment, and must not lose this one there.
-    kept: [f64; 2],
+    curve: CarrierCurve,
+    /// The extension (m) at the start and at the end. Behind a concave corner, a facet extends so far that a point
+    /// between both sides faces either one.
+    extension: [f64; 2],
+    /// The distance (m) from the start and from the end within which a known outside point is retained at a concave
+    /// corner. Such a point may be behind the other side for a moment.
+    retention: [f64; 2],
     ends: [Point2; 2],
     bounds: BoundingBox,
-    /// The piece after this one.
+    /// The index of the following facet.
     pub(super) next: usize,
-    /// How it meets that.
-    pub(super) joint: Joint,
+    /// The junction with the following facet.
+    pub(super) junction: Junction,
 }
 
-/// How two pieces of an outline meet.
+/// The junction of two pieces of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Joint {
-    /// Without a corner.
+pub(super) enum Junction {
+    /// The tangent is continuous.
     Smooth,
-    /// In a corner that sticks out.
+    /// The junction is a convex corner.
     Convex(Corner),
-    /// In a corner that points inwards.
+    /// The junction is a concave corner.
     Concave,
 }
 
-/// A corner that sticks out, with the directions in which the outline comes to it and leaves it.
+/// A convex corner with the tangents of the outline before and after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub(super) point: Point2,
-    into: Vector2,
-    out: Vector2,
+    incoming: Vector2,
+    outgoing: Vector2,
 }
 
-/// A piece, as quick to ask as can be.
+/// The geometry of a facet, prepared for fast queries.
 #[derive(Debug, Clone, Copy)]
-enum Form {
+enum CarrierCurve {
     Flat {
         start: Point2,
         tangent: Vector2,
         length: f64,
     },
-    /// An arc; `sense` is +1 if it bulges outwards, −1 if it is hollow.
+    /// An arc. `sense` is +1 if it is convex and −1 if it is concave.
     Round {
         centre: Point2,
         radius: f64,
@@ -71,7 +71,7 @@ enum Form {
     },
 }
 
-/// How much of its circle an arc is.
+/// The angular extent of an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Extent {
     UpToHalf,
@@ -79,21 +79,21 @@ enum Extent {
     Whole,
 }
 
-/// The point of a facet that faces another point.
+/// The projection of a point onto a facet.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Foot {
-    /// Outwards, a unit vector.
+pub(super) struct Projection {
+    /// The outward normal, a unit vector in the world frame.
     pub(super) normal: Vector2,
-    /// How far the point is outside (m); negative inside.
+    /// The signed distance of the point (m), negative inside.
     pub(super) height: f64,
-    /// What the point's circle about the centre of curvature curves the gap by (1/m): above 0 about a bulge.
+    /// The curvature of the circle about the centre of curvature through the point (1/m), positive at a convex arc.
     pub(super) curvature: f64,
 }
 
-/// How far (m) a facet reaches beyond a smooth joint, so that there is no crack between it and the next.
-const OVERLAP: f64 = 1e-8;
-/// How far (m) it does at most beyond a corner that points inwards: more than a whisker moves in a sample.
-const BEYOND: f64 = 5e-3;
+/// The extension (m) of a facet at a smooth junction. It prevents a gap between neighbouring facets.
+const JUNCTION_OVERLAP: f64 = 1e-8;
+/// The largest extension (m) at a concave corner. It is longer than the motion of a whisker in a sample.
+const MAX_EXTENSION: f64 = 5e-3;
 
 impl Surfaces {
     pub(super) fn new(solids: &[Solid]) -> Self {
@@ -104,39 +104,39 @@ impl Surfaces {
                 let following = (index + 1) % pieces.len();
                 let next = &pieces[following];
                 let corner = corners.iter().find(|corner| corner.point == next.start());
-                let joint = match corner {
-                    Some(corner) if corner.turn > 0.0 => Joint::Convex(Corner {
+                let junction = match corner {
+                    Some(corner) if corner.turn > 0.0 => Junction::Convex(Corner {
                         point: corner.point,
-                        into: piece.tangent_at(piece.length()),
-                        out: next.tangent_at(0.0),
+                        incoming: piece.tangent_at(piece.length()),
+                        outgoing: next.tangent_at(0.0),
                     }),
-                    Some(_) => Joint::Concave,
-                    None => Joint::Smooth,
+                    Some(_) => Junction::Concave,
+                    None => Junction::Smooth,
                 };
                 facets.push(Facet {
-                    form: Form::of(piece),
-                    beyond: [OVERLAP; 2],
-                    kept: [0.0; 2],
+                    curve: CarrierCurve::of(piece),
+                    extension: [JUNCTION_OVERLAP; 2],
+                    retention: [0.0; 2],
                     ends: [piece.start(), piece.end()],
                     bounds: piece.bounding_box(),
                     next: first + following,
-                    joint,
+                    junction,
                 });
             }
         }
         for index in 0..facets.len() {
             let next = facets[index].next;
-            if facets[index].joint == Joint::Concave {
-                // No farther than the other side stands out over this one.
+            if facets[index].junction == Junction::Concave {
+                // The extension ends where the projection of the other side ends.
                 let [own, others] = [&facets[index], &facets[next]].map(|facet| facet.ends[1] - facet.ends[0]);
                 let folded = own.dot(&others) / (own.norm() * others.norm()).max(f64::MIN_POSITIVE);
                 let share = 0.5 * folded.max(0.0);
-                facets[index].beyond[1] = (share * others.norm()).clamp(OVERLAP, BEYOND);
-                facets[next].beyond[0] = (share * own.norm()).clamp(OVERLAP, BEYOND);
-                // So near to the corner nothing comes round the far end of either side.
-                let kept = own.norm().min(others.norm()).min(BEYOND);
-                facets[index].kept[1] = kept;
-                facets[next].kept[0] = kept;
+                facets[index].extension[1] = (share * others.norm()).clamp(JUNCTION_OVERLAP, MAX_EXTENSION);
+                facets[next].extension[0] = (share * own.norm()).clamp(JUNCTION_OVERLAP, MAX_EXTENSION);
+                // Within this distance of the corner, no point can come around the far end of either side.
+                let retention = own.norm().min(others.norm()).min(MAX_EXTENSION);
+                facets[index].retention[1] = retention;
+                facets[next].retention[0] = retention;
             }
         }
         let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.bounds };
@@ -144,7 +144,7 @@ impl Surfaces {
         Self { outlines: solids.iter().map(|solid| solid.outline().clone()).collect(), facets, tree }
     }
 
-    /// How deep (m) in a solid a point is; below 0 outside of all.
+    /// Returns the penetration depth of a point (m), negative outside of all solids.
     pub(super) fn depth(&self, point: Point2) -> f64 {
         self.outlines.iter().map(|outline| -outline.signed_distance(point)).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -153,7 +153,7 @@ impl Surfaces {
         &self.facets[index]
     }
 
-    /// The facets that come into a box, widened by `margin` (m), in no particular order.
+    /// Returns the facets that intersect a box widened by `margin` (m), in no particular order.
     pub(super) fn near(&self, bounds: BoundingBox, margin: f64) -> impl Iterator<Item = (usize, &Facet)> {
         let margin = Vector2::repeat(margin);
         let (min, max) = (bounds.min - margin, bounds.max + margin);
@@ -163,44 +163,47 @@ impl Surfaces {
 }
 
 impl Facet {
-    /// The foot of a point on this facet, if the point is beside it and not beyond an end.
-    pub(super) fn foot(&self, point: Point2) -> Option<Foot> {
-        let is_beside = match self.form {
-            Form::Flat { start, tangent, length } => {
+    /// Projects a point onto the facet. Returns `None` if the point is beyond an end.
+    pub(super) fn project(&self, point: Point2) -> Option<Projection> {
+        let is_beside = match self.curve {
+            CarrierCurve::Flat { start, tangent, length } => {
                 let along = (point - start).dot(&tangent);
-                along >= -self.beyond[0] && along <= length + self.beyond[1]
+                along >= -self.extension[0] && along <= length + self.extension[1]
             }
-            Form::Round { centre, .. } => self.spans(point - centre),
+            CarrierCurve::Round { centre, .. } => self.spans(point - centre),
         };
-        if is_beside { self.continued(point) } else { None }
+        if is_beside { self.project_on_carrier(point) } else { None }
     }
 
-    /// The same for a point that is known to have been outside of this facet: also where it has come in behind the other side of a
-    /// corner that points inwards.
-    pub(super) fn foot_of_known(&self, point: Point2) -> Option<Foot> {
-        self.foot(point).or_else(|| {
-            let mut corners = self.ends.iter().zip(self.kept);
-            corners.any(|(end, kept)| (point - end).norm() < kept).then(|| self.continued(point)).flatten()
+    /// Projects a point that has been outside of this facet. The point may be behind the other side of a concave
+    /// corner.
+    pub(super) fn project_retained(&self, point: Point2) -> Option<Projection> {
+        self.project(point).or_else(|| {
+            let mut corners = self.ends.iter().zip(self.retention);
+            corners
+                .any(|(end, retention)| (point - end).norm() < retention)
+                .then(|| self.project_on_carrier(point))
+                .flatten()
         })
     }
 
-    /// Whether a point is on the outer side of the line or the circle that this facet is a part of.
+    /// True if a point is on the outer side of the facet's line or circle.
     pub(super) fn is_outside(&self, point: Point2) -> bool {
-        self.continued(point).is_some_and(|foot| foot.height > 0.0)
+        self.project_on_carrier(point).is_some_and(|projection| projection.height > 0.0)
     }
 
-    /// The foot of a point on the line or the circle that this facet is a part of.
-    fn continued(&self, point: Point2) -> Option<Foot> {
-        match self.form {
-            Form::Flat { start, tangent, .. } => {
+    /// Projects a point onto the line or circle of the facet.
+    fn project_on_carrier(&self, point: Point2) -> Option<Projection> {
+        match self.curve {
+            CarrierCurve::Flat { start, tangent, .. } => {
                 let normal = -perpendicular(tangent);
-                Some(Foot { normal, height: (point - start).dot(&normal), curvature: 0.0 })
+                Some(Projection { normal, height: (point - start).dot(&normal), curvature: 0.0 })
             }
-            Form::Round { centre, radius, sense, .. } => {
+            CarrierCurve::Round { centre, radius, sense, .. } => {
                 let outward = point - centre;
                 let distance = outward.norm();
                 let height = sense * (distance - radius);
-                (distance > 0.0).then(|| Foot {
+                (distance > 0.0).then(|| Projection {
                     normal: sense / distance * outward,
                     height,
                     curvature: sense / distance,
@@ -209,19 +212,19 @@ impl Facet {
         }
     }
 
-    /// The centre and the radius of a facet that bulges outwards.
+    /// The centre and the radius (m) of a convex arc. `None` for other facets.
     pub(super) fn bulge(&self) -> Option<(Point2, f64)> {
-        match self.form {
-            Form::Round { centre, radius, sense: 1.0, .. } => Some((centre, radius)),
+        match self.curve {
+            CarrierCurve::Round { centre, radius, sense: 1.0, .. } => Some((centre, radius)),
             _ => None,
         }
     }
 
-    /// Whether an arc comes past the direction `outward` from its centre; a straight facet has no centre.
+    /// True if an arc contains the direction `outward` from its centre. Always false for a straight facet.
     pub(super) fn spans(&self, outward: Vector2) -> bool {
-        let Form::Round { radius, sense, from, to, extent, .. } = self.form else { return false };
-        // By how much (m) the ray is behind the start and before the end.
-        let [start, end] = self.beyond.map(|beyond| -beyond * outward.norm() / radius);
+        let CarrierCurve::Round { radius, sense, from, to, extent, .. } = self.curve else { return false };
+        // The distances (m) by which the ray is after the start and before the end.
+        let [start, end] = self.extension.map(|extension| -extension * outward.norm() / radius);
         let (after, before) = (sense * from.perp(&outward) >= start, sense * outward.perp(&to) >= end);
         match extent {
             Extent::UpToHalf => after && before,
@@ -230,18 +233,18 @@ impl Facet {
         }
     }
 
-    /// Distance (m) of a point from the facet.
+    /// Returns the distance (m) of a point from the facet.
     pub(super) fn distance(&self, point: Point2) -> f64 {
-        match (self.form, self.foot(point)) {
-            (_, Some(foot)) => foot.height.abs(),
-            // The centre is as far from everywhere.
-            (Form::Round { centre, radius, .. }, None) if point == centre => radius,
+        match (self.curve, self.project(point)) {
+            (_, Some(projection)) => projection.height.abs(),
+            // All points of the arc are equally far from the centre.
+            (CarrierCurve::Round { centre, radius, .. }, None) if point == centre => radius,
             _ => self.ends.iter().map(|end| (point - end).norm()).fold(f64::INFINITY, f64::min),
         }
     }
 }
 
-impl Form {
+impl CarrierCurve {
     fn of(piece: &Piece) -> Self {
         match piece {
             Piece::Segment(segment) => {
@@ -269,29 +272,30 @@ impl Form {
 }
 
 impl Corner {
-    /// Whether it turns by more than 5°, as a polygon's corners do and hardly those of a curve that is drawn in pieces.
+    /// True if the corner angle exceeds 5°. Corners of polygons usually do, and corners of approximated curves usually
+    /// do not.
     pub(super) fn is_sharp(&self) -> bool {
         const COS_5_DEG: f64 = 0.9962;
-        self.into.dot(&self.out) < COS_5_DEG
+        self.incoming.dot(&self.outgoing) < COS_5_DEG
     }
 
-    /// On which side of a line through the corner all is that is solid at it: +1 towards `left` of the line, −1 away from it; `None`
-    /// if there is some on either side, or a side of the corner lies along the line.
+    /// Returns the side of a line through the corner on which all solid material is: +1 towards `left`, −1 away from
+    /// it. `None` if there is material on both sides, or if the line is tangent.
     pub(super) fn side_of(&self, left: Vector2) -> Option<f64> {
-        let (behind, before) = (-self.into.dot(&left), self.out.dot(&left));
+        let (behind, before) = (-self.incoming.dot(&left), self.outgoing.dot(&left));
         (behind * before > 0.0).then(|| before.signum())
     }
 
-    /// The foot of a point whose nearest point of the outline is the corner.
-    pub(super) fn foot(&self, point: Point2) -> Option<Foot> {
+    /// Projects a point onto the corner. Returns `None` if a neighbouring facet is nearer.
+    pub(super) fn project(&self, point: Point2) -> Option<Projection> {
         let outward = point - self.point;
         let height = outward.norm();
-        let faces = outward.dot(&self.into) > 0.0 && outward.dot(&self.out) < 0.0 && height > 0.0;
-        faces.then(|| Foot { normal: outward / height, height, curvature: height.recip() })
+        let faces = outward.dot(&self.incoming) > 0.0 && outward.dot(&self.outgoing) < 0.0 && height > 0.0;
+        faces.then(|| Projection { normal: outward / height, height, curvature: height.recip() })
     }
 }
 
-/// A facet in the tree.
+/// An entry of the spatial index.
 #[derive(Debug)]
 struct Leaf {
     index: usize,

@@ -1,220 +1,227 @@
-//! One whisker, from equilibrium to equilibrium.
+//! The quasi-static motion of one whisker.
 
 use crate::geometry::{Point2, Pose, Vector2, unit};
 use vibrissa_runtime::rig::Whisker;
 
-use super::balance::{Balance, Step};
-use super::lag::Lag;
+use super::contact::{Contact, Pair, broad_phase, narrow_phase};
+use super::equilibrium::{EquilibriumSolver, Step};
+use super::first_order_lag::FirstOrderLag;
+use super::rod::{Rod, Shape};
 use super::surface::Surfaces;
-use super::touch::{Contact, Pair, contacts, survey};
-use super::wire::{Shape, Wire};
 
-/// One whisker, from equilibrium to equilibrium.
+/// A whisker that moves through a sequence of equilibria.
 #[derive(Debug)]
-pub(super) struct Follower {
-    wire: Wire,
+pub(super) struct QuasiStaticWhisker {
+    rod: Rod,
     shape: Shape,
-    hinge: Lag,
-    balance: Balance,
+    hinge: FirstOrderLag,
+    solver: EquilibriumSolver,
     pairs: Vec<Pair>,
     contacts: Vec<Contact>,
-    /// All but the pairs are at least this far apart (m).
+    /// A lower bound (m) of the distance of all feature pairs that are not in `pairs`.
     clear: f64,
-    /// What the last sample added to every angle (rad), if it can be expected to go on so.
-    pace: Option<Vec<f64>>,
-    before: Vec<f64>,
-    /// Samples for which it has been on its way.
-    restless: usize,
+    /// The change of every angle in the last sample (rad), if it can be extrapolated.
+    prediction: Option<Vec<f64>>,
+    previous_angles: Vec<f64>,
+    /// The number of samples without an equilibrium since the last one.
+    unsettled_samples: usize,
     force: Vector2,
-    /// How far (m) something of it went against its base in the last sample, at most.
-    went: f64,
+    /// An upper bound (m) of the motion of the whisker relative to its base in the last sample.
+    relative_motion: f64,
 }
 
-/// Why a whisker cannot be followed.
+/// The reasons for which no equilibrium is available.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Lost {
-    /// It is so deep (m) in a solid.
-    Inside(f64),
-    /// No equilibrium was found.
-    Restless,
+pub(super) enum EquilibriumError {
+    /// The whisker penetrates a solid by this depth (m).
+    Penetration(f64),
+    /// The iteration did not converge.
+    NotConverged,
 }
 
-/// A step that moves nothing by more than this (m) is the last: the next would move it by the square, over the radius of the
-/// whisker at worst.
-const SETTLED: f64 = 2e-7;
-/// Steps of Newton's method in a sample. A whisker that springs off takes the more of them the farther it goes; what is left it
-/// goes in the next sample.
-const STEPS: usize = 80;
-/// The farthest (m) that a step downhill moves.
-const DOWNHILL: f64 = 3e-4;
-/// With less than this (m) to what is not watched, that is looked for anew.
-const NARROW: f64 = 1e-3;
-/// Samples for which a whisker may be on its way.
-const PATIENCE: usize = 300;
-/// Parts of a sample's motion.
-const MOST_PARTS: f64 = 200.0;
-/// A tip that goes this many times as far as the base does so evenly.
-const EVEN: f64 = 3.0;
-/// How far (rad) a whisker that is pushed straight against its base is bent, so that it can give way.
-const NUDGE: f64 = 1e-4;
+/// The convergence threshold (m) for the largest displacement in a step. Convergence is quadratic, so the next step
+/// would be much smaller.
+const CONVERGED: f64 = 2e-7;
+/// The largest number of Newton steps in a sample. After a snap-off more steps are needed. The rest of the motion then
+/// follows in the next sample.
+const MAX_STEPS: usize = 80;
+/// The largest displacement (m) of a descent step.
+const MAX_DESCENT: f64 = 3e-4;
+/// The broad phase is repeated if the clearance of the remaining pairs falls below this (m).
+const MIN_CLEARANCE: f64 = 1e-3;
+/// The largest number of consecutive samples without an equilibrium.
+const MAX_UNSETTLED_SAMPLES: usize = 300;
+/// The largest number of substeps of a sample.
+const MAX_SUBSTEPS: f64 = 200.0;
+/// The largest ratio of tip motion to base motion that counts as smooth.
+const MAX_SMOOTH_RATIO: f64 = 3.0;
+/// The perturbation (rad) of a whisker that is pressed along its shaft. It lets the whisker buckle.
+const PERTURBATION: f64 = 1e-4;
 
-impl Follower {
+impl QuasiStaticWhisker {
     pub(super) fn new(whisker: &Whisker, base: Pose) -> Self {
-        let wire = Wire::new(whisker);
+        let rod = Rod::new(whisker);
         Self {
-            shape: Shape::straight(&wire, base),
-            hinge: Lag::new(whisker.hinge.damping / whisker.hinge.stiffness),
-            balance: Balance::default(),
+            shape: Shape::straight(&rod, base),
+            hinge: FirstOrderLag::new(whisker.hinge.damping / whisker.hinge.stiffness),
+            solver: EquilibriumSolver::default(),
             pairs: Vec::new(),
             contacts: Vec::new(),
             clear: 0.0,
-            pace: None,
-            before: vec![0.0; wire.links()],
-            restless: 0,
+            prediction: None,
+            previous_angles: vec![0.0; rod.links()],
+            unsettled_samples: 0,
             force: Vector2::zeros(),
-            went: 0.0,
-            wire,
+            relative_motion: 0.0,
+            rod,
         }
     }
 
-    /// Angle of the base hinge (rad), which its damper makes late.
+    /// The reading of the base hinge (rad), delayed by its damper.
     pub(super) fn base_angle(&self) -> f64 {
         self.hinge.value()
     }
 
-    /// How far (m) something of it went against its base in the last sample, at most.
-    pub(super) fn went(&self) -> f64 {
-        self.went
+    /// An upper bound (m) of the motion of the whisker relative to its base in the last sample.
+    pub(super) fn relative_motion(&self) -> f64 {
+        self.relative_motion
     }
 
-    /// Where the tip is (m, world frame).
+    /// The position of the tip (m, world frame).
     pub(super) fn tip(&self) -> Point2 {
-        // Of a straight whisker in the air the links are not kept in their places.
+        // The link ends of a straight whisker without contact are not updated.
         let along = self.shape.angles.iter().map(|angle| unit(self.shape.base.heading + angle)).sum::<Vector2>();
-        self.shape.base.position + self.wire.link * along
+        self.shape.base.position + self.rod.link * along
     }
 
-    /// The force (N) that the whisker passes on to its base, in the world. While it is on its way from one equilibrium to the next, that
-    /// of the one that it left.
+    /// The force (N, world frame) of the whisker on its base. Between two equilibria it is the force of the previous
+    /// equilibrium.
     pub(super) fn force(&self) -> Vector2 {
         self.force
     }
 
-    /// The force (N) in the frame of the shaft at the base: along it, and across it to its left.
+    /// The force (N) in the frame of the shaft at the base: axial, and perpendicular to the left.
     pub(super) fn force_base(&self) -> Vector2 {
         crate::geometry::rotate(self.force, -(self.shape.base.heading + self.base_angle()))
     }
 
-    /// Where the base is (m, world frame).
+    /// The position of the base (m, world frame).
     pub(super) fn base(&self) -> Point2 {
         self.shape.base.position
     }
 
-    /// Lets the base go to another place within a time (s), and takes the whisker's equilibrium there.
-    pub(super) fn follow(&mut self, base: Pose, period: f64, surfaces: &Surfaces, limit: f64) -> Result<(), Lost> {
+    /// Moves the base to another pose within `period` (s) and finds the equilibrium there.
+    pub(super) fn follow(
+        &mut self,
+        base: Pose,
+        period: f64,
+        surfaces: &Surfaces,
+        limit: f64,
+    ) -> Result<(), EquilibriumError> {
         let from = self.shape.base;
-        let way = (base.position - from.position).norm() + self.wire.length() * (base.heading - from.heading).abs();
-        let is_straight = self.restless == 0 && self.shape.is_straight();
-        if is_straight && self.pairs.is_empty() && self.clear > way {
-            self.clear -= way;
-            self.went = 0.0;
+        let base_motion =
+            (base.position - from.position).norm() + self.rod.length() * (base.heading - from.heading).abs();
+        let is_straight = self.unsettled_samples == 0 && self.shape.is_straight();
+        if is_straight && self.pairs.is_empty() && self.clear > base_motion {
+            self.clear -= base_motion;
+            self.relative_motion = 0.0;
             self.shape.base = base;
             self.hinge.follow(0.0, period);
             return Ok(());
         }
         if is_straight {
-            self.pace = None;
+            self.prediction = None;
         }
-        self.before.copy_from_slice(&self.shape.angles);
-        // How far anything of it goes before it is let go towards its equilibrium, at most.
-        let reach = way + self.swept();
-        let least = (0.5 * self.wire.end_radius(self.wire.links() - 1)).max(reach / MOST_PARTS);
+        self.previous_angles.copy_from_slice(&self.shape.angles);
+        // An upper bound of the motion of any point before the iteration.
+        let motion = base_motion + self.predicted_motion();
+        let min_stride = (0.5 * self.rod.end_radius(self.rod.links() - 1)).max(motion / MAX_SUBSTEPS);
         let (mut done, mut settled, force) = (0.0, true, self.force);
         while done < 1.0 {
-            let stride = (0.8 * self.nearest(surfaces)).max(least);
-            let share = if reach > 0.0 { (stride / reach).min(1.0 - done) } else { 1.0 };
+            let stride = (0.8 * self.nearest_idle(surfaces)).max(min_stride);
+            let share = if motion > 0.0 { (stride / motion).min(1.0 - done) } else { 1.0 };
             done += share;
             if done > 1.0 - 1e-9 {
                 done = 1.0;
             }
-            if let Some(pace) = &self.pace {
-                for (angle, pace) in self.shape.angles.iter_mut().zip(pace) {
-                    *angle += share * pace;
+            if let Some(prediction) = &self.prediction {
+                for (angle, prediction) in self.shape.angles.iter_mut().zip(prediction) {
+                    *angle += share * prediction;
                 }
             }
-            let part = Pose {
+            let pose = Pose {
                 position: from.position + done * (base.position - from.position),
                 heading: from.heading + done * (base.heading - from.heading),
             };
-            self.clear -= share * reach;
-            settled = self.settle(if done < 1.0 { part } else { base }, surfaces)?;
+            self.clear -= share * motion;
+            settled = self.settle(if done < 1.0 { pose } else { base }, surfaces)?;
         }
-        self.restless = if settled { 0 } else { self.restless + 1 };
+        self.unsettled_samples = if settled { 0 } else { self.unsettled_samples + 1 };
         if !settled {
-            // A step that was not taken as a whole has the forces of its end, which is nowhere near.
+            // An incomplete step has the forces of its end, which is far from the current shape.
             self.force = force;
         }
-        if self.restless > PATIENCE {
-            return Err(Lost::Restless);
+        if self.unsettled_samples > MAX_UNSETTLED_SAMPLES {
+            return Err(EquilibriumError::NotConverged);
         }
         let deepest = self.contacts.iter().map(|contact| contact.gap).fold(0.0, f64::min);
-        // The base cannot give way.
+        // The base is fixed to the platform and cannot be deflected.
         let is_base_near = self.pairs.iter().any(Pair::is_at_base);
         let depth = if is_base_near { surfaces.depth(base.position).max(-deepest) } else { -deepest };
         if depth > limit {
-            return Err(Lost::Inside(depth));
+            return Err(EquilibriumError::Penetration(depth));
         }
-        self.note_pace(settled, way);
-        self.hinge.follow(self.wire.base_angle(&self.shape), period);
+        self.update_predictor(settled, base_motion);
+        self.hinge.follow(self.rod.base_angle(&self.shape), period);
         Ok(())
     }
 
-    /// How near (m) anything is that does not bear yet, or a sharp corner, behind which an end may come out of another side than it
-    /// went in.
-    fn nearest(&self, surfaces: &Surfaces) -> f64 {
-        let idle = self.contacts.iter().filter(|contact| contact.force == 0.0).map(|contact| contact.gap);
+    /// The distance (m) to the nearest inactive contact or sharp corner. Behind a sharp corner, an end could leave the
+    /// solid by another side.
+    fn nearest_idle(&self, surfaces: &Surfaces) -> f64 {
+        let inactive = self.contacts.iter().filter(|contact| contact.force == 0.0).map(|contact| contact.gap);
         let corners = self.pairs.iter().filter_map(|pair| pair.sharp_corner(&self.shape, surfaces));
-        idle.chain(corners).fold(self.clear, f64::min)
+        inactive.chain(corners).fold(self.clear, f64::min)
     }
 
-    /// Takes the equilibrium on a base, or goes towards it; whether it is there.
-    fn settle(&mut self, base: Pose, surfaces: &Surfaces) -> Result<bool, Lost> {
-        self.shape.place(&self.wire, base);
-        for _ in 0..STEPS {
-            if self.clear < NARROW {
-                self.clear = survey(&self.wire, &self.shape, surfaces, &mut self.pairs);
+    /// Iterates towards the equilibrium for a pose of the base. Returns true if it converged.
+    fn settle(&mut self, base: Pose, surfaces: &Surfaces) -> Result<bool, EquilibriumError> {
+        self.shape.place(&self.rod, base);
+        for _ in 0..MAX_STEPS {
+            if self.clear < MIN_CLEARANCE {
+                self.clear = broad_phase(&self.rod, &self.shape, surfaces, &mut self.pairs);
             }
-            contacts(&self.wire, &self.shape, surfaces, &mut self.pairs, &mut self.contacts);
+            narrow_phase(&self.rod, &self.shape, surfaces, &mut self.pairs, &mut self.contacts);
             let is_free = self.contacts.iter().all(|contact| contact.gap >= 0.0 && contact.force == 0.0);
             if is_free && self.shape.is_straight() {
                 self.force = Vector2::zeros();
                 return Ok(true);
             }
-            let Some(step) = self.balance.step(&self.wire, &self.shape, &self.contacts) else {
-                self.nudge(base);
+            let Some(step) = self.solver.step(&self.rod, &self.shape, &self.contacts) else {
+                self.perturb(base);
                 continue;
             };
             if self.take(&step) {
                 return Ok(true);
             }
-            if !step.is_newtons && step.farthest < SETTLED {
-                // It stands on the top of a hill.
-                self.nudge(base);
+            if !step.is_newton && step.max_displacement < CONVERGED {
+                // The iteration stopped at a maximum or a saddle point.
+                self.perturb(base);
             }
         }
         if !self.shape.angles.iter().all(|angle| angle.is_finite()) {
-            return Err(Lost::Restless);
+            return Err(EquilibriumError::NotConverged);
         }
         Ok(false)
     }
 
-    /// Takes a step, as far as it can be trusted; whether that was the last.
+    /// Applies a step within the trust radius. Returns true if it converged.
     fn take(&mut self, step: &Step) -> bool {
-        let trusted = if step.is_newtons { self.clear } else { DOWNHILL };
-        let share = (trusted / step.farthest).min(1.0);
-        self.balance.take(&mut self.shape, share);
-        self.clear -= share * step.farthest;
-        let bearing = &step.bearing[..step.count];
+        let trust_radius = if step.is_newton { self.clear } else { MAX_DESCENT };
+        let share = (trust_radius / step.max_displacement).min(1.0);
+        self.solver.take(&mut self.shape, share);
+        self.clear -= share * step.max_displacement;
+        let active = &step.active[..step.count];
         for pair in &mut self.pairs {
             pair.force = 0.0;
         }
@@ -222,47 +229,48 @@ impl Follower {
         for contact in &mut self.contacts {
             contact.force = 0.0;
         }
-        for &(index, force) in bearing {
+        for &(index, force) in active {
             let contact = &mut self.contacts[index];
             contact.force = force.max(f64::MIN_POSITIVE);
             self.pairs[contact.pair].force = contact.force;
             self.force += force * contact.normal;
         }
-        // A free whisker that has sprung back is straight.
-        if step.is_newtons && share >= 1.0 && bearing.is_empty() {
+        // A whisker without contact is straight.
+        if step.is_newton && share >= 1.0 && active.is_empty() {
             self.shape.angles.fill(0.0);
         }
-        self.shape.place(&self.wire, self.shape.base);
-        step.is_newtons && step.farthest < SETTLED
+        self.shape.place(&self.rod, self.shape.base);
+        step.is_newton && step.max_displacement < CONVERGED
     }
 
-    /// Bends it a little.
-    fn nudge(&mut self, base: Pose) {
-        let count = self.wire.links() as f64;
+    /// Bends the whisker slightly.
+    fn perturb(&mut self, base: Pose) {
+        let count = self.rod.links() as f64;
         for (link, angle) in self.shape.angles.iter_mut().enumerate() {
-            *angle += NUDGE * (link + 1) as f64 / count;
+            *angle += PERTURBATION * (link + 1) as f64 / count;
         }
-        self.shape.place(&self.wire, base);
+        self.shape.place(&self.rod, base);
     }
 
-    /// Notes by how much every angle has changed while the base went a way (m), for the next sample to go on so; not where the
-    /// whisker has sprung off something.
-    fn note_pace(&mut self, settled: bool, way: f64) {
-        let pace = self.pace.get_or_insert_with(Vec::new);
-        pace.clear();
-        pace.extend(self.shape.angles.iter().zip(&self.before).map(|(now, before)| now - before));
-        self.went = self.swept();
-        if !settled || self.went > EVEN * way || self.shape.is_straight() {
-            self.pace = None;
+    /// Stores the change of every angle as the prediction for the next sample. After a snap-off there is no prediction.
+    fn update_predictor(&mut self, settled: bool, base_motion: f64) {
+        let prediction = self.prediction.get_or_insert_with(Vec::new);
+        prediction.clear();
+        prediction.extend(
+            self.shape.angles.iter().zip(&self.previous_angles).map(|(now, previous_angles)| now - previous_angles),
+        );
+        self.relative_motion = self.predicted_motion();
+        if !settled || self.relative_motion > MAX_SMOOTH_RATIO * base_motion || self.shape.is_straight() {
+            self.prediction = None;
         }
     }
 
-    /// How far (m) anything of it goes at most while its angles change by its pace.
-    fn swept(&self) -> f64 {
-        let turns = self.pace.iter().flatten().map(|turn| turn.abs());
-        self.wire.length() * turns.fold(0.0, f64::max)
+    /// An upper bound (m) of the motion of any point due to the predicted change of angles.
+    fn predicted_motion(&self) -> f64 {
+        let rotations = self.prediction.iter().flatten().map(|turn| turn.abs());
+        self.rod.length() * rotations.fold(0.0, f64::max)
     }
 }
 
 #[cfg(test)]
-mod passing;
+mod corner_traversal;

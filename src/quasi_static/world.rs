@@ -1,60 +1,60 @@
-//! The quasi-static world.
+//! The quasi-static simulator as a [`World`].
 
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::physics::Physics;
 use crate::scene::{Overlap, overlap};
 use crate::solid::Solid;
-use crate::world::{Fault, SPRINGING, World};
+use crate::world::{Fault, SNAP_OFF_SPEED, World};
 use crate::world::{Sensors, whole};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample};
 
-use super::carriage::Carriage;
+use super::platform_dynamics::PlatformDynamics;
 use super::surface::Surfaces;
-use super::whisker::{Follower, Lost};
+use super::whisker::{EquilibriumError, QuasiStaticWhisker};
 
-/// Why a quasi-static world could not be built.
+/// The reasons for which a quasi-static simulation cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum QuasiStaticError {
-    /// There is friction.
+    /// Friction is not supported.
     #[error(
         "the quasi-static world has no friction, and `physics.friction` is {friction}; leave it out, or run in the world `mujoco`"
     )]
     Friction {
-        /// The coefficient.
+        /// The coefficient of friction.
         friction: f64,
     },
-    /// The rig stands in something.
+    /// The rig overlaps or touches a solid at the start.
     #[error("{part} is in a solid, or touches it, where the run starts; start elsewhere")]
     Start {
-        /// The part of the rig that is.
+        /// The affected part of the rig.
         part: String,
     },
 }
 
-/// A rig before solids whose whiskers are in static equilibrium at every sample.
+/// A simulation of a rig among solids. Its whiskers are in static equilibrium at every sample.
 #[derive(Debug)]
 pub struct QuasiStaticWorld {
     rig: Rig,
     penetration_limit: f64,
     surfaces: Surfaces,
-    carriage: Carriage,
-    whiskers: Vec<Follower>,
+    platform: PlatformDynamics,
+    whiskers: Vec<QuasiStaticWhisker>,
     period: f64,
     samples_per_tick: usize,
     samples: Vec<Sample>,
     samples_done: u64,
     sensors: Sensors,
     body_touched: bool,
-    /// Of every whisker, whether it sprang since the last tick.
-    sprung: Vec<bool>,
+    /// For every whisker, true if it snapped off since the last tick.
+    snapped_off: Vec<bool>,
 }
 
 impl QuasiStaticWorld {
-    /// Builds the world with the platform at rest at `start` before `solids`; `seed` fixes the sensors' noise.
+    /// Builds the simulation with the platform at rest at `start`. `seed` determines the noise of the sensors.
     ///
     /// # Errors
-    /// [`QuasiStaticError`] when the rig has what this world has not.
+    /// [`QuasiStaticError`] if the simulator does not support the scene.
     pub fn new(
         rig: &Rig,
         physics: &Physics,
@@ -81,15 +81,15 @@ impl QuasiStaticWorld {
         };
         Ok(Self {
             surfaces: Surfaces::new(solids),
-            carriage: Carriage::at_rest(start, &rig.platform, physics),
-            whiskers: rig.whiskers.iter().map(|whisker| Follower::new(whisker, base(whisker))).collect(),
+            platform: PlatformDynamics::at_rest(start, &rig.platform, physics),
+            whiskers: rig.whiskers.iter().map(|whisker| QuasiStaticWhisker::new(whisker, base(whisker))).collect(),
             period: sensing.sample_rate.recip(),
             samples_per_tick,
             samples: Vec::with_capacity(samples_per_tick),
             samples_done: 0,
             sensors: Sensors::new(sensing, seed),
             body_touched: false,
-            sprung: vec![false; rig.whiskers.len()],
+            snapped_off: vec![false; rig.whiskers.len()],
             rig: rig.clone(),
             penetration_limit: physics.penetration_limit,
         })
@@ -100,15 +100,15 @@ impl QuasiStaticWorld {
     }
 
     fn step(&mut self, command: &Command) -> Result<(), Fault> {
-        let centre = self.carriage.pose.position;
+        let centre = self.platform.pose.position;
         let (mut force, mut moment) = (Vector2::zeros(), 0.0);
         for whisker in &self.whiskers {
             force += whisker.force();
             moment += (whisker.base() - centre).perp(&whisker.force());
         }
-        let touch = self.carriage.go(command, (force, moment), self.period, &self.surfaces);
+        let touch = self.platform.step(command, (force, moment), self.period, &self.surfaces);
         self.samples_done += 1;
-        let (body, time) = (self.carriage.pose, self.time());
+        let (body, time) = (self.platform.pose, self.time());
         if !body.is_finite() {
             return Err(Fault::Diverged { time, cause: "a command is too large or not a number" });
         }
@@ -117,21 +117,21 @@ impl QuasiStaticWorld {
         if let Some(depth) = touch.filter(|&depth| depth > limit) {
             return Err(Fault::Crash { time, depth });
         }
-        let parts = self.rig.whiskers.iter().zip(&mut self.sprung);
-        for (whisker, (part, sprung)) in self.whiskers.iter_mut().zip(parts) {
+        let parts = self.rig.whiskers.iter().zip(&mut self.snapped_off);
+        for (whisker, (part, snapped_off)) in self.whiskers.iter_mut().zip(parts) {
             let position: Point2 = body.point_to_world(part.base_body);
             let base = Pose { position, heading: body.heading + part.direction_body };
-            whisker.follow(base, self.period, &self.surfaces, limit).map_err(|lost| match lost {
-                Lost::Inside(depth) => Fault::Penetration { time, depth, limit },
-                Lost::Restless => Fault::Diverged { time, cause: "a whisker finds no rest; go slower" },
+            whisker.follow(base, self.period, &self.surfaces, limit).map_err(|error| match error {
+                EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit },
+                EquilibriumError::NotConverged => Fault::Diverged { time, cause: "a whisker finds no rest; go slower" },
             })?;
-            *sprung |= whisker.went() > SPRINGING * self.period;
+            *snapped_off |= whisker.relative_motion() > SNAP_OFF_SPEED * self.period;
         }
         Ok(())
     }
 
     fn sample(&mut self) -> Sample {
-        let mut sample = Sample { time: self.time(), body: self.carriage.pose, whiskers: Default::default() };
+        let mut sample = Sample { time: self.time(), body: self.platform.pose, whiskers: Default::default() };
         for (whisker, reading) in self.whiskers.iter().zip(&mut sample.whiskers) {
             reading.base_angle = self.sensors.read(whisker.base_angle());
             if self.rig.sensing.forces {
@@ -147,7 +147,7 @@ impl QuasiStaticWorld {
 impl World for QuasiStaticWorld {
     fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
         self.body_touched = false;
-        self.sprung.fill(false);
+        self.snapped_off.fill(false);
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
             self.step(command)?;
@@ -161,8 +161,8 @@ impl World for QuasiStaticWorld {
         self.body_touched
     }
 
-    fn springs(&self, whisker: usize) -> bool {
-        self.sprung[whisker]
+    fn snapped_off(&self, whisker: usize) -> bool {
+        self.snapped_off[whisker]
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

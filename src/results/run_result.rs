@@ -284,7 +284,7 @@ impl RunResult {
                 std: error.and_then(|error| error.std).map(millimetres),
                 p95: error.map(|error| millimetres(error.p95)),
                 max: error.map(|error| millimetres(error.max)),
-                within_band: error.map(|error| error.within_band),
+                within_band: error.map(|error| error.interval_coverage),
                 outliers: error.map(|error| error.outliers),
                 n: error.map_or(0, |error| error.count),
             },

@@ -148,7 +148,7 @@ fn record(control: &Control, command: Command, failsafe: Option<Fallback>, world
         springs: [false; MAX_WHISKERS],
     };
     for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
-        tick.springs[whisker] = world.springs(in_rig);
+        tick.springs[whisker] = world.snapped_off(in_rig);
         tick.tip_ends[whisker] = Some(world.tip(in_rig));
         tick.deflections[whisker] = perception.base_angle(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);

@@ -8,7 +8,7 @@ use super::reader::Reader;
 use super::start;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Contour, Pose};
-use crate::outline::{self, Format, OutlineError, OutlineFault, Request};
+use crate::outline::{self, Format, OutlineError, OutlineFault, ReadOptions};
 use vibrissa_runtime::units::Dimension;
 
 const UNIT: Key = Key::new("unit", Dimension::LENGTH, (1e-6, 10.0), "1 mm");
@@ -44,8 +44,8 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
         let fault = Diagnostic::error(fault::FILE, message, path.span, reason);
         reader.report(fault.hint("a path leads from the folder of the scenario to the file"));
     });
-    let request = Request { unit, element: element.as_ref().map(|element| element.value.as_str()), height };
-    match outline::read(&bytes.ok()?, format, &request) {
+    let options = ReadOptions { unit, element: element.as_ref().map(|element| element.value.as_str()), height };
+    match outline::read(&bytes.ok()?, format, &options) {
         Ok(contours) => {
             reader.make(contours.iter().map(|contour| contour.pieces().len()).sum(), path.span)?;
             Some(contours.into_iter().map(move |contour| contour.transformed(&frame)))

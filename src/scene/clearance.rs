@@ -1,10 +1,10 @@
-//! Whether a rig stands clear of a solid.
+//! The clearance of a rig.
 
 use super::gap::gap;
 use crate::geometry::{Contour, Point2, Pose, Segment, unit};
 use vibrissa_runtime::rig::Rig;
 
-/// Parts nearer to a solid than this (m) touch it.
+/// A part of the rig closer to a solid than this (m) touches it.
 const TOUCHING: f64 = 1e-5;
 
 /// A part of a rig that overlaps a solid.
@@ -16,7 +16,8 @@ pub(crate) enum Overlap {
     Whisker(usize),
 }
 
-/// The first part of the rig that overlaps or touches the inside of `object` when the rig stands at `pose`, its whiskers straight.
+/// Returns the first part of the rig at `pose`, with undeflected whiskers, that overlaps or touches the interior of
+/// `object`.
 pub(crate) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
     let outline = rig.platform.outline_body().map(|corner| pose.point_to_world(corner));
     let sides = (0..4).map(|side| (outline[side], outline[(side + 1) % 4]));
@@ -32,14 +33,14 @@ pub(crate) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overla
     hits.map(Overlap::Whisker)
 }
 
-/// Whether every point of a line is outside the object and farther than `margin` (m) from its outline. A line that keeps
-/// clear of the outline is outside if one of its points is.
+/// True if every point of a line is outside of the object and farther than `margin` (m) from its outline. A line that
+/// does not meet the outline is outside if one of its points is.
 fn is_clear(object: &Contour, start: Point2, end: Point2, margin: f64) -> bool {
     let line = Segment { start, end };
     !object.contains(start) && object.pieces().iter().all(|piece| gap(&line, piece) > margin)
 }
 
-/// Whether a point is inside a convex polygon given counter-clockwise.
+/// True if a point is inside of a convex polygon, given counter-clockwise.
 fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
     (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
 }
@@ -72,7 +73,7 @@ mod tests {
         assert_eq!(overlap(&Rig::default(), &Pose::default(), &disk(0.03, 0.13, 0.02)), Some(Overlap::Whisker(1)));
     }
 
-    /// A platform whose tail is 10 nm too far from a wall to touch it, all along.
+    /// The tail of the platform is parallel to a wall and 10 nm too far away to touch it.
     #[test]
     fn a_side_parallel_to_an_object_is_judged_by_its_gap() {
         let wall =

@@ -1,17 +1,18 @@
-//! What must hold at the end of a run.
+//! Conditions on the result of a run.
 
 use std::fmt;
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// How a run ended.
+/// The outcome of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(rename_all = "lowercase"))]
 pub enum Outcome {
-    /// As it should: the loop closed, or the time of a scenario without a loop was up.
+    /// The run met its stop condition: its loop closed, its goal was reached, or its time ended in a scenario without a
+    /// goal.
     Completed,
-    /// The time was up before the loop closed.
+    /// The time limit was reached before the goal.
     Timeout,
-    /// The policy gave up.
+    /// The policy failed.
     Failed,
     /// The simulation can no longer be trusted.
     Diverged,
@@ -20,77 +21,78 @@ pub enum Outcome {
 /// A figure of a run that an expectation can bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Metric {
-    /// Mean distance of the tip estimates to the object (m).
+    /// Mean distance of the tip estimates from the object (m).
     ErrorMean,
-    /// Its 95th percentile (m).
+    /// 95th percentile of this distance (m).
     ErrorP95,
-    /// Its maximum (m).
+    /// Maximum of this distance (m).
     ErrorMax,
-    /// Share of the tip estimates that lie within the 95 % interval that they report (0 to 1).
+    /// Coverage of the 95 % interval: the share of tip estimates within their own interval (0 to 1).
     IntervalCoverage,
-    /// Share of the tip estimates whose error is more than their own standard deviation explains (0 to 1).
+    /// Share of the tip estimates that are outliers (0 to 1).
     Outliers,
     /// Hausdorff distance between the object and the estimated contour (m).
     Hausdorff,
     /// Share of the object's outline that was traced (0 to 1).
     Coverage,
-    /// Share of the outline of the object whose loop closed that was traced (0 to 1).
+    /// Share of the traced outline of the object whose loop closed (0 to 1).
     ObjectCoverage,
-    /// Share of a tunnel's length that the platform went through between its walls (0 to 1).
+    /// Share of a tunnel's length that the platform passed between its walls (0 to 1).
     Passage,
     /// Share of a tunnel's inner sides that was traced between the first and the last contact (0 to 1).
     WallCoverage,
-    /// Mean distance between where whiskers lost the object and where they found it again (m).
+    /// Mean retrieval radius (m).
     RetrievalRadius,
     /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
     AxisMean,
-    /// The greatest distance of an estimated corner from the exact one (m).
+    /// Largest distance of an estimated corner from the exact one (m).
     CornerPlaceMax,
-    /// The longest time that a corner cost (s).
+    /// Longest time of a corner (s).
     CornerTimeMax,
-    /// The longest path of the platform that a corner cost (m).
+    /// Longest path of the platform at a corner (m).
     CornerPathMax,
     /// Number of contacts of the platform's body.
     Collisions,
 }
 
-/// One thing that must hold at the end of a run.
+/// A condition on the result of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Expectation {
-    /// The run ends so.
+    /// The run has this outcome.
     Outcome(Outcome),
-    /// A figure is at most the bound, or at least, for a [figure that is better the larger](Metric::is_lower_bounded).
+    /// The figure is at most the bound, or at least the bound for a [metric with a lower
+    /// bound](Metric::is_lower_bounded).
     Bound {
-        /// The figure.
+        /// The metric.
         metric: Metric,
-        /// Its bound, in SI units.
+        /// The bound, in SI units.
         bound: f64,
     },
 }
 
-/// An expectation that does not hold, with what was measured. Its text says both.
+/// An expectation that does not hold, with the measured value. Its text states both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Violation {
-    /// The run ended otherwise.
+    /// The outcome differs.
     Outcome {
-        /// How it should have ended.
+        /// The expected outcome.
         expected: Outcome,
-        /// How it ended.
+        /// The actual outcome.
         found: Outcome,
     },
-    /// A figure is beyond its bound.
+    /// A figure exceeds its bound.
     Bound {
-        /// The figure.
+        /// The metric.
         metric: Metric,
-        /// Its bound, in SI units.
+        /// The bound, in SI units.
         bound: f64,
-        /// Its value, in SI units; `None` if the run gave none.
+        /// The value, in SI units; `None` if the run has none.
         found: Option<f64>,
     },
 }
 
 impl Outcome {
-    /// Every outcome.
+    /// All outcomes.
     pub const ALL: [Self; 4] = [Self::Completed, Self::Timeout, Self::Failed, Self::Diverged];
 
     /// The name in scenarios and results.
@@ -112,7 +114,7 @@ impl fmt::Display for Outcome {
 }
 
 impl Metric {
-    /// Every metric.
+    /// All metrics.
     pub const ALL: [Self; 16] = [
         Self::ErrorMean,
         Self::ErrorP95,
@@ -155,7 +157,7 @@ impl Metric {
         }
     }
 
-    /// What it measures.
+    /// The physical dimension.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
@@ -166,13 +168,13 @@ impl Metric {
         }
     }
 
-    /// Whether it is better the larger it is, so that its bound is one from below.
+    /// True if larger values are better, so that the bound is a lower bound.
     #[must_use]
     pub fn is_lower_bounded(self) -> bool {
         self.is_share() && self != Self::Outliers
     }
 
-    /// Whether it is a share, from 0 to 1.
+    /// True for a share from 0 to 1.
     #[must_use]
     pub fn is_share(self) -> bool {
         matches!(
@@ -196,8 +198,8 @@ impl Metric {
 }
 
 impl Expectation {
-    /// What is wrong with a run that ended with this outcome and these figures; `None` if the expectation holds. A figure
-    /// that was not measured, or is not a number, violates its bound.
+    /// Returns the violation by a run with this outcome and these figures, or `None` if the expectation holds. A figure
+    /// that is missing or not a number violates its bound.
     pub fn violation(&self, outcome: Outcome, figure: impl Fn(Metric) -> Option<f64>) -> Option<Violation> {
         match *self {
             Self::Outcome(expected) => (expected != outcome).then_some(Violation::Outcome { expected, found: outcome }),

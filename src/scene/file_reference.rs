@@ -1,16 +1,16 @@
-//! A file that a scenario or a sweep names.
+//! References to files.
 
 use std::path::PathBuf;
 
 use crate::diagnostic::Span;
 
-/// A file that a scenario or a sweep names.
+/// A file to which a scenario or a sweep refers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileReference {
-    /// Its path, relative to the file that names it.
+    /// The path, relative to the referring file.
     pub path: PathBuf,
-    /// The name of the file without its ending.
+    /// The name of the file without its extension.
     pub name: String,
-    /// Where it is named.
+    /// The position of the reference in the text.
     pub span: Span,
 }

@@ -1,11 +1,11 @@
-//! The distance between a straight line and a piece of a contour.
+//! The distance between a line and a piece of a contour.
 
 use crate::geometry::{Arc, Piece, Point2, Segment};
 
-/// The least distance (m) between a point of `line` and a point of `piece`; 0, up to rounding, where they cross.
+/// The smallest distance (m) between a point of `line` and a point of `piece`, 0 up to rounding if they intersect.
 ///
-/// It lies at an end of one of the two, where they cross, or where both are square to the way across: on the line through
-/// the centre of an arc. So a few candidates on `line` and the ends of `piece` give it.
+/// It occurs at an end of one of them, at an intersection, or at a common perpendicular. For an arc, this perpendicular
+/// passes through its centre. Therefore a few candidates on `line` and the ends of `piece` suffice.
 pub(crate) fn gap(line: &Segment, piece: &Piece) -> f64 {
     let inner = match piece {
         Piece::Segment(segment) => [crossing(line, segment); 2],
@@ -16,7 +16,7 @@ pub(crate) fn gap(line: &Segment, piece: &Piece) -> f64 {
     from_line.into_iter().chain(from_piece).fold(f64::INFINITY, f64::min)
 }
 
-/// The point of `line` at which it crosses the line that carries `segment`, or the nearest to that; its start where the two
+/// The point of `line` nearest to the infinite line through `segment`, or its intersection. The start of `line` if both
 /// are parallel.
 fn crossing(line: &Segment, segment: &Segment) -> Point2 {
     let along = segment.tangent();
@@ -24,8 +24,7 @@ fn crossing(line: &Segment, segment: &Segment) -> Point2 {
     if sine == 0.0 { line.start } else { line.point_at((segment.start - line.start).perp(&along) / sine) }
 }
 
-/// The points of `line` at which it crosses the circle that carries `arc`; where it does not, twice the one nearest to the
-/// centre.
+/// The intersections of `line` with the circle of `arc`. Without one, twice the point nearest to the centre.
 fn crossings_or_foot(line: &Segment, arc: &Arc) -> [Point2; 2] {
     let to_centre = arc.centre - line.start;
     let (foot, aside) = (to_centre.dot(&line.tangent()), to_centre.perp(&line.tangent()));

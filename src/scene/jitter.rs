@@ -1,4 +1,4 @@
-//! Starts that vary from run to run.
+//! Random starts.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -7,25 +7,25 @@ use rand_distr::{Distribution, Uniform};
 use super::Scene;
 use crate::geometry::{Pose, Vector2};
 
-/// How often a start is drawn at most until the rig stands clear.
+/// The largest number of samples until the rig is clear of all solids.
 const DRAWS: usize = 1000;
 
-/// How far a start may be from the scenario's own.
+/// The range of random displacements of a start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jitter {
-    /// Along x and along y, to either side (m).
+    /// The largest displacement along x and along y, in both directions (m).
     pub position: f64,
-    /// To either side (rad).
+    /// The largest rotation, in both directions (rad).
     pub heading: f64,
 }
 
 impl Jitter {
-    /// The start that belongs to `seed`, evenly distributed over those at which the rig stands clear of the object; `None` if
-    /// none was found. The same scene and seed give the same start.
+    /// Samples a start uniformly from those at which the rig is clear of all solids. `None` if none was found. The same
+    /// scene and seed give the same start.
     #[must_use]
     pub fn start(&self, scene: &Scene, seed: u64) -> Option<Pose> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        // The sensors' noise has the stream 0 of the same seed.
+        // Stream 0 of the same seed is the noise of the sensors.
         random.set_stream(1);
         let side = Uniform::new_inclusive(-1.0, 1.0).ok()?;
         (0..DRAWS).find_map(|_| {

@@ -7,37 +7,37 @@ use crate::physics::Physics;
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
 
-/// One scenario, read and checked.
+/// A scenario after reading and validation.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The name under which results are reported; fit to be a file's name.
+    /// The name under which results are reported. It is a valid file name.
     pub name: String,
-    /// What it is about, for people; may be empty.
+    /// A description for people, possibly empty.
     pub description: String,
     /// The platform, its whiskers and its sensors.
     pub rig: Rig,
-    /// The settings of the simulation.
+    /// The physics settings.
     pub physics: Physics,
-    /// What is there to be touched; at least one solid, none overlapping another.
+    /// The solids, at least one. None overlaps another.
     pub solids: Vec<Solid>,
-    /// The exact geometry that estimates are measured against.
+    /// The exact geometry for scores.
     pub truth: Truth,
-    /// Where the platform starts, at rest: its centre of mass and its heading, in the world.
+    /// The pose of the platform at the start, at rest (world frame).
     pub start: Pose,
-    /// When a run ends.
+    /// The stop condition.
     pub stop: Stop,
-    /// What must hold at the end of a run.
+    /// The expectations.
     pub expect: Vec<Expectation>,
-    /// The policy to run unless another is asked for.
+    /// The default policy.
     pub policy: Option<FileReference>,
-    /// The world to run in unless another is asked for.
+    /// The default simulator.
     pub world: Option<WorldKind>,
-    /// Seed of the sensor noise.
+    /// The seed of the sensor noise.
     pub seed: u64,
 }
 
 impl Scene {
-    /// Whether the rig, its whiskers straight, would stand clear of all solids if it started at `start`.
+    /// True if the rig at `start`, with undeflected whiskers, is clear of all solids.
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {
         self.solids.iter().all(|solid| overlap(&self.rig, start, solid.outline()).is_none())

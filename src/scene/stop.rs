@@ -1,51 +1,50 @@
-//! When a run ends.
+//! The stop condition of a run.
 
 use crate::geometry::Point2;
 
-/// When a run ends.
+/// The stop condition of a run.
 ///
-/// With [`loop_closed`](Self::loop_closed) or [`reached`](Self::reached) a run is completed once either has come about, and
-/// times out at [`time`](Self::time). Without, it is completed at that time.
+/// With [`loop_closed`](Self::loop_closed) or [`reached`](Self::reached), a run completes as soon as one of them holds,
+/// and times out at [`time`](Self::time). Otherwise it completes at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// The longest that a run takes (simulated s).
+    /// The time limit (simulated s).
     pub time: f64,
-    /// The condition of having gone all the way round, if that is the aim.
+    /// The condition of a closed loop, if there is one.
     pub loop_closed: Option<LoopClosed>,
-    /// The condition of having come to a place, if that is the aim.
+    /// The condition of a reached position, if there is one.
     pub reached: Option<Reached>,
-    /// When a run is given up; `None` if never.
+    /// The condition for ending a run without progress; `None` to disable it.
     pub stalled: Option<Stalled>,
 }
 
-/// The newest tip estimate of a whisker has come back to the first valid one of the same whisker, after the platform has gone
-/// round that place.
+/// The newest tip of a whisker is near its first valid tip, after the platform has moved around that point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopClosed {
-    /// The two are at most this far apart (m).
+    /// The largest distance between both tips (m).
     pub within: f64,
-    /// The newest is at least this much later than the first (simulated s).
+    /// The shortest time between both tips (simulated s).
     pub after: f64,
 }
 
-/// The platform's centre of mass has come to a place.
+/// The platform's centre of mass has reached a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
-    /// The place (m, world frame).
+    /// The position (m, world frame).
     pub place: Point2,
-    /// The two are at most this far apart (m).
+    /// The largest distance from the position (m).
     pub within: f64,
-    /// Not before this time (simulated s).
+    /// The earliest time (simulated s).
     pub after: f64,
 }
 
-/// A run makes no progress: neither the platform's centre of mass nor a recorded tip comes anywhere new. Going round in
-/// circles is none, whether in the air or along what has been traced.
+/// A run makes no progress: neither the platform's centre of mass nor a recorded tip reaches a new position. Repeated
+/// circles are no progress, neither without contact nor along the traced contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stalled {
-    /// A place is new that is further than this (m) from all where the same has been.
+    /// A position is new if it is farther than this (m) from all previous ones.
     pub within: f64,
-    /// For this long (simulated s).
+    /// The duration without progress (simulated s).
     pub after: f64,
 }
 

@@ -1,21 +1,21 @@
-//! What a run is measured against.
+//! The exact geometry of a scene.
 
 use crate::geometry::{Contour, ContourSet, TunnelAxis};
 
-/// The exact geometry that the estimates of a run are measured against, in world coordinates.
+/// The exact geometry against which a run is scored (world frame).
 #[derive(Debug, Clone)]
 pub struct Truth {
-    /// The outlines of all solids: the error of an estimate is its distance from the nearest of them.
+    /// The outlines of all solids. The error of an estimate is its distance from the nearest.
     pub surfaces: ContourSet,
-    /// What there is to be traced, for coverage and the Hausdorff distance: the outline of a plain object, the inner sides of
-    /// a tunnel's walls.
+    /// The reference for coverage and Hausdorff distance: the outline of a plain object, or the inner sides of a
+    /// tunnel.
     pub reference: ContourSet,
-    /// The lines in the middle of tunnels, for the thesis's axis error (section 5.3).
+    /// The centre lines of tunnels, for the baseline's axis error (section 5.3).
     pub axes: Vec<TunnelAxis>,
 }
 
 impl From<Contour> for Truth {
-    /// The truth about a single plain object.
+    /// The geometry of a single plain object.
     fn from(outline: Contour) -> Self {
         let surfaces = ContourSet::from(outline);
         Self { reference: surfaces.clone(), surfaces, axes: Vec::new() }

@@ -1,18 +1,18 @@
-//! The worlds that a run can take place in.
+//! The simulators for a run.
 
 use std::fmt;
 
-/// The worlds that a run can take place in.
+/// The simulators for a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WorldKind {
-    /// The simulation by MuJoCo; only a program built with the feature `sim` has it.
+    /// MuJoCo. Requires the feature `sim`.
     Mujoco,
-    /// Static equilibria, one after the other.
+    /// The quasi-static simulator.
     QuasiStatic,
 }
 
 impl WorldKind {
-    /// Every world.
+    /// All simulators.
     pub const ALL: [Self; 2] = [Self::Mujoco, Self::QuasiStatic];
 
     /// The name in scenarios, results and arguments.
@@ -26,18 +26,18 @@ impl WorldKind {
 }
 
 impl Default for WorldKind {
-    /// The simulation, in a program that has it.
+    /// MuJoCo if it is available, else the quasi-static simulator.
     fn default() -> Self {
         if cfg!(feature = "sim") { Self::Mujoco } else { Self::QuasiStatic }
     }
 }
 
-/// A world to run in, and how much of it.
+/// A simulator and its options.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorldSetup {
-    /// The world.
+    /// The simulator.
     pub kind: WorldKind,
-    /// Whether what cannot matter is left out.
+    /// True if the model is pruned.
     pub prune: bool,
 }
 

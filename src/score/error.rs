@@ -14,7 +14,7 @@ pub struct ErrorFigures {
     /// Maximum.
     pub max: f64,
     /// Share of the estimates, 0 to 1, that lie within the band of 95 % that they tell themselves: 1.96 standard deviations.
-    pub within_band: f64,
+    pub interval_coverage: f64,
     /// Share of the estimates, 0 to 1, that are [outliers](Tip::is_outlier).
     pub outliers: f64,
     /// Their distance from the true tips along the outline; `None` if these are not known.
@@ -37,7 +37,7 @@ pub struct TipDistance {
 }
 
 /// Half of the breadth of the band that holds 95 % of a normal distribution, in standard deviations.
-const BAND: f64 = 1.96;
+const INTERVAL_DEVIATIONS: f64 = 1.96;
 
 impl ErrorFigures {
     /// The figures of `tips`; `None` if there are none.
@@ -55,7 +55,7 @@ impl ErrorFigures {
             std: statistics.std(),
             p95: statistics.percentile(95.0),
             max: statistics.max(),
-            within_band: share(&|tip| tip.error <= BAND * tip.spread),
+            interval_coverage: share(&|tip| tip.error <= INTERVAL_DEVIATIONS * tip.spread),
             outliers: share(&Tip::is_outlier),
             along: distance(|offset| offset.along),
             across: distance(|offset| offset.across),

@@ -5,7 +5,7 @@ use rstar::primitives::Line;
 
 use super::statistics::Statistics;
 use super::tip::{valid_tips, whiskers};
-use crate::geometry::{Point2, least_distance};
+use crate::geometry::{Point2, min_distance};
 use crate::run::Trace;
 
 /// How many ticks after a tip the next one of its stroke comes at the latest.
@@ -57,7 +57,7 @@ impl Estimate {
     pub fn distance(&self, point: Point2) -> Option<f64> {
         let query = point.into();
         let distance = |line: &Line<[f64; 2]>| (point - Point2::from(line.nearest_point(&query))).norm();
-        (self.lines.size() > 0).then(|| least_distance(&self.lines, point, f64::INFINITY, distance))
+        (self.lines.size() > 0).then(|| min_distance(&self.lines, point, f64::INFINITY, distance))
     }
 }
 

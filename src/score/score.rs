@@ -87,7 +87,7 @@ impl Score {
             Metric::ErrorP95 => self.error.map(|error| error.p95),
             Metric::ErrorMax => self.error.map(|error| error.max),
             Metric::Hausdorff => self.hausdorff,
-            Metric::IntervalCoverage => self.error.map(|error| error.within_band),
+            Metric::IntervalCoverage => self.error.map(|error| error.interval_coverage),
             Metric::Outliers => self.error.map(|error| error.outliers),
             Metric::Coverage => Some(self.coverage),
             Metric::ObjectCoverage => Some(self.object_coverage),

@@ -1,4 +1,4 @@
-//! Concave outlines as convex parts.
+//! Convex decomposition of concave outlines.
 
 use i_triangle::float::triangulatable::Triangulatable;
 
@@ -7,13 +7,13 @@ use crate::geometry::{Contour, Point2};
 use super::part::{Part, corners};
 use super::solid::SolidError;
 
-/// The furthest (m) that a chord lies from its arc.
+/// The largest distance (m) of a chord from its arc.
 const SAGITTA: f64 = 5e-6;
-/// How much of the area may get lost: what the rounding of coordinates to a grid takes.
+/// The relative loss of area that is tolerated. It results from rounding coordinates to a grid.
 const AREA_TOLERANCE: f64 = 1e-9;
 
-/// Convex parts that together are the inside of a closed contour: triangles between its corners, Delaunay's, joined as long
-/// as they stay convex.
+/// Decomposes the interior of a closed contour into convex parts. A Delaunay triangulation is merged as long as the
+/// parts remain convex.
 pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
     let corners = corners(contour, SAGITTA)?;
     let outline: Vec<[f64; 2]> = corners.iter().map(|corner| [corner.x, corner.y]).collect();
@@ -22,14 +22,14 @@ pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
         polygons.into_iter().map(|part| part.into_iter().map(Point2::from).collect()).collect();
     let whole = area(&corners);
     let lost = whole - parts.iter().map(|part| area(part)).sum::<f64>();
-    // An outline whose chords meet where its arcs do not is not what the parts are of.
+    // Chords can intersect although their arcs do not. The parts then do not cover the outline.
     if lost.abs() > AREA_TOLERANCE * whole {
         return Err(SolidError::Chords);
     }
     Ok(parts.into_iter().map(|outline| Part::Prism { outline }).collect())
 }
 
-/// The area (m²) of a polygon, positive counter-clockwise.
+/// The signed area (m²) of a polygon, positive counter-clockwise.
 fn area(corners: &[Point2]) -> f64 {
     let Some(first) = corners.first() else { return 0.0 };
     corners.windows(2).map(|side| 0.5 * (side[0] - first).perp(&(side[1] - first))).sum()

@@ -1,4 +1,4 @@
-//! The convex parts that solids are made of in MuJoCo.
+//! The convex parts of solids in MuJoCo.
 
 use std::f64::consts::TAU;
 
@@ -6,37 +6,37 @@ use crate::geometry::{Contour, Piece, Point2, Vector2, perpendicular};
 
 use super::solid::SolidError;
 
-/// The furthest (m) that a prism's chord lies from the arc that it stands for, unless that took more than
-/// [`CHORDS_PER_TURN`].
+/// The largest distance (m) of a prism's chord from its arc, if [`CHORDS_PER_TURN`] suffices.
 const SAGITTA: f64 = 1e-6;
-/// The most chords that stand for a full turn. It counts for radii above 0.2 m, where the furthest that a chord lies from its
-/// arc is then 4.7 millionths of the radius: 1.4 µm at 0.3 m, 0.24 mm at 50 m.
+/// The largest number of chords per full turn. It applies to radii above 0.2 m. The distance of a chord from its arc is
+/// then 4.7e-6 of the radius: 1.4 µm at 0.3 m, 0.24 mm at 50 m.
 const CHORDS_PER_TURN: f64 = 1024.0;
-/// The most corners of an outline: the time in which MuJoCo builds one grows with their square, to a second or two here.
+/// The largest number of corners of an outline. MuJoCo's time for building it grows quadratically, to a second or two
+/// at this limit.
 const MOST_CORNERS: usize = 2048;
 
-/// A convex part of a solid, as MuJoCo can hold it.
+/// A convex part of a solid in MuJoCo.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Part {
     /// An upright cylinder.
     Cylinder {
-        /// Its axis (m, world frame).
+        /// The position of its axis (m, world frame).
         centre: Point2,
-        /// Its radius (m).
+        /// The radius (m).
         radius: f64,
     },
     /// An upright convex prism.
     Prism {
-        /// Its corners, counter-clockwise (m, world frame).
+        /// The corners, counter-clockwise (m, world frame).
         outline: Vec<Point2>,
     },
 }
 
 impl Part {
-    /// The part that is the inside of a convex contour.
+    /// The interior of a convex contour.
     ///
     /// # Errors
-    /// [`SolidError::Corners`] when it has too many pieces.
+    /// [`SolidError::Corners`] if the contour has too many pieces.
     pub(super) fn inside(contour: &Contour) -> Result<Self, SolidError> {
         if let [Piece::Arc(arc)] = contour.pieces() {
             return Ok(Self::Cylinder { centre: arc.centre, radius: arc.radius });
@@ -44,7 +44,7 @@ impl Part {
         Ok(Self::Prism { outline: corners(contour, SAGITTA)? })
     }
 
-    /// How many corners it has from above; none if it is round.
+    /// The number of corners of its cross-section, 0 for a cylinder.
     pub(crate) fn corners(&self) -> usize {
         match self {
             Self::Cylinder { .. } => 0,
@@ -52,13 +52,14 @@ impl Part {
         }
     }
 
-    /// Whether some straight line shows that what is between these points (m, world frame) is farther off than `reach` (m).
+    /// True if a line separates the part from the convex hull of these points (m, world frame) by more than `reach`
+    /// (m).
     pub(crate) fn is_apart(&self, points: &[Point2], reach: f64) -> bool {
         let beyond =
             |place: &Point2, outwards: Vector2| points.iter().all(|point| (point - place).dot(&outwards) > reach);
         match self {
             Self::Cylinder { centre, radius } => {
-                // The line across the way from the axis to the middle of the points.
+                // The separating line is perpendicular to the line from the axis to the mean of the points.
                 let middle = points.iter().map(|point| point - centre).sum::<Vector2>();
                 middle.try_normalize(0.0).is_some_and(|outwards| beyond(&(centre + *radius * outwards), outwards))
             }
@@ -69,7 +70,7 @@ impl Part {
         }
     }
 
-    /// The corners (m, world frame) with the smallest and the largest coordinates of the box about it.
+    /// The bounding box, by its corners with the smallest and the largest coordinates (m, world frame).
     pub(crate) fn bounds(&self) -> (Point2, Point2) {
         match self {
             Self::Cylinder { centre, radius } => {
@@ -85,11 +86,11 @@ impl Part {
     }
 }
 
-/// The corners of an outline with chords for its arcs, none further from them than `sagitta` (m) unless that took more than
-/// [`CHORDS_PER_TURN`].
+/// The corners of an outline with chords for its arcs. The distance of a chord is at most `sagitta` (m), if
+/// [`CHORDS_PER_TURN`] suffices.
 ///
 /// # Errors
-/// [`SolidError::Corners`] when there are too many.
+/// [`SolidError::Corners`] if there are too many.
 pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, SolidError> {
     let count = contour.pieces().iter().map(|piece| chord_count(piece, sagitta)).sum();
     if count > MOST_CORNERS {
@@ -98,7 +99,7 @@ pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, So
     Ok(contour.pieces().iter().flat_map(|piece| chords(piece, sagitta)).collect())
 }
 
-/// The starts of the chords that stand for a piece.
+/// The starting points of the chords of a piece.
 fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2> {
     let (count, length) = (chord_count(piece, sagitta), piece.length());
     (0..count).map(move |chord| piece.point_at(length * chord as f64 / count as f64))

@@ -8,30 +8,32 @@ use crate::geometry::{Contour, Piece, Point2, Side, Strip, perpendicular};
 
 use super::part::Part;
 
-/// The furthest (m) that a chord lies from the side of a wall that is to be touched.
+/// The largest distance (m) of a chord from the accessible side of a wall.
 const FACE_SAGITTA: f64 = 1e-5;
-/// The same where that side is round: finer chords are no more parts there.
+/// The same for a convex side. There, finer chords do not increase the number of parts.
 const ROUND_SAGITTA: f64 = 5e-6;
-/// The furthest (m) that a chord lies from its other side, where that is hollow.
+/// The largest distance (m) of a chord from the other side, if that is concave.
 const BACK_SAGITTA: f64 = 5e-5;
 
-/// How far (m) a part reaches on under the face of its neighbour, unless the neighbour is shorter.
+/// The length (m) by which a part extends under the face of its neighbour, unless the neighbour is shorter.
 const LAP: f64 = 3e-2;
-/// How deep (m) it lies there at the end: somewhat deeper than a tip sinks in. The flatter the lap, the less it turns the force on
-/// the tip.
+/// The depth (m) of the end of this extension. It is somewhat larger than the penetration depth of a tip. A flat
+/// extension changes the direction of the force only slightly.
 const LAP_DEPTH: f64 = 7e-5;
-/// A corner that turns more than this (rad) has no laps: what a tip feels there is the corner.
+/// Corners of a larger angle (rad) have no extensions. There, a tip touches the corner itself.
 const LAPPED_TURN: f64 = 0.1;
 
-/// The parts of a wall, which is a strip with its `face` to be touched: one for every straight piece, and in bends one for
-/// every chord of a hollow face. A round face needs fewer parts, as each can have several chords.
+/// Decomposes a wall, a strip with an accessible `face`, into convex parts. There is one part per straight piece. In
+/// bends there is one per chord of a concave face. A convex face needs fewer parts, because each can have several
+/// chords.
 ///
-/// Neighbouring parts meet in an edge square across the wall, and each has a lap: it reaches on into the other, just under its
-/// face. The contact of a tip with the end of a part pushes it along the wall, which would make the whisker ring at every seam;
-/// with the laps the end lies too deep to be felt, and the tip is handed over from one part to the next.
+/// Neighbouring parts meet at an edge perpendicular to the wall. Each part has a lap: an extension into its neighbour
+/// just under the face. Without it, the end of a part would push a tip along the wall, and the whisker would vibrate at
+/// every seam. With it, the end is too deep to be touched, and the contact passes continuously from part to part.
 ///
-/// Where it is handed over it touches both parts, and the lap turns the force on it; so does a chord, the most at its ends. In a round
-/// bend the seams are therefore in the middle of chords, and no lap goes beyond the middle of its neighbour.
+/// At a lap, a tip touches both parts, and the direction of the force changes. It also changes at a chord, most at its
+/// ends. In a convex bend the seams are therefore in the middle of chords, and no lap extends beyond the middle of its
+/// neighbour.
 pub(super) fn parts(wall: &Strip, face: Side) -> Vec<Part> {
     let sides = Sides { face: wall.side(face), back: wall.side(face.opposite()), round: round(face) };
     let blocks: Vec<Block> = bends(sides.face).flat_map(|bend| sides.blocks(bend)).collect();
@@ -43,7 +45,7 @@ pub(super) fn parts(wall: &Strip, face: Side) -> Vec<Part> {
         let mut outline = block.face.clone();
         outline.extend(after.into_iter().flat_map(|after| lap(block, after, sides.round)));
         outline.extend([block.back[1], block.back[0]]);
-        // The same seen the other way along the wall, where its solid side is the other one.
+        // The same in the opposite direction, in which the solid is on the other side.
         let behind = before.map(|before| lap(&block.reversed(), &before.reversed(), -sides.round));
         outline.extend(behind.into_iter().flat_map(|lap| lap.into_iter().rev()));
         if sides.round < 0.0 {
@@ -54,7 +56,7 @@ pub(super) fn parts(wall: &Strip, face: Side) -> Vec<Part> {
     blocks.iter().enumerate().map(part).collect()
 }
 
-/// A piece of a wall: the chords of its face, and the two ends of its back, in the direction of the wall.
+/// A block of a wall: the chords of its face and the two ends of its back, in the direction of the wall.
 struct Block {
     face: Vec<Point2>,
     back: [Point2; 2],
@@ -66,7 +68,7 @@ impl Block {
     }
 }
 
-/// The points by which a block reaches on into the next one; none at a corner.
+/// The points of a block's lap in the next block, empty at a corner.
 fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     let ([.., before, seam], [_, first, ..]) = (block.face.as_slice(), next.face.as_slice()) else { return Vec::new() };
     let (into, out) = (seam - before, first - seam);
@@ -76,17 +78,17 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     }
     let thickness = (seam - block.back[1]).norm();
     let depth = LAP_DEPTH.min(0.25 * thickness);
-    // Of several chords are round faces alone.
+    // Only a convex face has several chords per block.
     let share = if next.face.len() > 2 { 0.5 } else { 0.9 };
     let length = LAP.min(share * next.face.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>());
-    // At a slight corner of a thin wall a long lap would come out at the back.
+    // At a slight corner of a thin wall, a long lap would leave the wall at the back.
     let length = length.min(0.5 * thickness / turn.abs().tan());
     let slope = depth / length;
     if slope < (-turn).tan() {
-        // The face is hollow: straight on is deep enough.
+        // The face is concave, so a straight lap is deep enough.
         return vec![seam + length.min(0.9 * out.norm()) * into.normalize()];
     }
-    // Along the chords of the next face, ever deeper under them.
+    // The lap follows the chords of the next face with increasing depth.
     let mut along = 0.0;
     let mut points = Vec::new();
     for ends in next.face.windows(2) {
@@ -96,7 +98,7 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
         along += reached;
         let inwards = round * perpendicular(chord.normalize());
         points.push(ends[0] + reached * chord.normalize() + along * slope * inwards);
-        // A rest shorter than the lap is deep would lead back where the face turns.
+        // A remainder shorter than the depth would reverse the direction at a corner of the face.
         if rest - reached <= depth {
             break;
         }
@@ -104,7 +106,7 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     points
 }
 
-/// The sign of the curvature of a round face: a face on the right of its wall is round where the wall bends to the left.
+/// The sign of the curvature of a convex face. A face on the right of its wall is convex if the wall bends to the left.
 fn round(face: Side) -> f64 {
     match face {
         Side::Left => -1.0,
@@ -119,7 +121,7 @@ struct Sides<'w> {
     round: f64,
 }
 
-/// Consecutive pieces that bend the same way; or a single straight one.
+/// Consecutive pieces with the same sign of curvature, or a single straight piece.
 type Bend = std::ops::Range<usize>;
 
 fn bends(side: &Contour) -> impl Iterator<Item = Bend> {
@@ -134,7 +136,7 @@ fn bends(side: &Contour) -> impl Iterator<Item = Bend> {
     })
 }
 
-/// +1 for a piece that bends to the left, −1 to the right, 0 for a straight one.
+/// The sign of curvature: +1 for a piece that bends to the left, −1 to the right, 0 for a straight one.
 fn sense(piece: &Piece) -> f64 {
     if let Piece::Arc(arc) = piece { arc.sweep.signum() } else { 0.0 }
 }
@@ -143,7 +145,7 @@ impl Sides<'_> {
     fn blocks(&self, bend: Bend) -> Vec<Block> {
         let is_round = sense(&self.face.pieces()[bend.start]) * self.round > 0.0;
         let face_chords = chords(self.face, &bend, if is_round { ROUND_SAGITTA } else { FACE_SAGITTA });
-        // Where the face is round its back is hollow, and the back's chords cut the bend into parts.
+        // Behind a convex face the back is concave, and the chords of the back determine the parts.
         let (count, each) = if is_round {
             let count = chords(self.back, &bend, BACK_SAGITTA);
             (count, face_chords.div_ceil(count))
@@ -155,7 +157,7 @@ impl Sides<'_> {
             let piece = &side.pieces()[index];
             piece.point_at(share * piece.length())
         };
-        // A hollow face has its corners at the seams, a round one half a chord away from them.
+        // A concave face has its corners at the seams, a convex face half a chord away from them.
         let halves = if is_round { stations(self.face, &bend, 2 * count * each) } else { Vec::new() };
         let corners: Vec<Point2> = halves.iter().skip(1).step_by(2).map(|&station| place(self.face, station)).collect();
         let seam = |index: usize| {
@@ -174,7 +176,7 @@ impl Sides<'_> {
     }
 }
 
-/// How many chords stand for a bend of a side, none further from it than `sagitta`.
+/// The number of chords of a bend for a distance of at most `sagitta`.
 fn chords(side: &Contour, bend: &Bend, sagitta: f64) -> usize {
     let weight: f64 = side.pieces()[bend.clone()].iter().map(|piece| weight(piece) / (8.0 * sagitta).sqrt()).sum();
     #[expect(
@@ -186,12 +188,14 @@ fn chords(side: &Contour, bend: &Bend, sagitta: f64) -> usize {
     count
 }
 
-/// What a piece takes of the chords of its bend: chords of one sagitta are as long as the root of the radius is great.
+/// The weight of a piece in the division of its bend. For equal sagitta, the length of a chord is proportional to the
+/// square root of the radius.
 fn weight(piece: &Piece) -> f64 {
     piece.length() * piece.curvature().abs().sqrt()
 }
 
-/// Places along a bend that cut it into chords of one sagitta: the piece, and the share of it that lies before the place.
+/// The positions that divide a bend into chords of equal sagitta. Each is given by a piece and the share of it that
+/// precedes the position.
 fn stations(side: &Contour, bend: &Bend, chords: usize) -> Vec<(usize, f64)> {
     let weights: Vec<f64> = side.pieces()[bend.clone()].iter().map(weight).collect();
     let step = weights.iter().sum::<f64>() / chords as f64;

@@ -1,23 +1,23 @@
-//! Ways in which a world stops being one.
+//! Failures of a simulation.
 
-/// Why a run in a world cannot go on.
+/// The reason why a run cannot continue.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// The simulation left the realm of numbers or of its memory; the engine would reset its state and go on.
+    /// The state is not finite, or the memory is exhausted. The engine would reset its state and continue.
     #[error("the simulation diverged at {time:.3} s: {cause}")]
     Diverged {
         /// Simulated time (s).
         time: f64,
-        /// What the engine said, and what to do.
+        /// The message of the engine, with advice.
         cause: &'static str,
     },
-    /// The engine refused the model of what had come into reach.
+    /// The engine rejected the model for the current surroundings.
     #[error("{cause}")]
     Model {
-        /// What the engine said.
+        /// The message of the engine.
         cause: String,
     },
-    /// A whisker went too far into the object.
+    /// A whisker penetrates an object too deeply.
     #[error(
         "a whisker sank {:.3} mm into the object at {time:.3} s, beyond the limit of {:.3} mm; make `physics.step` and \
          `physics.contact_time` smaller, as `physics: {{step: 0.5556 ms, contact_time: 1.25 ms}}`, or go slower", depth * 1e3, limit * 1e3
@@ -25,19 +25,19 @@ pub enum Fault {
     Penetration {
         /// Simulated time (s).
         time: f64,
-        /// How deep (m).
+        /// Penetration depth (m).
         depth: f64,
-        /// How deep is allowed (m).
+        /// Permitted penetration depth (m).
         limit: f64,
     },
-    /// The platform was driven into the object: no fault of the simulation, but of what drives it.
+    /// The platform was driven into an object. The cause is the policy, not the simulation.
     #[error(
         "the platform was driven {:.3} mm into the object at {time:.3} s; the policy does not keep clear of it", depth * 1e3
     )]
     Crash {
         /// Simulated time (s).
         time: f64,
-        /// How deep (m).
+        /// Penetration depth (m).
         depth: f64,
     },
 }

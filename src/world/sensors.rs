@@ -1,4 +1,4 @@
-//! What sensors make of the truth.
+//! Simulated sensors.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -6,11 +6,11 @@ use rand_distr::{Distribution, Normal};
 
 use vibrissa_runtime::rig::Sensing;
 
-/// No sensor reads an angle (rad) below this. The motion of a free whisker fades beyond the normal numbers, with which processors take a
-/// hundred times as long, and so would all that is made of readings.
+/// Smaller angles (rad) are read as 0. The vibration of a free whisker decays to subnormal numbers, which processors
+/// handle a hundred times more slowly. All values computed from readings would be affected.
 const FADED: f64 = 1e-290;
 
-/// The sensors at the bases of whiskers: noise and resolution, the same in every world.
+/// The sensors at the bases of whiskers, with noise and resolution. They are the same in all simulators.
 #[derive(Debug, Clone)]
 pub(crate) struct Sensors {
     noise: Option<Normal<f64>>,
@@ -20,7 +20,7 @@ pub(crate) struct Sensors {
 }
 
 impl Sensors {
-    /// Sensors of which the `seed` fixes the noise.
+    /// Creates the sensors. `seed` determines their noise.
     pub(crate) fn new(sensing: &Sensing, seed: u64) -> Self {
         Self {
             noise: normal(sensing.angle_noise),
@@ -30,7 +30,7 @@ impl Sensors {
         }
     }
 
-    /// What is read of a base angle (rad).
+    /// Returns the reading of a base angle (rad).
     pub(crate) fn read(&mut self, base_angle: f64) -> f64 {
         let noisy = base_angle + drawn(self.noise, &mut self.random);
         if self.resolution > 0.0 {
@@ -42,13 +42,13 @@ impl Sensors {
         }
     }
 
-    /// What is read of a force (N) at the base.
+    /// Returns the reading of a force (N) at the base.
     pub(crate) fn read_force(&mut self, force: f64) -> f64 {
         force + drawn(self.force_noise, &mut self.random)
     }
 }
 
-/// Noise of a standard deviation, if there is any.
+/// Normal noise with this standard deviation; `None` for zero.
 fn normal(spread: f64) -> Option<Normal<f64>> {
     Normal::new(0.0, spread).ok().filter(|_| spread > 0.0)
 }
@@ -57,7 +57,7 @@ fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
     noise.map_or(0.0, |noise| noise.sample(random))
 }
 
-/// Rounds to a count; scenes are validated so that the value is one.
+/// Rounds to a positive count. Scenes are validated so that the value is nearly an integer.
 pub(crate) fn whole(value: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
     let count = value.round().max(1.0) as usize;

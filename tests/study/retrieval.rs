@@ -156,7 +156,7 @@ impl World for Stage {
         false
     }
 
-    fn springs(&self, _whisker: usize) -> bool {
+    fn snapped_off(&self, _whisker: usize) -> bool {
         false
     }
 

@@ -1,4 +1,4 @@
-//! Pruning: what of a scene a model need not hold, because it cannot matter.
+//! Pruning: the omission of parts of a model that cannot affect the run.
 
 mod pruning;
 mod reach;

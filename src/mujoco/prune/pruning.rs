@@ -1,4 +1,4 @@
-//! What is left out of a run, and why.
+//! The report of what a run omits, with reasons.
 
 use std::fmt;
 
@@ -12,16 +12,16 @@ use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::reach::{Reach, may_be_rigid};
 
-/// What becomes of something.
+/// The treatment of a part of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// It is left out, and the run is the same without it.
+    /// It is omitted. The run is bit-identical without it.
     LeftOut,
-    /// It stays.
+    /// It is kept.
     Kept,
-    /// A setting of the physics makes it less, and the run a little different.
+    /// A physics setting reduces it. The run changes slightly.
     Setting,
 }
 
@@ -29,17 +29,17 @@ pub enum Verdict {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Decision {
-    /// What becomes of it.
+    /// The treatment.
     pub verdict: Verdict,
-    /// What it is about.
+    /// The subject of the decision.
     pub subject: String,
-    /// What it saves; nothing where something stays.
+    /// The saving; `None` for a part that is kept.
     pub saves: Option<String>,
-    /// Why it is safe, or why it stays.
+    /// The reason.
     pub why: String,
 }
 
-/// What is left out of a run and what stays, decided from the scenario and what the policy reads.
+/// All decisions about a run. They follow from the scenario and from the values that the policy reads.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Pruning {
@@ -48,8 +48,8 @@ pub struct Pruning {
 }
 
 impl Pruning {
-    /// The decisions about a rig that starts at `start` before `solids` in a world, under a policy that binds the whiskers with these
-    /// names. Counts are those at the start.
+    /// Decides for a rig at `start` among `solids` in a simulator, with a policy that binds whiskers with these names.
+    /// Counts refer to the start.
     #[must_use]
     pub fn new(
         rig: &Rig,
@@ -138,7 +138,7 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
     }
 }
 
-/// How many pairs of a link and a part are near each other while a whisker is straight.
+/// The number of pairs of links and parts that are near each other while a whisker is undeflected.
 fn near_straight(reach: &Reach, whisker: &Whisker, body: &Pose) -> usize {
     let (base, direction) = (body.point_to_world(whisker.base_body), body.heading + whisker.direction_body);
     let start = |link: usize| base + link as f64 * whisker.shaft.link_length() * unit(direction);

@@ -1,4 +1,4 @@
-//! What a rig can reach.
+//! The reach of a rig.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -8,33 +8,33 @@ use crate::solid::{Part, Solid};
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 use vibrissa_runtime::signal::Command;
 
-/// With so many parts a model holds those alone that are near.
+/// With more parts than this, a model contains only those near the platform.
 const MANY_PARTS: usize = 12;
-/// How far (m) the platform may go before the parts near it are looked up anew.
+/// The distance (m) that the platform may move before the nearby parts are searched again.
 const WINDOW: f64 = 0.2;
-/// How far (m) parts may lie outside of the exact outlines, and a tip from where its chain would reach.
+/// Tolerance (m) for the deviation of parts from the exact outlines, and for the length of a chain.
 const TOLERANCE: f64 = 2e-4;
-/// A whisker at rest becomes rigid farther from everything than this (m) beyond its length.
+/// A whisker at rest becomes rigid if its clearance exceeds its length by more than this (m).
 const RIGID: f64 = 20e-3;
-/// A rigid one bends again nearer than this (m).
+/// A rigid whisker becomes flexible if its clearance exceeds its length by less than this (m).
 const FLEXIBLE: f64 = 10e-3;
-/// The share of the contact threshold that the inertia of a rigid whisker may amount to.
+/// The share of the contact threshold that the inertia of a rigid whisker may cause.
 const INERTIAL_SHARE: f64 = 0.25;
 
-/// What the parts of a rig can reach, wherever it is: distances from exact outlines, and a tree of the parts' boxes.
+/// The reach of a rig in any pose: distances from exact outlines, and a tree of the bounding boxes of parts.
 ///
-/// A whisker does not stretch: nothing of it, however it bends, is farther from its base than its length.
+/// A whisker does not stretch. However it bends, no point of it is farther from its base than its length.
 #[derive(Debug)]
 pub struct Reach {
     surfaces: Option<ContourSet>,
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
     parts: Vec<Part>,
-    /// The farthest (m) that anything of the rig is from the platform's centre of mass.
+    /// The distance (m) of the farthest point of the rig from the platform's centre of mass.
     extent: f64,
 }
 
 impl Reach {
-    /// What `rig` can reach of `solids`.
+    /// Creates the search structures for `rig` and `solids`.
     #[must_use]
     pub fn new(rig: &Rig, solids: &[Solid]) -> Self {
         let boxed = |(index, part): (usize, &Part)| {
@@ -50,38 +50,38 @@ impl Reach {
         Self { surfaces, boxes, parts, extent }
     }
 
-    /// Whether a model holds only the parts near the platform, because there are many.
+    /// True if a model contains only the parts near the platform.
     #[must_use]
     pub fn is_windowed(&self) -> bool {
         self.boxes.size() > MANY_PARTS
     }
 
-    /// The parts, by their indices, ascending, that the rig can reach while the platform's centre of mass is in the window about
-    /// `centre`.
+    /// The indices of the parts in reach while the platform's centre of mass is in the window about `centre`,
+    /// ascending.
     #[must_use]
     pub fn parts_about(&self, centre: Point2) -> Vec<usize> {
         self.boxes_near([centre], self.extent + WINDOW)
     }
 
-    /// The centre of the next window of a platform that is at `position` and is told to go on with `velocity` (m/s).
+    /// The centre of the next window for a platform at `position` with the commanded `velocity` (m/s).
     #[must_use]
     pub fn window_ahead(&self, position: Point2, velocity: Vector2) -> Point2 {
         position + velocity.try_normalize(1e-6).map_or(Vector2::zeros(), |ahead| 0.8 * WINDOW * ahead)
     }
 
-    /// Whether a platform at `position` stays in the window about `centre` while it goes as far as `travel` (m).
+    /// True if a platform at `position` remains in the window about `centre` for a motion of `travel` (m).
     #[must_use]
     pub fn is_within(&self, position: Point2, centre: Point2, travel: f64) -> bool {
         (position - centre).norm() + travel <= WINDOW
     }
 
-    /// Distance (m) of a whisker's base from what is nearest; infinite where there is nothing.
+    /// The distance (m) of a whisker's base from the nearest solid, infinite without solids.
     #[must_use]
     pub fn clearance(&self, whisker: &Whisker, body: &Pose) -> f64 {
         self.distance(body.point_to_world(whisker.base_body))
     }
 
-    /// Distance (m) of a place from what is nearest; 0 within a solid, and infinite where there is nothing.
+    /// The distance (m) of a point from the nearest solid, 0 inside of a solid, infinite without solids.
     fn distance(&self, place: Point2) -> f64 {
         if self.parts_near([place], 0.0).is_empty() {
             self.surfaces.as_ref().map_or(f64::INFINITY, |surfaces| surfaces.distance(place))
@@ -90,14 +90,14 @@ impl Reach {
         }
     }
 
-    /// A bound on how far (m) anything of the rig that is fixed to the platform went from one pose to another.
+    /// An upper bound of the displacement (m) between two poses of any point that is fixed to the platform.
     #[must_use]
-    pub fn way(&self, from: &Pose, to: &Pose) -> f64 {
+    pub fn motion_bound(&self, from: &Pose, to: &Pose) -> f64 {
         (to.position - from.position).norm() + (to.heading - from.heading).abs() * self.extent
     }
 
-    /// Of every link of a whisker, given by their starts (m, world frame) and directions (rad), the parts that it may touch before
-    /// anything of it has gone as far as `slack` (m).
+    /// The pairs of links and parts that may touch within a motion of `slack` (m). The links are given by their near
+    /// ends (m, world frame) and directions (rad).
     pub fn near_links<'a>(
         &'a self,
         whisker: &'a Whisker,
@@ -114,7 +114,7 @@ impl Reach {
             let reach = shaft.link_radius(link) + slack + TOLERANCE;
             let clearance = self.distance(start + 0.5 * along) - 0.5 * length - reach;
             if clearance > 0.0 {
-                // The middle of the next link is at most a link farther on.
+                // The centre of the next link is at most a link length away.
                 skip = whole_links(clearance, length).saturating_add(link + 1);
                 return None;
             }
@@ -123,7 +123,7 @@ impl Reach {
         near.flat_map(|(link, parts)| parts.into_iter().map(move |part| (link, part)))
     }
 
-    /// The parts that the platform's body at this pose may touch before anything of it has gone as far as `slack` (m).
+    /// The parts that the platform's body may touch within a motion of `slack` (m).
     #[must_use]
     pub fn near_body(&self, platform: &Platform, body: &Pose, slack: f64) -> Vec<usize> {
         let corners = platform.outline_body();
@@ -134,14 +134,14 @@ impl Reach {
         self.parts_near(corners.map(|corner| body.point_to_world(corner)), slack + TOLERANCE)
     }
 
-    /// The parts, ascending, that may come as near as `reach` (m) to what is between these points.
+    /// The parts within `reach` (m) of the convex hull of these points, ascending. The result may contain more parts.
     fn parts_near<const N: usize>(&self, points: [Point2; N], reach: f64) -> Vec<usize> {
         let mut parts = self.boxes_near(points, reach);
         parts.retain(|part| self.parts.get(*part).is_none_or(|part| !part.is_apart(&points, reach)));
         parts
     }
 
-    /// The parts, ascending, whose boxes come as near as `reach` (m) to the box about these points.
+    /// The parts whose bounding boxes are within `reach` (m) of the bounding box of these points, ascending.
     fn boxes_near<const N: usize>(&self, points: [Point2; N], reach: f64) -> Vec<usize> {
         let nowhere = (Point2::from(Vector2::repeat(f64::INFINITY)), Point2::from(Vector2::repeat(f64::NEG_INFINITY)));
         let (low, high) = points.iter().fold(nowhere, |(low, high), point| (low.inf(point), high.sup(point)));
@@ -153,23 +153,25 @@ impl Reach {
     }
 }
 
-/// How many links of this length (m) fit into a way (m).
+/// The number of links of this length (m) that fit into a distance (m).
 fn whole_links(way: f64, length: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates: more links than there are")]
     let links = (way / length) as usize;
     links
 }
 
-/// Whether a whisker whose base is that far (m) from everything, and goes as far as `travel` (m), stays rigid if it is, or may become so.
+/// True if a whisker may become or remain rigid. `clearance` is the distance (m) of its base from all solids, `travel`
+/// the motion in the next tick (m).
 #[must_use]
 pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bool) -> bool {
     clearance - travel - whisker.shaft.length > if is_rigid { FLEXIBLE } else { RIGID }
 }
 
-/// Whether a command, given at these velocities (m/s, rad/s), moves the platform so gently that a whisker in the air reads nothing of it.
+/// True if a command changes the velocities (m/s, rad/s) so little that a whisker without contact reads nothing of it.
 ///
-/// A servo begins with the acceleration `a = Δv / T`, and by `α` turns the base, which is `r` from the centre of mass. A whisker of the
-/// mass `m` and the length `L` pulls at its hinge with at most `m L (a + α (r + L)) / 2`, and with twice that while it swings.
+/// A servo starts with the acceleration `a = Δv / T` and the angular acceleration `α`. The base has the distance `r`
+/// from the centre of mass. A whisker of mass `m` and length `L` exerts at most the moment `m L (a + α (r + L)) / 2` on
+/// its hinge, and twice that while it swings.
 #[must_use]
 pub fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vector2, yaw_rate: f64) -> bool {
     let shaft = &whisker.shaft;

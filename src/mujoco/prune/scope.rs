@@ -1,83 +1,83 @@
-//! How much of a scene a model holds.
+//! The content of a model.
 
 use crate::solid::Solid;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
-/// How much of a scene a model holds: which convex parts are there, which whiskers bend, and what it looks for contacts of.
+/// The content of a model: its convex parts, its flexible whiskers, and its capacity for pairs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Scope {
-    /// The parts of all solids, one after the other, by their indices, ascending.
+    /// The indices of the parts, counted over all solids, ascending.
     parts: Vec<usize>,
-    /// Of every whisker of the rig, whether it is a rigid part of the platform.
+    /// For every whisker of the rig, true if it is a rigid part of the platform.
     rigid: Vec<bool>,
-    /// How many pairs of what may touch have room where they are named from time to time; elsewhere all are declared.
+    /// The capacity for pairs that change during the run. `None` if all pairs are declared.
     room: Option<usize>,
 }
 
 impl Scope {
-    /// Everything.
+    /// The complete scene.
     #[must_use]
     pub fn whole(rig: &Rig, solids: &[Solid]) -> Self {
         let count = solids.iter().flat_map(Solid::parts).count();
         Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()], room: None }
     }
 
-    /// The same whiskers before these parts, given by their indices, ascending.
+    /// Replaces the parts, given by their indices, ascending.
     #[must_use]
     pub fn with_parts(self, parts: Vec<usize>) -> Self {
         Self { parts, ..self }
     }
 
-    /// The same parts, with a whisker (by its index in the rig) that is rigid or bends.
+    /// Sets a whisker, by its index in the rig, to rigid or flexible.
     #[must_use]
     pub fn with_rigid(mut self, whisker: usize, rigid: bool) -> Self {
         self.rigid[whisker] = rigid;
         self
     }
 
-    /// The same, with room for so many pairs of what may touch.
+    /// Sets the capacity for pairs.
     #[must_use]
     pub fn with_room(self, pairs: usize) -> Self {
         Self { room: Some(pairs), ..self }
     }
 
-    /// How many pairs of what may touch have room; none where all are declared.
+    /// The capacity for pairs; `None` if all pairs are declared.
     #[must_use]
     pub fn room(&self) -> Option<usize> {
         self.room
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.parts.len()
     }
 
-    /// Where the part with this index comes among those that are there.
+    /// The position of a part, by its index, in the list of parts. `None` if it is not in the scope.
     #[must_use]
     pub fn rank_of_part(&self, index: usize) -> Option<usize> {
         self.parts.binary_search(&index).ok()
     }
 
-    /// Whether the part with this index is there.
+    /// True if the part with this index is in the scope.
     #[must_use]
     pub fn has_part(&self, index: usize) -> bool {
         self.rank_of_part(index).is_some()
     }
 
-    /// Whether both are alike but for what whiskers are rigid.
+    /// True if both scopes differ only in their rigid whiskers.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         self.parts == other.parts && self.room == other.room
     }
 
-    /// Whether a whisker, by its index in the rig, is a rigid part of the platform.
+    /// True if a whisker, by its index in the rig, is rigid.
     #[must_use]
     pub fn is_rigid(&self, whisker: usize) -> bool {
         self.rigid[whisker]
     }
 
-    /// The whiskers that bend, with their indices in the rig.
+    /// The flexible whiskers with their indices in the rig.
     pub fn flexible<'r>(&self, rig: &'r Rig) -> impl Iterator<Item = (usize, &'r Whisker)> {
         rig.whiskers.iter().enumerate().filter(|(index, _)| !self.rigid[*index])
     }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{EllipticArc, Piece, Vector2, perpendicular};
 
-use super::super::plane::Plane;
+use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault, TOLERANCE};
 use super::record::Record;
 
@@ -59,10 +59,10 @@ pub(super) enum Drawn {
 /// A vertex of a polyline: where it is, and how much the side behind it bulges.
 type Vertex = ([f64; 2], f64);
 
-pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, OutlineError> {
+pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn, OutlineError> {
     let drawn = match entity.kind {
         "LINE" => {
-            let end = |code| -> Result<_, OutlineError> { Ok(plane.point(entity.place(code)?)?) };
+            let end = |code| -> Result<_, OutlineError> { Ok(transform.point(entity.place(code)?)?) };
             return Ok(Drawn::Loose(vec![Piece::segment(end(10)?, end(11)?)]));
         }
         "CIRCLE" | "ARC" => {
@@ -75,7 +75,7 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
                 _ => [0.0, TAU],
             };
             let radii = [Vector2::new(radius, 0.0), Vector2::new(0.0, radius)];
-            elliptic(&own(entity, plane)?, entity.place(10)?, radii, angles)
+            elliptic(&own(entity, transform)?, entity.place(10)?, radii, angles)
         }
         "ELLIPSE" => {
             let ratio = entity.number(40, 1.0)?;
@@ -83,14 +83,14 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
                 return Err(OutlineFault::AxisRatio { ratio }.into());
             }
             // Its centre and its axis are the world's, whichever side it is seen from.
-            let hand = own(entity, plane)?.x_axis.dot(&plane.x_axis).signum();
+            let hand = own(entity, transform)?.x_axis.dot(&transform.x_axis).signum();
             let major = Vector2::from(entity.place(11)?);
             let minor = perpendicular(major) * (hand * ratio);
             let angles = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
-            elliptic(plane, entity.place(10)?, [major, minor], angles)
+            elliptic(transform, entity.place(10)?, [major, minor], angles)
         }
-        "LWPOLYLINE" => polyline(&light(entity)?, entity.integer(70)?, &own(entity, plane)?),
-        "POLYLINE" => polyline(&heavy(entity)?, entity.integer(70)?, &own(entity, plane)?),
+        "LWPOLYLINE" => polyline(&light(entity)?, entity.integer(70)?, &own(entity, transform)?),
+        "POLYLINE" => polyline(&heavy(entity)?, entity.integer(70)?, &own(entity, transform)?),
         "SPLINE" => Err(unsupported("SPLINE", "turn it into a polyline with arcs, or save the drawing as SVG")),
         "INSERT" => Err(unsupported("INSERT", "explode the block")),
         kind if ANNOTATIONS.contains(&kind) => Ok(Drawn::Nothing),
@@ -103,18 +103,23 @@ pub(super) fn drawn(entity: &Record<'_>, plane: &Plane) -> Result<Drawn, Outline
 }
 
 /// The plane of an entity's own coordinates. An entity that is seen from below has its x axis turned round.
-fn own(entity: &Record<'_>, plane: &Plane) -> Result<Plane, OutlineError> {
+fn own(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
     let [x, y, z] = [entity.number(210, 0.0)?, entity.number(220, 0.0)?, entity.number(230, 1.0)?];
     let is_level = z != 0.0 && x.abs() + y.abs() <= 1e-9 * z.abs();
     if !is_level {
-        return Err(unsupported("an entity that is tilted", "draw it in the x-y plane").into());
+        return Err(unsupported("an entity that is tilted", "draw it in the x-y transform").into());
     }
-    Ok(plane.inner([z.signum(), 0.0], [0.0, 1.0], [0.0, 0.0]))
+    Ok(transform.inner([z.signum(), 0.0], [0.0, 1.0], [0.0, 0.0]))
 }
 
-fn elliptic(plane: &Plane, centre: [f64; 2], radii: [Vector2; 2], [from, to]: [f64; 2]) -> Result<Drawn, OutlineFault> {
+fn elliptic(
+    transform: &Transform,
+    centre: [f64; 2],
+    radii: [Vector2; 2],
+    [from, to]: [f64; 2],
+) -> Result<Drawn, OutlineFault> {
     for radius in radii {
-        plane.point([centre[0] + radius.x, centre[1] + radius.y])?;
+        transform.point([centre[0] + radius.x, centre[1] + radius.y])?;
     }
     let turn = (to - from).rem_euclid(TAU);
     if !from.is_finite() || !turn.is_finite() {
@@ -123,8 +128,8 @@ fn elliptic(plane: &Plane, centre: [f64; 2], radii: [Vector2; 2], [from, to]: [f
     // From an angle to itself is all the way round.
     let is_whole = turn <= 1e-9 || TAU - turn <= 1e-9;
     let sweep = if is_whole { TAU } else { turn };
-    let radii = radii.map(|radius| plane.direction(radius.into()));
-    let arc = EllipticArc { centre: plane.point(centre)?, radii, start_angle: from, sweep };
+    let radii = radii.map(|radius| transform.direction(radius.into()));
+    let arc = EllipticArc { centre: transform.point(centre)?, radii, start_angle: from, sweep };
     let pieces = arc.pieces().ok_or(OutlineFault::Curve)?;
     Ok(if is_whole { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
 }
@@ -156,13 +161,13 @@ fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
 }
 
 /// A polyline whose sides are arcs where they bulge: by the tangent of a quarter of the angle, positive to the left.
-fn polyline(vertices: &[Vertex], flags: i32, plane: &Plane) -> Result<Drawn, OutlineFault> {
-    let hand = plane.x_axis.perp(&plane.y_axis).signum();
+fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<Drawn, OutlineFault> {
+    let hand = transform.x_axis.perp(&transform.y_axis).signum();
     let is_closed = flags & 1 != 0;
     let count = if is_closed { vertices.len() } else { vertices.len().saturating_sub(1) };
     let mut pieces = Vec::with_capacity(count);
     for (&(start, bulge), &(end, _)) in vertices.iter().zip(vertices.iter().cycle().skip(1)).take(count) {
-        let (start, end) = (plane.point(start)?, plane.point(end)?);
+        let (start, end) = (transform.point(start)?, transform.point(end)?);
         if !bulge.is_finite() {
             return Err(OutlineFault::FarOff);
         }

@@ -7,10 +7,10 @@ mod record;
 
 use vibrissa_runtime::units::suggest;
 
-use super::found::{Outline, Outlines};
-use super::join::join;
-use super::plane::Plane;
-use super::{MOST_PIECES, OutlineError, OutlineFault, Request};
+use super::assemble::assemble;
+use super::outline_list::{Outline, OutlineList};
+use super::transform::Transform;
+use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions};
 use drawing::Drawing;
 use entity::{Drawn, drawn};
 use record::Record;
@@ -19,7 +19,7 @@ use record::Record;
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
 
 /// Reads the outlines of all layers that are shown, or those of one layer.
-pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
+pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     if bytes.starts_with(BINARY) {
         let advice = "save it as a DXF of text (ASCII)";
         return Err(OutlineFault::Unsupported { what: "a binary DXF".to_owned(), advice }.into());
@@ -27,11 +27,11 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
     // Older files have names in other encodings; all else is ASCII.
     let text = String::from_utf8_lossy(bytes);
     let drawing = Drawing::read(&text)?;
-    let plane = Plane::scaled(request.unit.or(drawing.unit).ok_or(OutlineFault::NoUnit)?);
-    let mut outlines = Outlines::default();
+    let transform = Transform::scaled(options.unit.or(drawing.unit).ok_or(OutlineFault::NoUnit)?);
+    let mut outlines = OutlineList::default();
     let mut loose = Vec::new();
-    for entity in chosen(&drawing, request.element)? {
-        match drawn(entity, &plane).map_err(|error| error.or_at(entity.line))? {
+    for entity in chosen(&drawing, options.element)? {
+        match drawn(entity, &transform).map_err(|error| error.or_at(entity.line))? {
             Drawn::Nothing => {}
             Drawn::Whole(pieces) => outlines.add(pieces, Some(entity.line))?,
             Drawn::Loose(pieces) => loose.extend(pieces.into_iter().map(|piece| (piece, Some(entity.line)))),
@@ -40,10 +40,10 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
             return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES }.at(Some(entity.line)));
         }
     }
-    for (pieces, line) in join(&loose)? {
+    for (pieces, line) in assemble(&loose)? {
         outlines.add(pieces, line)?;
     }
-    outlines.into_found()
+    outlines.into_outlines()
 }
 
 /// The entities of a layer; or all that are to be seen. Names of layers do not tell capitals from small letters.

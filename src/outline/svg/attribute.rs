@@ -1,10 +1,10 @@
 //! Attributes of elements.
 
 use roxmltree::Node;
-use svgtypes::{Length, LengthUnit, Transform};
+use svgtypes::{Length, LengthUnit};
 
 use super::super::OutlineFault;
-use super::super::plane::Plane;
+use super::super::transform::Transform;
 
 /// User units to the inch, by the standard.
 const PER_INCH: f64 = 96.0;
@@ -57,7 +57,7 @@ pub(super) fn is_intricate(node: Node<'_, '_>) -> bool {
 }
 
 /// The plane within an element.
-pub(super) fn inner(node: Node<'_, '_>, outer: &Plane) -> Result<Plane, OutlineFault> {
+pub(super) fn inner(node: Node<'_, '_>, outer: &Transform) -> Result<Transform, OutlineFault> {
     for name in ["clip-path", "mask"] {
         if property(node, name).is_some_and(|value| !value.eq_ignore_ascii_case("none")) {
             let what = format!("`{}` with a `{name}`", node.tag_name().name());
@@ -77,7 +77,7 @@ pub(super) fn inner(node: Node<'_, '_>, outer: &Plane) -> Result<Plane, OutlineF
         return Err(OutlineFault::Unsupported { what, advice: "write it as a `transform` attribute" });
     }
     let Some(text) = node.attribute("transform") else { return Ok(*outer) };
-    let Transform { a, b, c, d, e, f } = text.parse().map_err(|_| unreadable(node, "transform", text))?;
+    let svgtypes::Transform { a, b, c, d, e, f } = text.parse().map_err(|_| unreadable(node, "transform", text))?;
     Ok(outer.inner([a, b], [c, d], [e, f]))
 }
 

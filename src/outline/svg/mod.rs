@@ -15,20 +15,20 @@ use roxmltree::{Document, ParsingOptions};
 use crate::diagnostic::{Source, utf8};
 use vibrissa_runtime::units::suggest;
 
-use super::found::{Outline, Outlines};
-use super::{OutlineError, OutlineFault, Request};
+use super::outline_list::{Outline, OutlineList};
+use super::{OutlineError, OutlineFault, ReadOptions};
 use walk::Walk;
 
 /// The most elements, attributes and texts of a document.
 const MOST_NODES: u32 = 500_000;
 
 /// Reads the outlines of all shapes, or of those of one element.
-pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, OutlineError> {
+pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
     bounds::check(text)?;
     // Drawing programs write a document type.
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|error| {
+    let parsing = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, parsing).map_err(|error| {
         // The parser says 1:1 where it knows no place.
         let line = usize::try_from(error.pos().row).ok().filter(|&row| row > 1 || error.pos().col > 1);
         syntax(&error.to_string()).at(line)
@@ -38,15 +38,15 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
         let reason = format!("it is no SVG: it begins with `{}`", root.tag_name().name());
         return Err(OutlineFault::Syntax { reason }.into());
     }
-    let plane = root::plane(root, request.unit)?;
+    let transform = root::transform(root, options.unit)?;
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
     // Of two of one name the first counts.
     let named: HashMap<_, _> = ids.rev().collect();
-    let mut walk = Walk { named, source: Source::new("", text), outlines: Outlines::default(), steps: 0 };
+    let mut walk = Walk { named, source: Source::new("", text), outlines: OutlineList::default(), steps: 0 };
     walk.check(document.root())?;
-    let Some(element) = request.element else {
-        walk.all(root, &plane, 0, true)?;
-        return walk.outlines.into_found();
+    let Some(element) = options.element else {
+        walk.all(root, &transform, 0, true)?;
+        return walk.outlines.into_outlines();
     };
     let Some(&node) = walk.named.get(element) else {
         let mut ids: Vec<&str> = walk.named.keys().copied().collect();
@@ -54,8 +54,8 @@ pub(super) fn read(bytes: &[u8], request: &Request<'_>) -> Result<Vec<Outline>, 
         let meant = suggest(element, ids).map(str::to_owned);
         return Err(OutlineFault::NoElement { element: element.to_owned(), meant }.into());
     };
-    walk.one(node, &plane)?;
-    walk.outlines.into_found()
+    walk.one(node, &transform)?;
+    walk.outlines.into_outlines()
 }
 
 fn syntax(reason: &str) -> OutlineFault {

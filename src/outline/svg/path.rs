@@ -5,15 +5,15 @@ use svgtypes::{PathParser, PathSegment};
 
 use crate::geometry::{Bezier, EllipticArc, Piece, Vector2};
 
-use super::super::plane::Plane;
+use super::super::transform::Transform;
 use super::super::{MOST_PIECES, OutlineFault};
 use super::arc::Given;
 use super::attribute::unreadable;
 
 /// The subpaths of a path, each in pieces. Those that `Z` closes come back to their start.
-pub(super) fn read(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Vec<Piece>>, OutlineFault> {
+pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<Piece>>, OutlineFault> {
     let text = node.attribute("d").unwrap_or_default();
-    let mut pen = Pen::new(plane);
+    let mut pen = Pen::new(transform);
     for segment in PathParser::from(text) {
         pen.draw(segment.map_err(|_| unreadable(node, "d", text))?)?;
         if pen.count > MOST_PIECES {
@@ -34,7 +34,7 @@ enum Before {
 
 /// A pen on paper; places are in user units.
 struct Pen<'p> {
-    plane: &'p Plane,
+    transform: &'p Transform,
     drawn: Vec<Vec<Piece>>,
     subpath: Vec<Piece>,
     start: Vector2,
@@ -46,9 +46,9 @@ struct Pen<'p> {
 }
 
 impl<'p> Pen<'p> {
-    fn new(plane: &'p Plane) -> Self {
+    fn new(transform: &'p Transform) -> Self {
         let [start, at, pull] = [Vector2::zeros(); 3];
-        Self { plane, drawn: Vec::new(), subpath: Vec::new(), start, at, pull, before: Before::Other, count: 0 }
+        Self { transform, drawn: Vec::new(), subpath: Vec::new(), start, at, pull, before: Before::Other, count: 0 }
     }
 
     fn draw(&mut self, segment: PathSegment) -> Result<(), OutlineFault> {
@@ -91,7 +91,7 @@ impl<'p> Pen<'p> {
     }
 
     fn line(&mut self, end: Vector2) -> Result<(), OutlineFault> {
-        let piece = Piece::segment(self.plane.point(self.at.into())?, self.plane.point(end.into())?);
+        let piece = Piece::segment(self.transform.point(self.at.into())?, self.transform.point(end.into())?);
         // Most paths are back at their start when they are closed.
         let pieces = if end == self.at { Vec::new() } else { vec![piece] };
         self.go(pieces, end);
@@ -99,7 +99,7 @@ impl<'p> Pen<'p> {
     }
 
     fn cubic(&mut self, first: Vector2, second: Vector2, end: Vector2) -> Result<(), OutlineFault> {
-        let point = |place: Vector2| self.plane.point(place.into());
+        let point = |place: Vector2| self.transform.point(place.into());
         let curve = Bezier { control: [point(self.at)?, point(first)?, point(second)?, point(end)?] };
         self.go(curve.pieces().ok_or(OutlineFault::Curve)?, end);
         (self.pull, self.before) = (second, Before::Cubic);
@@ -107,7 +107,7 @@ impl<'p> Pen<'p> {
     }
 
     fn quadratic(&mut self, pull: Vector2, end: Vector2) -> Result<(), OutlineFault> {
-        let point = |place: Vector2| self.plane.point(place.into());
+        let point = |place: Vector2| self.transform.point(place.into());
         let curve = Bezier::quadratic(point(self.at)?, point(pull)?, point(end)?);
         self.go(curve.pieces().ok_or(OutlineFault::Curve)?, end);
         (self.pull, self.before) = (pull, Before::Quadratic);
@@ -121,10 +121,10 @@ impl<'p> Pen<'p> {
         }
         let Some(arc) = given.centred() else { return self.line(given.end) };
         for corner in [arc.centre, given.start, given.end, arc.centre + arc.radii[0], arc.centre + arc.radii[1]] {
-            self.plane.point(corner.into())?;
+            self.transform.point(corner.into())?;
         }
-        let radii = arc.radii.map(|radius| self.plane.direction(radius.into()));
-        let centre = self.plane.point(arc.centre.into())?;
+        let radii = arc.radii.map(|radius| self.transform.direction(radius.into()));
+        let centre = self.transform.point(arc.centre.into())?;
         let arc = EllipticArc { centre, radii, start_angle: arc.start_angle, sweep: arc.sweep };
         self.go(arc.pieces().ok_or(OutlineFault::Curve)?, given.end);
         Ok(())

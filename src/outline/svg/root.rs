@@ -3,17 +3,17 @@
 use roxmltree::Node;
 use svgtypes::{Length, LengthUnit, ViewBox};
 
-use super::super::plane::Plane;
+use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault};
 
 /// How much of themselves the scales of width and height may differ by: their digits are rounded.
 const EVEN: f64 = 1e-4;
 
 /// The plane of the document's own coordinates, y up; a user unit is `unit` (m), or what width, height and view box say.
-pub(super) fn plane(root: Node<'_, '_>, unit: Option<f64>) -> Result<Plane, OutlineError> {
+pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>) -> Result<Transform, OutlineError> {
     let unit = unit.or_else(|| unit_of(root)).ok_or(OutlineFault::NoUnit)?;
     // In the file y points down.
-    Ok(Plane::scaled(unit).inner([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
+    Ok(Transform::scaled(unit).inner([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
 }
 
 /// A user unit (m) where width and height are lengths on paper, and the view box says how many units they have.

@@ -7,37 +7,37 @@ use svgtypes::NumberListParser;
 
 use crate::geometry::{EllipticArc, Piece, Point2};
 
-use super::super::plane::Plane;
+use super::super::transform::Transform;
 use super::super::{MOST_PIECES, OutlineFault};
 use super::attribute::{length, length_or_zero, unreadable};
 
 /// The outlines of a shape, each in pieces; none if it is not drawn, because it has no size.
-pub(super) fn read(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Vec<Piece>>, OutlineFault> {
+pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<Piece>>, OutlineFault> {
     let pieces = match node.tag_name().name() {
-        "rect" => rectangle(node, plane)?,
+        "rect" => rectangle(node, transform)?,
         "circle" => {
             let radius = length_or_zero(node, "r")?;
-            ellipse(node, plane, [radius, radius])?
+            ellipse(node, transform, [radius, radius])?
         }
         "ellipse" => {
             let (rx, ry) = radii(node)?;
-            ellipse(node, plane, [rx, ry])?
+            ellipse(node, transform, [rx, ry])?
         }
         "polygon" => {
-            let mut corners = points(node, plane)?;
+            let mut corners = points(node, transform)?;
             corners.extend(corners.first().copied());
             sides(&corners)
         }
-        "polyline" => sides(&points(node, plane)?),
+        "polyline" => sides(&points(node, transform)?),
         _ => {
-            let end = |x, y| plane.point([length_or_zero(node, x)?, length_or_zero(node, y)?]);
+            let end = |x, y| transform.point([length_or_zero(node, x)?, length_or_zero(node, y)?]);
             vec![Piece::segment(end("x1", "y1")?, end("x2", "y2")?)]
         }
     };
     Ok(if pieces.is_empty() { Vec::new() } else { vec![pieces] })
 }
 
-fn rectangle(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Piece>, OutlineFault> {
+fn rectangle(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Piece>, OutlineFault> {
     let (x, y) = (length_or_zero(node, "x")?, length_or_zero(node, "y")?);
     let (width, height) = (length_or_zero(node, "width")?, length_or_zero(node, "height")?);
     if width <= 0.0 || height <= 0.0 {
@@ -57,30 +57,30 @@ fn rectangle(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Piece>, OutlineFau
     let centres = [[right - rx, y + ry], [right - rx, bottom - ry], [x + rx, bottom - ry], [x + rx, y + ry]];
     let mut pieces = Vec::new();
     for ([from, to], (centre, quarter)) in sides.into_iter().zip(centres.into_iter().zip(-1_i8..)) {
-        pieces.push(Piece::segment(plane.point(from)?, plane.point(to)?));
+        pieces.push(Piece::segment(transform.point(from)?, transform.point(to)?));
         if !is_sharp {
-            pieces.extend(elliptic(plane, centre, [rx, ry], f64::from(quarter) * FRAC_PI_2, FRAC_PI_2)?);
+            pieces.extend(elliptic(transform, centre, [rx, ry], f64::from(quarter) * FRAC_PI_2, FRAC_PI_2)?);
         }
     }
     Ok(pieces)
 }
 
-fn ellipse(node: Node<'_, '_>, plane: &Plane, [rx, ry]: [f64; 2]) -> Result<Vec<Piece>, OutlineFault> {
+fn ellipse(node: Node<'_, '_>, transform: &Transform, [rx, ry]: [f64; 2]) -> Result<Vec<Piece>, OutlineFault> {
     if rx <= 0.0 || ry <= 0.0 {
         return Ok(Vec::new());
     }
     let centre = [length_or_zero(node, "cx")?, length_or_zero(node, "cy")?];
     // Halves, so that what is not quite a circle joins like any other outline.
-    let mut pieces = elliptic(plane, centre, [rx, ry], 0.0, PI)?;
+    let mut pieces = elliptic(transform, centre, [rx, ry], 0.0, PI)?;
     if let [Piece::Arc(half)] = pieces.as_slice() {
         return Ok(vec![Piece::arc(half.centre, half.radius, half.start_angle, TAU.copysign(half.sweep))]);
     }
-    pieces.extend(elliptic(plane, centre, [rx, ry], PI, PI)?);
+    pieces.extend(elliptic(transform, centre, [rx, ry], PI, PI)?);
     Ok(pieces)
 }
 
 fn elliptic(
-    plane: &Plane,
+    transform: &Transform,
     centre: [f64; 2],
     [rx, ry]: [f64; 2],
     start_angle: f64,
@@ -88,10 +88,10 @@ fn elliptic(
 ) -> Result<Vec<Piece>, OutlineFault> {
     // What is farther off than the corners of its box is not on it.
     for corner in [[-rx, -ry], [rx, ry]] {
-        plane.point([centre[0] + corner[0], centre[1] + corner[1]])?;
+        transform.point([centre[0] + corner[0], centre[1] + corner[1]])?;
     }
-    let radii = [plane.direction([rx, 0.0]), plane.direction([0.0, ry])];
-    let arc = EllipticArc { centre: plane.point(centre)?, radii, start_angle, sweep };
+    let radii = [transform.direction([rx, 0.0]), transform.direction([0.0, ry])];
+    let arc = EllipticArc { centre: transform.point(centre)?, radii, start_angle, sweep };
     arc.pieces().ok_or(OutlineFault::Curve)
 }
 
@@ -101,7 +101,7 @@ fn radii(node: Node<'_, '_>) -> Result<(f64, f64), OutlineFault> {
     Ok((rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0)))
 }
 
-fn points(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Point2>, OutlineFault> {
+fn points(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Point2>, OutlineFault> {
     let text = node.attribute("points").unwrap_or_default();
     let numbers = NumberListParser::from(text).take(2 * MOST_PIECES + 4).collect::<Result<Vec<f64>, _>>();
     let numbers = numbers.map_err(|_| unreadable(node, "points", text))?;
@@ -109,7 +109,7 @@ fn points(node: Node<'_, '_>, plane: &Plane) -> Result<Vec<Point2>, OutlineFault
     if !rest.is_empty() {
         return Err(unreadable(node, "points", text));
     }
-    pairs.iter().map(|&pair| plane.point(pair)).collect()
+    pairs.iter().map(|&pair| transform.point(pair)).collect()
 }
 
 fn sides(corners: &[Point2]) -> Vec<Piece> {

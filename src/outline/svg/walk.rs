@@ -6,8 +6,8 @@ use roxmltree::Node;
 
 use crate::diagnostic::Source;
 
-use super::super::found::Outlines;
-use super::super::plane::Plane;
+use super::super::outline_list::OutlineList;
+use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault};
 use super::attribute::{inner, is_intricate, length_or_zero, property};
 use super::{path, shape};
@@ -26,20 +26,20 @@ pub(super) struct Walk<'d> {
     pub(super) named: HashMap<&'d str, Node<'d, 'd>>,
     /// The text, for lines.
     pub(super) source: Source,
-    pub(super) outlines: Outlines,
+    pub(super) outlines: OutlineList,
     pub(super) steps: usize,
 }
 
 impl<'d> Walk<'d> {
     /// Takes one element as its ancestors show it, be it visible or not.
-    pub(super) fn one(&mut self, node: Node<'d, 'd>, root: &Plane) -> Result<(), OutlineError> {
-        let mut plane = *root;
+    pub(super) fn one(&mut self, node: Node<'d, 'd>, root: &Transform) -> Result<(), OutlineError> {
+        let mut transform = *root;
         let above: Vec<_> = node.ancestors().skip(1).filter(Node::is_element).collect();
         for outer in above.into_iter().rev() {
-            plane = self.within(outer, &plane)?;
+            transform = self.within(outer, &transform)?;
         }
         self.step(node, 0)?;
-        self.draw(node, &plane, 0, true)
+        self.draw(node, &transform, 0, true)
     }
 
     /// Counts what it costs to look at a node, before that is done.
@@ -75,7 +75,7 @@ impl<'d> Walk<'d> {
     pub(super) fn all(
         &mut self,
         node: Node<'d, 'd>,
-        plane: &Plane,
+        transform: &Transform,
         depth: usize,
         is_visible: bool,
     ) -> Result<(), OutlineError> {
@@ -85,19 +85,25 @@ impl<'d> Walk<'d> {
         if is_hidden || is(node, "symbol") {
             return Ok(());
         }
-        self.draw(node, plane, depth, visibility(node).unwrap_or(is_visible))
+        self.draw(node, transform, depth, visibility(node).unwrap_or(is_visible))
     }
 
-    fn draw(&mut self, node: Node<'d, 'd>, plane: &Plane, depth: usize, is_visible: bool) -> Result<(), OutlineError> {
+    fn draw(
+        &mut self,
+        node: Node<'d, 'd>,
+        transform: &Transform,
+        depth: usize,
+        is_visible: bool,
+    ) -> Result<(), OutlineError> {
         match node.tag_name().name() {
             "svg" | "g" | "a" | "symbol" => {
-                let plane = self.within(node, plane)?;
+                let transform = self.within(node, transform)?;
                 // Texts and comments count as steps, too.
                 for child in node.children() {
-                    self.all(child, &plane, depth + 1, is_visible)?;
+                    self.all(child, &transform, depth + 1, is_visible)?;
                 }
             }
-            "use" => self.repeat(node, plane, depth, is_visible)?,
+            "use" => self.repeat(node, transform, depth, is_visible)?,
             "switch" => {
                 let what = "`switch`, which shows one of several things,".to_owned();
                 let advice = "put what it is to show in its place";
@@ -105,8 +111,8 @@ impl<'d> Walk<'d> {
             }
             // Of a group that is not visible parts may be, but a shape is not.
             "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" if is_visible => {
-                let plane = self.within(node, plane)?;
-                let drawn = if is(node, "path") { path::read(node, &plane) } else { shape::read(node, &plane) };
+                let transform = self.within(node, transform)?;
+                let drawn = if is(node, "path") { path::read(node, &transform) } else { shape::read(node, &transform) };
                 let drawn = drawn.map_err(|fault| self.at(node, fault))?;
                 // Lines are counted for those few only that draw something.
                 let line = if drawn.is_empty() { None } else { Some(self.line(node)) };
@@ -124,7 +130,7 @@ impl<'d> Walk<'d> {
     fn repeat(
         &mut self,
         node: Node<'d, 'd>,
-        plane: &Plane,
+        transform: &Transform,
         depth: usize,
         is_visible: bool,
     ) -> Result<(), OutlineError> {
@@ -133,19 +139,19 @@ impl<'d> Walk<'d> {
             let reason = format!("`use` refers to `{}`, which is not there", link.chars().take(40).collect::<String>());
             return Err(self.at(node, OutlineFault::Syntax { reason }));
         };
-        let plane = self.within(node, plane)?;
+        let transform = self.within(node, transform)?;
         let offset = length_or_zero(node, "x").and_then(|x| Ok([x, length_or_zero(node, "y")?]));
         let offset = offset.map_err(|fault| self.at(node, fault))?;
-        let plane = plane.inner([1.0, 0.0], [0.0, 1.0], offset);
+        let transform = transform.inner([1.0, 0.0], [0.0, 1.0], offset);
         if !is(found, "symbol") {
-            return self.all(found, &plane, depth + 1, is_visible);
+            return self.all(found, &transform, depth + 1, is_visible);
         }
         self.step(found, depth + 1)?;
-        self.draw(found, &plane, depth + 1, visibility(found).unwrap_or(is_visible))
+        self.draw(found, &transform, depth + 1, visibility(found).unwrap_or(is_visible))
     }
 
     /// The plane within an element.
-    fn within(&self, node: Node<'d, 'd>, plane: &Plane) -> Result<Plane, OutlineError> {
+    fn within(&self, node: Node<'d, 'd>, transform: &Transform) -> Result<Transform, OutlineError> {
         let is_root = node.parent().is_none_or(|parent| parent.is_root());
         let fits = node.attribute("viewBox").is_some() || is(node, "svg");
         if fits && !is_root {
@@ -153,7 +159,7 @@ impl<'d> Walk<'d> {
             let advice = "take its contents out of it, or use a group with a `transform`";
             return Err(self.at(node, OutlineFault::Unsupported { what, advice }));
         }
-        inner(node, plane).map_err(|fault| self.at(node, fault))
+        inner(node, transform).map_err(|fault| self.at(node, fault))
     }
 
     fn at(&self, node: Node<'d, 'd>, fault: OutlineFault) -> OutlineError {

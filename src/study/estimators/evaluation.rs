@@ -107,7 +107,7 @@ pub(in crate::study) fn evaluate(
         told: share(tips.len(), asked),
         mean_mm: figures.map(|figures| 1e3 * figures.mean),
         p95_mm: figures.map(|figures| 1e3 * figures.p95),
-        within_band: figures.map(|figures| figures.within_band),
+        within_band: figures.map(|figures| figures.interval_coverage),
         outliers: figures.map(|figures| figures.outliers),
         tips: tips.len(),
         on_shaft: share(on_shaft, tips.len()),

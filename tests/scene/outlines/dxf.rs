@@ -1,7 +1,7 @@
 //! DXF, entity by entity.
 
 use vibrissa::geometry::{Contour, EllipticArc, Point2, Vector2, circle, rounded_rectangle};
-use vibrissa::outline::{Format, OutlineError, OutlineFault, Request, read};
+use vibrissa::outline::{Format, OutlineError, OutlineFault, ReadOptions, read};
 
 use super::{apart, folder};
 
@@ -12,7 +12,7 @@ fn drawing(before: &str, entities: &[&str]) -> String {
 }
 
 fn all(text: &str, element: Option<&str>) -> Result<Vec<Contour>, OutlineError> {
-    read(text.as_bytes(), Format::Dxf, &Request { unit: Some(1e-3), element, height: 0.0 })
+    read(text.as_bytes(), Format::Dxf, &ReadOptions { unit: Some(1e-3), element, height: 0.0 })
 }
 
 fn one(entities: &[&str]) -> Contour {
@@ -73,7 +73,7 @@ fn the_drawing_says_its_unit_and_the_scenario_overrules_it() {
     let size = |code: &str, unit| {
         let header = format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n{code}\n0\nENDSEC\n");
         let text = drawing(&header, &["0 CIRCLE 10 0 20 0 40 2"]);
-        let outlines = read(text.as_bytes(), Format::Dxf, &Request { unit, ..Request::default() });
+        let outlines = read(text.as_bytes(), Format::Dxf, &ReadOptions { unit, ..ReadOptions::default() });
         outlines.map(|outlines| outlines[0].bounding_box().max.x)
     };
     for (code, metres) in [("1", 0.0254), ("4", 1e-3), ("5", 1e-2), ("6", 1.0)] {

@@ -1,14 +1,14 @@
 //! Whatever bytes a file holds, they are answered.
 
 use proptest::prelude::*;
-use vibrissa::outline::{Format, OutlineFault, Request, SIZE_LIMIT, read};
+use vibrissa::outline::{Format, OutlineFault, ReadOptions, SIZE_LIMIT, read};
 
 use super::folder;
 
 fn is_answered(bytes: &[u8], format: Format) {
     for element in [None, Some("star")] {
-        let request = Request { unit: Some(1e-3), element, height: 0.01 };
-        match read(bytes, format, &request) {
+        let options = ReadOptions { unit: Some(1e-3), element, height: 0.01 };
+        match read(bytes, format, &options) {
             Ok(contours) => assert!(!contours.is_empty() && contours.iter().all(|contour| contour.area() > 0.0)),
             Err(error) => assert!(!error.to_string().is_empty() && !error.fault.advice().is_empty()),
         }
@@ -69,7 +69,7 @@ proptest! {
 #[test]
 fn a_file_that_is_too_large_is_refused_whatever_is_in_it() {
     for format in Format::ALL {
-        let error = read(&vec![b' '; SIZE_LIMIT + 1], format, &Request::default()).unwrap_err();
+        let error = read(&vec![b' '; SIZE_LIMIT + 1], format, &ReadOptions::default()).unwrap_err();
         assert!(error.to_string().contains("more than"), "{error}");
     }
 }
@@ -88,8 +88,8 @@ fn elements_that_repeat_each_other_come_to_an_end() {
 
 #[test]
 fn what_draws_nothing_is_bounded_too() {
-    let request = Request { unit: Some(1e-3), element: None, height: 0.0 };
-    let read = |inner: &str| read(format!("<svg>{inner}</svg>").as_bytes(), Format::Svg, &request).unwrap_err();
+    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.0 };
+    let read = |inner: &str| read(format!("<svg>{inner}</svg>").as_bytes(), Format::Svg, &options).unwrap_err();
     // All in one line, so that each count of its columns would go through it from the start.
     assert_eq!(read(&"<rect/>".repeat(300_000)).fault, OutlineFault::NoOutline);
     let uses = "<use href='#a'/>".repeat(10_000);
@@ -107,7 +107,8 @@ fn what_draws_nothing_is_bounded_too() {
 
 #[test]
 fn what_would_take_the_parser_too_long_is_refused_before() {
-    let read = |text: &str| read(text.as_bytes(), Format::Svg, &Request { unit: Some(1e-3), ..Request::default() });
+    let read =
+        |text: &str| read(text.as_bytes(), Format::Svg, &ReadOptions { unit: Some(1e-3), ..ReadOptions::default() });
     let told = |text: &str| read(text).unwrap_err().to_string();
     let attributes: String =
         (0..150_000).flat_map(|index| [" a".to_owned(), index.to_string(), "=\"\"".to_owned()]).collect();

@@ -11,7 +11,7 @@ mod svg;
 use std::path::{Path, PathBuf};
 
 use vibrissa::geometry::Contour;
-use vibrissa::outline::{Format, OutlineError, Request, read};
+use vibrissa::outline::{Format, OutlineError, ReadOptions, read};
 
 /// Where the files lie.
 fn folder() -> PathBuf {
@@ -21,8 +21,8 @@ fn folder() -> PathBuf {
 /// The outlines of a file, in which 1 is a millimetre.
 fn outlines(file: &str) -> Result<Vec<Contour>, OutlineError> {
     let bytes = std::fs::read(folder().join(file)).unwrap();
-    let request = Request { unit: Some(1e-3), element: None, height: 0.01 };
-    read(&bytes, Format::of(file).unwrap(), &request)
+    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.01 };
+    read(&bytes, Format::of(file).unwrap(), &options)
 }
 
 /// How far (m) two contours are apart at most, looked at in many places.

@@ -1,12 +1,12 @@
 //! STL: cuts through meshes.
 
 use vibrissa::geometry::{Contour, Point2, polygon};
-use vibrissa::outline::{Format, OutlineError, OutlineFault, Request, read};
+use vibrissa::outline::{Format, OutlineError, OutlineFault, ReadOptions, read};
 
 use super::{apart, folder};
 
 fn cut(bytes: &[u8], height: f64) -> Result<Vec<Contour>, OutlineError> {
-    read(bytes, Format::Stl, &Request { unit: Some(1e-3), element: None, height })
+    read(bytes, Format::Stl, &ReadOptions { unit: Some(1e-3), element: None, height })
 }
 
 fn file(name: &str) -> Vec<u8> {

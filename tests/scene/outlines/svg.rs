@@ -3,16 +3,16 @@
 use std::f64::consts::PI;
 
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::outline::{Format, OutlineError, OutlineFault, Request, read};
+use vibrissa::outline::{Format, OutlineError, OutlineFault, ReadOptions, read};
 
 use super::apart;
 
-fn all(inner: &str, request: &Request<'_>) -> Result<Vec<Contour>, OutlineError> {
+fn all(inner: &str, request: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineError> {
     let text = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>\n{inner}\n</svg>");
     read(text.as_bytes(), Format::Svg, request)
 }
 
-const MILLIMETRES: Request<'_> = Request { unit: Some(1e-3), element: None, height: 0.0 };
+const MILLIMETRES: ReadOptions<'_> = ReadOptions { unit: Some(1e-3), element: None, height: 0.0 };
 
 fn one(inner: &str) -> Contour {
     let [contour] = all(inner, &MILLIMETRES).unwrap().try_into().unwrap();
@@ -71,7 +71,7 @@ fn what_is_not_to_be_seen_is_left_out_unless_it_is_asked_for() {
     let drawing =
         "<circle r='5'/><g id='more' style='display: none'><circle cx='20' r='5'/><circle cx='40' r='5'/></g>";
     assert_eq!(all(drawing, &MILLIMETRES).unwrap().len(), 1);
-    assert_eq!(all(drawing, &Request { element: Some("more"), ..MILLIMETRES }).unwrap().len(), 2);
+    assert_eq!(all(drawing, &ReadOptions { element: Some("more"), ..MILLIMETRES }).unwrap().len(), 2);
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn what_is_hidden_is_left_out_however_that_is_said() {
         assert_eq!(found.len(), 2, "{drawing}");
     }
     // What is asked for is taken, be it visible or not.
-    let asked = Request { element: Some("c"), ..MILLIMETRES };
+    let asked = ReadOptions { element: Some("c"), ..MILLIMETRES };
     assert_eq!(all("<g visibility='hidden'><circle id='c' r='5' visibility='hidden'/></g>", &asked).unwrap().len(), 1);
 }
 
@@ -110,7 +110,7 @@ fn what_is_hidden_is_left_out_however_that_is_said() {
 fn an_element_lies_where_its_ancestors_put_it() {
     let drawing =
         "<circle r='500'/><g transform='scale(10)'><g transform='translate(4 5)'><circle id='c' r='3'/></g></g>";
-    let [found] = all(drawing, &Request { element: Some("c"), ..MILLIMETRES }).unwrap().try_into().unwrap();
+    let [found] = all(drawing, &ReadOptions { element: Some("c"), ..MILLIMETRES }).unwrap().try_into().unwrap();
     assert!(apart(&found, &disk()) < 1e-12);
 }
 
@@ -118,7 +118,7 @@ fn an_element_lies_where_its_ancestors_put_it() {
 fn paper_and_view_box_say_what_a_unit_is_and_the_scenario_overrules_them() {
     let width = |paper: &str, unit| {
         let text = format!("<svg {paper} viewBox='0 0 200 100'><rect width='10' height='10'/></svg>");
-        let outlines = read(text.as_bytes(), Format::Svg, &Request { unit, ..Request::default() });
+        let outlines = read(text.as_bytes(), Format::Svg, &ReadOptions { unit, ..ReadOptions::default() });
         outlines.map(|outlines| outlines[0].bounding_box().max.x)
     };
     assert!((width("width='100mm' height='5cm'", None).unwrap() - 0.005).abs() < 1e-15);

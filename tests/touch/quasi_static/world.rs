@@ -120,7 +120,7 @@ fn a_whisker_that_slips_off_a_corner_springs_and_one_that_slides_does_not() {
         let count = |world: &mut Box<dyn World>| {
             let ticks = (0..150).filter(|_| {
                 world.advance(&command(0.0, 0.05, 0.0)).unwrap();
-                world.springs(0)
+                world.snapped_off(0)
             });
             ticks.count()
         };

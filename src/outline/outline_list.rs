@@ -13,29 +13,29 @@ pub(super) struct Outline {
 
 /// The outlines that have been found so far.
 #[derive(Default)]
-pub(super) struct Outlines {
-    found: Vec<Outline>,
+pub(super) struct OutlineList {
+    outlines: Vec<Outline>,
     pieces: usize,
 }
 
-impl Outlines {
+impl OutlineList {
     /// Adds the outline that `pieces` are, one behind the other, closed by at most a tolerance.
     pub(super) fn add(&mut self, pieces: Vec<Piece>, line: Option<usize>) -> Result<(), OutlineError> {
         self.pieces += pieces.len();
         if self.pieces > MOST_PIECES {
             return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES }.at(line));
         }
-        if self.found.len() >= MOST_OUTLINES {
+        if self.outlines.len() >= MOST_OUTLINES {
             return Err(OutlineFault::TooLarge { what: "outlines", limit: MOST_OUTLINES }.at(line));
         }
         let contour = close(pieces).and_then(|pieces| Contour::closed(pieces).map_err(fault));
-        self.found.push(Outline { contour: contour.map_err(|fault| fault.at(line))?, line });
+        self.outlines.push(Outline { contour: contour.map_err(|fault| fault.at(line))?, line });
         Ok(())
     }
 
     /// All of them, at least one.
-    pub(super) fn into_found(self) -> Result<Vec<Outline>, OutlineError> {
-        if self.found.is_empty() { Err(OutlineFault::NoOutline.into()) } else { Ok(self.found) }
+    pub(super) fn into_outlines(self) -> Result<Vec<Outline>, OutlineError> {
+        if self.outlines.is_empty() { Err(OutlineFault::NoOutline.into()) } else { Ok(self.outlines) }
     }
 }
 
@@ -46,4 +46,25 @@ fn fault(error: ContourError) -> OutlineFault {
         ContourError::Empty => OutlineFault::NoOutline,
         other => OutlineFault::Contour(other),
     }
+}
+
+/// Whether none of the outlines lies inside another, where it may be meant for a hole; the first that does is told.
+pub(super) fn check_nesting(outlines: &[Outline]) -> Result<(), OutlineError> {
+    for (index, second) in outlines.iter().enumerate() {
+        for first in &outlines[..index] {
+            let (outer, inner) =
+                if is_inside(&first.contour, &second.contour) { (second, first) } else { (first, second) };
+            if is_inside(&inner.contour, &outer.contour) {
+                return Err(OutlineFault::Hole { outer_line: outer.line }.at(inner.line));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn is_inside(inner: &Contour, outer: &Contour) -> bool {
+    inner
+        .pieces()
+        .iter()
+        .all(|piece| outer.contains(piece.start()) && outer.contains(piece.point_at(0.5 * piece.length())))
 }

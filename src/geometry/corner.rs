@@ -70,7 +70,7 @@ pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
 
 /// Whether a joint is a cusp so near, `to_joint` (m), to the nearest point of a point at `from_foot` that rounding decides
 /// which of the two pieces was found to be nearest; they are on opposite sides of the point.
-pub(super) fn hides(turn: f64, to_joint: f64, from_foot: Vector2) -> bool {
+pub(super) fn is_ambiguous_at_cusp(turn: f64, to_joint: f64, from_foot: Vector2) -> bool {
     // The distances to the two pieces differ by the square of this times their curvatures.
     const REACH: f64 = 1e-6;
     // Within a spike, points are much nearer to its sides than its sides are to its tip.

@@ -1,4 +1,4 @@
-//! Loose pieces joined to outlines.
+//! LoosePiece pieces joined to outlines.
 
 use std::collections::HashMap;
 
@@ -13,14 +13,14 @@ use super::{OutlineError, OutlineFault, TOLERANCE};
 type Loop = (Vec<Piece>, Option<usize>);
 
 /// A piece with its line in the file, where that is known.
-pub(super) type Loose = (Piece, Option<usize>);
+pub(super) type LoosePiece = (Piece, Option<usize>);
 
 /// The outlines that loose pieces make, each in the order of travel, with the line of its first piece: two ends in the very same
 /// place belong together, others with the nearest within the tolerance. The pieces may stand in any order and point either way.
 ///
 /// # Errors
 /// The place where an end is alone, or where there are more than two.
-pub(super) fn join(pieces: &[Loose]) -> Result<Vec<Loop>, OutlineError> {
+pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError> {
     let nodes = Nodes::of(pieces)?;
     let mut is_used: Vec<bool> =
         pieces.iter().zip(&nodes.ends).map(|((piece, _), &ends)| is_dot(piece, ends)).collect();
@@ -58,7 +58,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(pieces: &[Loose]) -> Result<Self, OutlineError> {
+    fn of(pieces: &[LoosePiece]) -> Result<Self, OutlineError> {
         let (places, ends) = places(pieces);
         let same = merged(&places, &ends);
         let mut nodes = Self { ends: Vec::with_capacity(pieces.len()), pieces: vec![[None; 2]; places.len()] };
@@ -80,7 +80,7 @@ impl Nodes {
     }
 
     /// Whether no end is alone. Of two that are, the nearest to each other are told.
-    fn check(&self, pieces: &[Loose], places: &[Point2]) -> Result<(), OutlineError> {
+    fn check(&self, pieces: &[LoosePiece], places: &[Point2]) -> Result<(), OutlineError> {
         let alone = self.pieces.iter().zip(places).filter_map(|(met, &place)| match met {
             [Some(piece), None] => Some((place, *piece)),
             _ => None,
@@ -93,7 +93,7 @@ impl Nodes {
 }
 
 /// The places of ends, each once, and which of them are those of each piece.
-fn places(pieces: &[Loose]) -> (Vec<Point2>, Vec<[usize; 2]>) {
+fn places(pieces: &[LoosePiece]) -> (Vec<Point2>, Vec<[usize; 2]>) {
     let mut known: HashMap<[u64; 2], usize> = HashMap::new();
     let mut places = Vec::new();
     let ends = pieces.iter().map(|(piece, _)| {
@@ -143,7 +143,7 @@ mod tests {
     use crate::geometry::{Contour, regular_polygon};
 
     /// The sides of two polygons.
-    fn sides() -> Vec<Loose> {
+    fn sides() -> Vec<LoosePiece> {
         let polygons =
             [(0.0, 5), (1.0, 7)].map(|(x, sides)| regular_polygon(Point2::new(x, 0.0), 0.3, sides, 0.1).unwrap());
         polygons.iter().flat_map(Contour::pieces).zip(1..).map(|(&side, line)| (side, Some(line))).collect()
@@ -156,7 +156,7 @@ mod tests {
             moved in prop::collection::vec(-2e-7..2e-7_f64, 12),
         ) {
             let moved = moved.into_iter().map(|by| nalgebra::Vector2::new(by, -by));
-            let loose: Vec<Loose> = order
+            let loose: Vec<LoosePiece> = order
                 .into_iter()
                 .zip(turned)
                 .zip(moved)
@@ -165,7 +165,7 @@ mod tests {
                     (if turned { side.reversed() } else { side }, line)
                 })
                 .collect();
-            let mut found = join(&loose).unwrap();
+            let mut found = assemble(&loose).unwrap();
             found.sort_by_key(|(pieces, _)| pieces.len());
             prop_assert_eq!(found.iter().map(|(pieces, _)| pieces.len()).collect::<Vec<_>>(), vec![5, 7]);
             for (pieces, _) in found {
@@ -187,7 +187,7 @@ mod tests {
             let angles = (0_u8..24).map(|k| turn * f64::from(k));
             let corners: Vec<Point2> =
                 angles.map(|angle| Point2::new(radius * angle.cos(), radius * angle.sin())).collect();
-            let loose: Vec<Loose> = order
+            let loose: Vec<LoosePiece> = order
                 .into_iter()
                 .zip(turned)
                 .map(|(k, turned)| {
@@ -195,7 +195,7 @@ mod tests {
                     (if turned { side.reversed() } else { side }, None)
                 })
                 .collect();
-            let found = join(&loose).unwrap();
+            let found = assemble(&loose).unwrap();
             prop_assert_eq!(found.len(), 1);
             let sides = &found[0].0;
             prop_assert_eq!(sides.len(), 24);
@@ -209,10 +209,10 @@ mod tests {
         let mut loose = sides();
         let (gone, _) = loose.remove(2);
         let open = OutlineFault::Open { from: gone.start(), to: gone.end() };
-        assert_eq!(join(&loose).unwrap_err(), open.at(Some(2)));
+        assert_eq!(assemble(&loose).unwrap_err(), open.at(Some(2)));
         let mut loose = sides();
         let (first, _) = loose[0];
         loose.push((Piece::segment(first.start(), Point2::new(2.0, 2.0)), Some(99)));
-        assert_eq!(join(&loose).unwrap_err(), OutlineFault::Branches { at: first.start() }.at(Some(99)));
+        assert_eq!(assemble(&loose).unwrap_err(), OutlineFault::Branches { at: first.start() }.at(Some(99)));
     }
 }

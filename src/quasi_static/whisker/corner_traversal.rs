@@ -1,4 +1,4 @@
-//! That whiskers go past things, and not through them.
+//! Tests of whiskers that traverse corners: no whisker passes through an obstacle.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -10,26 +10,26 @@ use crate::geometry::{circle, polygon};
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
 
-/// Period (s) of samples.
+/// The sample period (s).
 const PERIOD: f64 = 1.0 / 300.0;
-/// The nearest (m) that a base comes to anything.
+/// The smallest distance (m) between the base and the obstacle.
 const NEAR: f64 = 13e-3;
 
-/// A thing with a corner, or something as small, at the origin.
+/// An obstacle with a corner, or a small obstacle, at the origin.
 #[derive(Debug, Clone, Copy)]
 enum Thing {
-    /// With so much (rad) between its sides.
+    /// A wedge with this interior angle (rad).
     Wedge(f64),
-    /// So thick (m).
+    /// A blade of this thickness (m).
     Blade(f64),
-    /// With this radius (m).
+    /// A cylinder of this radius (m).
     Pin(f64),
-    /// With so much (rad) between its sides, outside of it.
+    /// A concave corner with this exterior angle (rad).
     InnerCorner(f64),
 }
 
 impl Thing {
-    /// The corners of its outline, if that is a polygon.
+    /// The corners of the outline, empty for a circle.
     fn corners(self) -> Vec<Point2> {
         let at = |radius: f64, angle: f64| Point2::from(radius * unit(angle));
         match self {
@@ -53,13 +53,13 @@ impl Thing {
         Surfaces::new(&[Solid::inside(outline.unwrap()).unwrap()])
     }
 
-    /// Whether a whisker's axis goes through a side of it.
-    fn is_crossed(self, follower: &Follower) -> bool {
+    /// True if the axis of a whisker intersects a side of the obstacle.
+    fn is_crossed(self, chain: &QuasiStaticWhisker) -> bool {
         let corners = self.corners();
         let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
         let side_of = |from: &Point2, to: &Point2, point: &Point2| (to - from).perp(&(point - from));
         let parts = |a: &Point2, b: &Point2, c: &Point2, d: &Point2| side_of(a, b, c) * side_of(a, b, d) < 0.0;
-        let ends = ends(follower);
+        let ends = ends(chain);
         ends.windows(2).any(|link| {
             sides().any(|(from, to)| parts(&link[0], &link[1], from, to) && parts(from, to, &link[0], &link[1]))
         })
@@ -75,19 +75,19 @@ fn things() -> impl Strategy<Value = Thing> {
     ]
 }
 
-/// The way of a base that moves and turns evenly.
+/// The path of a base with constant velocity and yaw rate.
 #[derive(Debug, Clone)]
 struct Way {
-    /// At the time 0 (rad).
+    /// The heading at time 0 (rad).
     heading: f64,
-    /// Where (m) the tip would be then if the whisker were straight: near the origin.
+    /// The position (m) of the undeflected tip at time 0, near the origin.
     tip: Vector2,
     velocity: Vector2,
     yaw_rate: f64,
 }
 
 impl Way {
-    /// The base at a time (s), of a whisker so long (m).
+    /// The pose of the base at a time (s), for a whisker of this length (m).
     fn at(&self, time: f64, length: f64) -> Pose {
         let position = Point2::from(self.tip - length * unit(self.heading) + time * self.velocity);
         Pose { position, heading: self.heading + time * self.yaw_rate }
@@ -109,36 +109,36 @@ fn whisker() -> Whisker {
     Rig::default().whiskers.swap_remove(0)
 }
 
-/// The base and the far ends of all links (m).
-fn ends(follower: &Follower) -> Vec<Point2> {
-    // Of a straight whisker in the air the links are not kept in their places.
-    let mut shape = Shape::straight(&follower.wire, follower.shape.base);
-    shape.angles.clone_from(&follower.shape.angles);
-    shape.place(&follower.wire, follower.shape.base);
+/// The base and the far ends of all links (m, world frame).
+fn ends(chain: &QuasiStaticWhisker) -> Vec<Point2> {
+    // The link ends of a straight whisker without contact are not updated.
+    let mut shape = Shape::straight(&chain.rod, chain.shape.base);
+    shape.angles.clone_from(&chain.shape.angles);
+    shape.place(&chain.rod, chain.shape.base);
     shape.ends
 }
 
-/// How deep (m) in a solid the deepest of a whisker's axis is, of eight places a link.
-fn depth(follower: &Follower, surfaces: &Surfaces) -> f64 {
-    let ends = ends(follower);
+/// The largest penetration depth (m) of a whisker's axis, from eight points per link.
+fn depth(chain: &QuasiStaticWhisker, surfaces: &Surfaces) -> f64 {
+    let ends = ends(chain);
     let places =
         ends.windows(2).flat_map(|ends| (1..=8).map(|step| ends[0] + f64::from(step) / 8.0 * (ends[1] - ends[0])));
     places.map(|place| surfaces.depth(place)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The last sample, from a second before on, at which the whisker, straight, stands clear of the thing. `None` if there is none, or if
-/// the base comes too near after that.
+/// The last sample, at most one second before time 0, at which the undeflected whisker is clear of the obstacle. `None`
+/// if there is none, or if the base later comes too near.
 fn beginning(way: &Way, whisker: &Whisker, surfaces: &Surfaces) -> Option<i32> {
     let is_clear = |&sample: &i32| {
-        let follower = Follower::new(whisker, way.at(f64::from(sample) * PERIOD, whisker.shaft.length));
-        depth(&follower, surfaces) < -2e-3
+        let chain = QuasiStaticWhisker::new(whisker, way.at(f64::from(sample) * PERIOD, whisker.shaft.length));
+        depth(&chain, surfaces) < -2e-3
     };
     let first = (-300..=0).rev().find(is_clear)?;
     let base = |sample: i32| way.at(f64::from(sample) * PERIOD, whisker.shaft.length).position;
     (first..=0).all(|sample| surfaces.depth(base(sample)) < -NEAR).then_some(first)
 }
 
-/// A thing, a way past it, and since when the whisker is on that.
+/// An obstacle, a path, and the sample at which the path begins.
 fn passes() -> impl Strategy<Value = (Thing, Way, i32)> {
     (things(), ways()).prop_filter_map("does not begin clear of the thing", |(thing, way)| {
         let beginning = beginning(&way, &whisker(), &thing.surfaces())?;
@@ -146,22 +146,22 @@ fn passes() -> impl Strategy<Value = (Thing, Way, i32)> {
     })
 }
 
-/// Lets a whisker go past a thing; whether it touched that. The base comes no nearer than two links, for so near it the whisker cannot
-/// give way.
+/// Moves a whisker along a path. Returns true if it touched the obstacle. The path ends before the base comes nearer
+/// than two links, because the whisker cannot bend there.
 fn pass(thing: Thing, way: &Way, beginning: i32) -> Result<bool, String> {
     let (whisker, surfaces) = (whisker(), thing.surfaces());
     let place = |sample: i32| way.at(f64::from(sample) * PERIOD, whisker.shaft.length);
-    let mut follower = Follower::new(&whisker, place(beginning));
+    let mut chain = QuasiStaticWhisker::new(&whisker, place(beginning));
     let mut touched = false;
     for base in (beginning..200).map(place).take_while(|base| surfaces.depth(base.position) < -NEAR) {
-        if let Err(lost) = follower.follow(base, PERIOD, &surfaces, 3e-3) {
-            return Err(format!("{lost:?} at {base:?}"));
+        if let Err(error) = chain.follow(base, PERIOD, &surfaces, 3e-3) {
+            return Err(format!("{error:?} at {base:?}"));
         }
-        touched |= follower.force != Vector2::zeros();
-        let (depth, is_at_rest) = (depth(&follower, &surfaces), follower.restless == 0);
-        // On its way from one equilibrium to the next it may be in something by about its thickness.
+        touched |= chain.force != Vector2::zeros();
+        let (depth, is_at_rest) = (depth(&chain, &surfaces), chain.unsettled_samples == 0);
+        // Between two equilibria, the whisker may penetrate by about its thickness.
         let most = if is_at_rest { -0.9 * whisker.shaft.radius } else { 3e-4 };
-        if depth > most || is_at_rest && thing.is_crossed(&follower) {
+        if depth > most || is_at_rest && thing.is_crossed(&chain) {
             return Err(format!("{depth} m inside at {base:?}"));
         }
     }
@@ -178,7 +178,7 @@ proptest! {
     }
 }
 
-/// Ways that chance found, each when something was not kept in mind.
+/// Paths that proptest found. Each failed before a part of the contact state was kept.
 #[test]
 fn nor_does_one_that_did() {
     let way = |heading, tip: [f64; 2], velocity: [f64; 2], yaw_rate| Way {
@@ -188,14 +188,14 @@ fn nor_does_one_that_did() {
         yaw_rate,
     };
     let ways = [
-        // On which side a corner is when the end has come off a facet over it.
+        // The side of a corner after the end has moved from a facet over it.
         (Thing::Wedge(1.738), way(0.7568, [0.1327e-3, 1.107e-3], [0.083_54, 0.046_80], -2.144), -4),
         (Thing::Blade(2e-3), way(5.693, [0.9993e-3, 0.2149e-3], [0.074_55, -0.059_94], -2.425), -5),
-        // That, from one survey to the next.
+        // The same, kept through the broad phase.
         (Thing::Wedge(2.914), way(0.5542, [-0.2956e-3, 0.1887e-3], [0.057_12, 0.032_85], 1.206), -5),
-        // On which side of a facet an end is that is not yet beside it.
+        // The side of a facet on which an end is before it faces the facet.
         (Thing::Wedge(2.904), way(2.286, [0.12e-3, 0.0], [0.011_74, 0.016_19], -2.202), -4),
-        // The facet on which an end bears.
+        // The facet on which an end exerts a force.
         (Thing::InnerCorner(0.405_107_8), way(4.343_851, [2.894_060e-3, 0.0], [0.02, 0.0], -1.592_759), -280),
         // The next corner, sharp or blunt.
         (Thing::Wedge(0.1), way(2.85, [0.039_35e-3, 0.0], [-0.016_64, 0.057_24], -0.6925), -5),

@@ -1,4 +1,4 @@
-//! Keeping the model to what is in reach.
+//! The selection of the model for the current state.
 
 use super::{Reach, Scope, is_gentle, may_be_rigid};
 use crate::geometry::{Point2, Pose};
@@ -7,32 +7,33 @@ use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::Command;
 
+use super::broad_phase::BroadPhase;
 use super::engine::Engine;
-use super::lookout::Lookout;
 use super::world::MujocoError;
 
-/// A whisker in the air is at rest when its hinge reads less than this share of the contact threshold,
+/// A whisker without contact is at rest if its hinge reads less than this share of the contact threshold,
 const REST: f64 = 0.01;
-/// and nothing of it moves faster than this (m/s) against its base: as fast as such a reading's ringing is.
+/// and if its speed relative to the base is less than this (m/s). It is the speed of residual vibration at such a
+/// reading.
 const REST_SPEED: f64 = 2e-3;
-/// How much farther than by its velocities a platform may go in a tick, as a share, and besides (m).
+/// Margins for the motion of the platform in a tick: relative to the motion at its velocity, and absolute (m).
 const TRAVEL: (f64, f64) = (0.5, 1e-3);
-/// What keeps the model to what is in reach.
-pub(super) struct Pruner {
-    /// For how many pairs of what may touch a model has room at first, where parts and contacts out of reach are left out; else it is
-    /// only a matter of rigid whiskers.
+/// Selects the model: the parts in reach, the flexible whiskers, and the pairs that may touch.
+pub(super) struct ModelSelector {
+    /// The initial capacity for pairs of a pruned model. `None` for a complete model, in which only rigid whiskers are
+    /// selected.
     room: Option<usize>,
     reach: Reach,
     solids: Vec<Solid>,
     physics: Physics,
-    /// The middle of the window in which the parts of the model are all that can be reached.
+    /// The centre (m, world frame) of the window for which the model contains all parts in reach.
     window: Option<Point2>,
-    /// Other models of the same parts and with the same room, with other whiskers rigid.
+    /// Other models with the same parts and capacity, but with other rigid whiskers.
     others: Vec<Engine>,
-    lookout: Lookout,
+    broad_phase: BroadPhase,
 }
 
-impl Pruner {
+impl ModelSelector {
     pub(super) fn new(rig: &Rig, physics: &Physics, solids: &[Solid], room: Option<usize>) -> Self {
         Self {
             room,
@@ -41,12 +42,12 @@ impl Pruner {
             physics: physics.clone(),
             window: None,
             others: Vec::new(),
-            lookout: Lookout::default(),
+            broad_phase: BroadPhase::default(),
         }
     }
 
-    /// The model to begin with.
-    pub(super) fn first(&mut self, rig: &Rig, start: Pose) -> Result<Engine, MujocoError> {
+    /// Builds the model for the start.
+    pub(super) fn initial_model(&mut self, rig: &Rig, start: Pose) -> Result<Engine, MujocoError> {
         let mut scope = Scope::whole(rig, &self.solids);
         for (index, whisker) in rig.whiskers.iter().enumerate() {
             let is_rigid =
@@ -63,8 +64,8 @@ impl Pruner {
         Engine::new(rig, &self.physics, &self.solids, start, scope)
     }
 
-    /// Makes the model fit for the next tick under `command`.
-    pub(super) fn fit(&mut self, rig: &Rig, engine: &mut Engine, command: &Command) -> Result<(), MujocoError> {
+    /// Replaces the model, if necessary, before the next tick under `command`.
+    pub(super) fn select(&mut self, rig: &Rig, engine: &mut Engine, command: &Command) -> Result<(), MujocoError> {
         let body = engine.body();
         let (velocity, yaw_rate) = engine.body_velocity();
         let period = rig.sensing.control_rate.recip();
@@ -95,21 +96,21 @@ impl Pruner {
         Ok(())
     }
 
-    /// Lets the engine look for contacts of what is near where it is now, and of nothing else.
-    pub(super) fn look(&mut self, rig: &Rig, engine: &mut Engine) -> Result<(), MujocoError> {
+    /// Updates the pairs that the engine tests for contact at the current state.
+    pub(super) fn update_pairs(&mut self, rig: &Rig, engine: &mut Engine) -> Result<(), MujocoError> {
         let Some(room) = engine.scope.room() else { return Ok(()) };
-        let Some(pairs) = self.lookout.changed(rig, &self.reach, engine) else { return Ok(()) };
+        let Some(pairs) = self.broad_phase.changed_pairs(rig, &self.reach, engine) else { return Ok(()) };
         if pairs.len() <= room {
-            engine.look_for(pairs);
+            engine.set_pairs(pairs);
             return Ok(());
         }
         let scope = engine.scope.clone().with_room(2 * pairs.len());
         self.replace(rig, engine, scope)?;
-        self.look(rig, engine)
+        self.update_pairs(rig, engine)
     }
 
     fn replace(&mut self, rig: &Rig, engine: &mut Engine, scope: Scope) -> Result<(), MujocoError> {
-        self.lookout.forget();
+        self.broad_phase.invalidate();
         if !scope.is_like(&engine.scope) {
             self.others.clear();
         }
@@ -127,7 +128,7 @@ impl Pruner {
     }
 }
 
-/// Whether a whisker hangs in the air as still as if it were rigid.
+/// True if a whisker without contact is so still that it can become rigid.
 fn is_at_rest(rig: &Rig, engine: &Engine, whisker: usize) -> bool {
     let reading = engine.angles(whisker).next().map_or(0.0, f64::abs);
     reading < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED

@@ -1,4 +1,4 @@
-//! Looking for contacts of what is near alone.
+//! Broad phase: the pairs of geoms that MuJoCo tests for contact.
 
 use super::Reach;
 use crate::geometry::Pose;
@@ -6,29 +6,29 @@ use vibrissa_runtime::rig::Rig;
 
 use super::engine::{Engine, Member, Pair};
 
-/// How far (m) anything of the rig may go before what is near is looked up anew.
+/// The distance (m) that any point of the rig may move before the pairs are searched again.
 const SLACK: f64 = 2e-3;
-/// How much farther than that (m) is looked, for integrators with inner stages: `RK4` looks for contacts at places that it comes to within
-/// a step. This is no bound on the way there, which may be longer in a step of milliseconds while a whisker springs; all others
-/// look for contacts only where a step begins, where what is near has just been looked up.
+/// An additional search distance (m) for integrators with inner stages. `RK4` evaluates contacts at intermediate
+/// positions. It is not an upper bound of the motion within a long step. All other integrators evaluate contacts only
+/// at the beginning of a step, directly after the search.
 const WITHIN_STEP: f64 = 1e-3;
 
-/// What names the pairs of a model: links and parts that are near each other.
+/// The pairs of links and convex parts that are near each other.
 #[derive(Debug, Default)]
-pub(super) struct Lookout {
-    /// The platform's pose when they were looked up, and the angles of the joints of all whiskers.
+pub(super) struct BroadPhase {
+    /// The pose of the platform and the joint angles of all whiskers at the last search.
     since: Option<(Pose, Vec<Vec<f64>>)>,
     pairs: Vec<Pair>,
 }
 
-impl Lookout {
-    /// What is near must be looked up anew: the model is another.
-    pub(super) fn forget(&mut self) {
+impl BroadPhase {
+    /// Discards the last search, because the model has been replaced.
+    pub(super) fn invalidate(&mut self) {
         self.since = None;
     }
 
-    /// The pairs of what may touch, unless they are what they were.
-    pub(super) fn changed(&mut self, rig: &Rig, reach: &Reach, engine: &Engine) -> Option<&[Pair]> {
+    /// Returns the pairs that may touch, or `None` if they are still those of the last search.
+    pub(super) fn changed_pairs(&mut self, rig: &Rig, reach: &Reach, engine: &Engine) -> Option<&[Pair]> {
         if self.since.as_ref().is_some_and(|(body, angles)| is_near(rig, reach, engine, body, angles)) {
             return None;
         }
@@ -46,9 +46,9 @@ impl Lookout {
     }
 }
 
-/// Whether nothing has gone farther than [`SLACK`] from where it was.
+/// True if no point has moved more than [`SLACK`] since the last search.
 fn is_near(rig: &Rig, reach: &Reach, engine: &Engine, body: &Pose, angles: &[Vec<f64>]) -> bool {
-    let way = reach.way(body, &engine.body());
+    let motion = reach.motion_bound(body, &engine.body());
     let swings = angles.iter().enumerate().map(|(whisker, angles)| engine.swing_since(rig, whisker, angles));
-    way + swings.fold(0.0, f64::max) <= SLACK
+    motion + swings.fold(0.0, f64::max) <= SLACK
 }

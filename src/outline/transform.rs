@@ -9,14 +9,14 @@ const REACH: f64 = 100.0;
 
 /// A linear map of a file's coordinates to metres, y up.
 #[derive(Copy, Clone, Debug, PartialEq)]
-pub(super) struct Plane {
+pub(super) struct Transform {
     /// Where the file's own axes and origin come to lie (m).
     pub(super) x_axis: Vector2,
     pub(super) y_axis: Vector2,
     pub(super) origin: Vector2,
 }
 
-impl Plane {
+impl Transform {
     /// With 1 in the file so long (m).
     pub(super) fn scaled(unit: f64) -> Self {
         Self { x_axis: Vector2::new(unit, 0.0), y_axis: Vector2::new(0.0, unit), origin: Vector2::zeros() }

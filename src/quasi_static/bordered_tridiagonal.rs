@@ -1,32 +1,34 @@
-//! Linear equations with a tridiagonal matrix and a few columns beside it.
+//! Bordered tridiagonal systems of linear equations.
 
-/// The most columns.
-pub(super) const MOST: usize = 16;
+/// The largest number of border columns.
+pub(super) const MAX_COLUMNS: usize = 16;
 
-/// A symmetric tridiagonal matrix `T`, factored, and columns `c` with their `T⁻¹ c`.
+/// A factored symmetric tridiagonal matrix `T`, with border columns `c` and their solutions `T⁻¹ c`.
 #[derive(Debug, Default)]
-pub(super) struct Bordered {
+pub(super) struct BorderedTridiagonal {
     size: usize,
     pivots_inverse: Vec<f64>,
-    /// What is beside the diagonal of the lower factor, between two zeros, so that every row has one before and one behind it.
+    /// The subdiagonal of the unit lower factor. A zero at either end gives every row a predecessor and a successor.
     lower: Vec<f64>,
-    /// How many eigenvalues of `T` are negative.
+    /// The number of negative eigenvalues of `T`.
     pub(super) negative: usize,
     columns: Vec<f64>,
     solved: Vec<f64>,
     pub(super) count: usize,
-    /// Products `cᵀ T⁻¹ d` of any two columns.
-    pub(super) products: [[f64; MOST]; MOST],
+    /// The products `cᵀ T⁻¹ d` of all pairs of columns.
+    pub(super) products: [[f64; MAX_COLUMNS]; MAX_COLUMNS],
 }
 
-/// A pivot this small beside its row is no pivot.
-const LEAST_PIVOT: f64 = 1e-9;
-/// As little of an entry of the diagonal as this is what rounding leaves of it.
-const LEAST_SHARE: f64 = 1e-12;
+/// The smallest admissible pivot, relative to the diagonal entry of its row.
+const MIN_PIVOT: f64 = 1e-9;
+/// The smallest admissible pivot of the dense system, relative to the original diagonal entry. Anything smaller is
+/// rounding error.
+const MIN_SHARE: f64 = 1e-12;
 
-impl Bordered {
-    /// Factors a matrix by its diagonal and what is beside it, `None` if that cannot be done in the order of its rows.
-    pub(super) fn factor(&mut self, diagonal: &[f64], beside: &[f64]) -> Option<()> {
+impl BorderedTridiagonal {
+    /// Factors the matrix with this diagonal and off-diagonal by `L D Lᵀ` without pivoting. Returns `None` if a pivot
+    /// is too small.
+    pub(super) fn factor(&mut self, diagonal: &[f64], off_diagonal: &[f64]) -> Option<()> {
         self.size = diagonal.len();
         self.count = 0;
         self.negative = 0;
@@ -34,25 +36,25 @@ impl Bordered {
         self.lower.clear();
         self.lower.push(0.0);
         let mut fill_in = 0.0;
-        for (&entry, &beside) in diagonal.iter().zip(beside.iter().chain(&[0.0])) {
+        for (&entry, &off_diagonal) in diagonal.iter().zip(off_diagonal.iter().chain(&[0.0])) {
             let pivot = entry - fill_in;
-            if pivot.is_nan() || pivot.abs() <= LEAST_PIVOT * entry.abs() {
+            if pivot.is_nan() || pivot.abs() <= MIN_PIVOT * entry.abs() {
                 return None;
             }
             self.negative += usize::from(pivot < 0.0);
             let inverse = pivot.recip();
-            let lower = beside * inverse;
-            fill_in = lower * beside;
+            let lower = off_diagonal * inverse;
+            fill_in = lower * off_diagonal;
             self.pivots_inverse.push(inverse);
             self.lower.push(lower);
         }
         Some(())
     }
 
-    /// Adds a column, which `fill` gives all of; its index, `None` if there is no room.
+    /// Adds the column that `fill` writes completely. Returns its index, or `None` if all columns are in use.
     pub(super) fn add(&mut self, fill: impl FnOnce(&mut [f64])) -> Option<usize> {
         let (index, size) = (self.count, self.size);
-        if index >= MOST {
+        if index >= MAX_COLUMNS {
             return None;
         }
         let (from, to) = (index * size, (index + 1) * size);
@@ -62,15 +64,15 @@ impl Bordered {
         }
         let (column, solved) = (&mut self.columns[from..to], &mut self.solved[from..to]);
         fill(column);
-        let mut before = 0.0;
+        let mut previous = 0.0;
         for ((solved, &entry), &lower) in solved.iter_mut().zip(&*column).zip(&self.lower) {
-            before = entry - lower * before;
-            *solved = before;
+            previous = entry - lower * previous;
+            *solved = previous;
         }
-        let mut after = 0.0;
+        let mut next = 0.0;
         for ((solved, &inverse), &lower) in solved.iter_mut().zip(&self.pivots_inverse).zip(&self.lower[1..]).rev() {
-            after = *solved * inverse - lower * after;
-            *solved = after;
+            next = *solved * inverse - lower * next;
+            *solved = next;
         }
         self.count += 1;
         let column = &self.columns[from..to];
@@ -82,34 +84,36 @@ impl Bordered {
         Some(index)
     }
 
-    /// `T⁻¹ c` of a column.
+    /// Returns the solution `T⁻¹ c` of a column.
     pub(super) fn solved(&self, column: usize) -> &[f64] {
         &self.solved[column * self.size..(column + 1) * self.size]
     }
 }
 
-/// A small symmetric system of equations: of its rows and columns the first `size`.
+/// A small dense symmetric system. Only its first `size` rows and columns are in use.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Small {
+pub(super) struct SmallSystem {
     pub(super) size: usize,
-    pub(super) matrix: [[f64; MOST]; MOST],
-    pub(super) right: [f64; MOST],
+    pub(super) matrix: [[f64; MAX_COLUMNS]; MAX_COLUMNS],
+    pub(super) rhs: [f64; MAX_COLUMNS],
 }
 
-impl Small {
-    /// The solution, and how many eigenvalues of the matrix are positive; `None` if it is singular. The matrix is lost.
+impl SmallSystem {
+    /// Returns the solution and the number of positive eigenvalues of the matrix, or `None` if it is singular. The
+    /// matrix is overwritten.
     ///
-    /// By `L D Lᵀ` with the greatest entry of the diagonal as the next pivot, each beside the diagonal that was there.
-    pub(super) fn solve(&mut self) -> Option<([f64; MOST], usize)> {
+    /// The factorisation is `L D Lᵀ` with diagonal pivoting. Every pivot is compared with the original diagonal entry
+    /// of its row.
+    pub(super) fn solve(&mut self) -> Option<([f64; MAX_COLUMNS], usize)> {
         let size = self.size;
-        let mut scale = [0.0; MOST];
+        let mut scale = [0.0; MAX_COLUMNS];
         for (row, scale) in scale.iter_mut().enumerate().take(size) {
             *scale = self.matrix[row][row].abs();
             if *scale == 0.0 {
                 return None;
             }
         }
-        let mut order: [usize; MOST] = std::array::from_fn(|index| index);
+        let mut order: [usize; MAX_COLUMNS] = std::array::from_fn(|index| index);
         let mut positive = 0;
         for step in 0..size {
             let weight = |&row: &usize| (self.matrix[row][row] / scale[row]).abs();
@@ -117,7 +121,7 @@ impl Small {
             order.swap(step, best);
             let row = order[step];
             let pivot = self.matrix[row][row];
-            if pivot.is_nan() || pivot.abs() <= LEAST_SHARE * scale[row] {
+            if pivot.is_nan() || pivot.abs() <= MIN_SHARE * scale[row] {
                 return None;
             }
             positive += usize::from(pivot > 0.0);
@@ -126,15 +130,15 @@ impl Small {
                 for &column in &order[step + 1..size] {
                     self.matrix[below][column] -= factor * self.matrix[row][column];
                 }
-                self.right[below] -= factor * self.right[row];
+                self.rhs[below] -= factor * self.rhs[row];
             }
         }
-        let mut solution = [0.0; MOST];
+        let mut solution = [0.0; MAX_COLUMNS];
         for step in (0..size).rev() {
             let row = order[step];
             let rest: f64 =
                 order[step + 1..size].iter().map(|&column| self.matrix[row][column] * solution[column]).sum();
-            solution[row] = (self.right[row] - rest) / self.matrix[row][row];
+            solution[row] = (self.rhs[row] - rest) / self.matrix[row][row];
         }
         Some((solution, positive))
     }

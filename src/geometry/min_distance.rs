@@ -12,7 +12,7 @@ const SLACK: f64 = 1e-12;
 ///
 /// It goes straight down to the box that is nearest, and then into those alone that are nearer than what it has found. The tree's own
 /// iterator keeps a list of all that it passes: it can tell which object is nearest, and takes several times as long.
-pub(crate) fn least_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
+pub(crate) fn min_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
     tree: &RTree<T>,
     point: Point2,
     within: f64,
