@@ -1,4 +1,4 @@
-//! LoosePiece pieces joined to outlines.
+//! Assembly of loose pieces to closed outlines.
 
 use std::collections::HashMap;
 
@@ -12,14 +12,15 @@ use super::{OutlineError, OutlineFault, TOLERANCE};
 /// The pieces of an outline, and the line of the first.
 type Loop = (Vec<Piece>, Option<usize>);
 
-/// A piece with its line in the file, where that is known.
+/// A piece with its line in the file, if that is known.
 pub(super) type LoosePiece = (Piece, Option<usize>);
 
-/// The outlines that loose pieces make, each in the order of travel, with the line of its first piece: two ends in the very same
-/// place belong together, others with the nearest within the tolerance. The pieces may stand in any order and point either way.
+/// Assembles loose pieces to outlines, in the order of travel, with the line of the first piece. The pieces may have
+/// any order and direction. Two ends at the same point are joined. Other ends are joined with the nearest within the
+/// tolerance.
 ///
 /// # Errors
-/// The place where an end is alone, or where there are more than two.
+/// The position of an end without a neighbour, or with more than one.
 pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError> {
     let nodes = Nodes::of(pieces)?;
     let mut is_used: Vec<bool> =
@@ -31,7 +32,7 @@ pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError>
         }
         let mut outline = vec![first];
         is_used[index] = true;
-        // On from the end of the last piece, until there is no piece there that is not used.
+        // Continues at the end of the last piece until no unused piece starts there.
         let mut node = nodes.ends[index][1];
         while let Some(next) = nodes.pieces[node].into_iter().flatten().find(|&piece| !is_used[piece]) {
             is_used[next] = true;
@@ -44,16 +45,16 @@ pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError>
     Ok(outlines)
 }
 
-/// Whether a piece between two nodes is so short that both are one: nothing is lost without it.
+/// True if a piece is so short that both ends are one node. It can be omitted without loss.
 fn is_dot(piece: &Piece, [start, end]: [usize; 2]) -> bool {
     start == end && piece.length() <= 2.0 * TOLERANCE
 }
 
-/// The places where ends meet.
+/// The nodes at which pieces meet.
 struct Nodes {
     /// The nodes of the start and the end of each piece.
     ends: Vec<[usize; 2]>,
-    /// The two pieces of each node; twice the same if it comes back to its own start.
+    /// The two pieces of each node; the same piece twice if it is a loop.
     pieces: Vec<[Option<usize>; 2]>,
 }
 
@@ -79,7 +80,7 @@ impl Nodes {
         Ok(nodes)
     }
 
-    /// Whether no end is alone. Of two that are, the nearest to each other are told.
+    /// Reports an end without a neighbour, together with the nearest other such end.
     fn check(&self, pieces: &[LoosePiece], places: &[Point2]) -> Result<(), OutlineError> {
         let alone = self.pieces.iter().zip(places).filter_map(|(met, &place)| match met {
             [Some(piece), None] => Some((place, *piece)),
@@ -92,13 +93,13 @@ impl Nodes {
     }
 }
 
-/// The places of ends, each once, and which of them are those of each piece.
+/// The distinct positions of ends, and the indices of those of each piece.
 fn places(pieces: &[LoosePiece]) -> (Vec<Point2>, Vec<[usize; 2]>) {
     let mut known: HashMap<[u64; 2], usize> = HashMap::new();
     let mut places = Vec::new();
     let ends = pieces.iter().map(|(piece, _)| {
         [piece.start(), piece.end()].map(|place| {
-            // -0 is 0.
+            // Negative zero equals zero.
             let bits = [place.x, place.y].map(|number| (number + 0.0).to_bits());
             *known.entry(bits).or_insert_with(|| {
                 places.push(place);
@@ -110,8 +111,8 @@ fn places(pieces: &[LoosePiece]) -> (Vec<Point2>, Vec<[usize; 2]>) {
     (places, ends)
 }
 
-/// The node of each place. Where exactly two ends meet is one by itself, however near others are; any other place goes to the
-/// nearest such within the tolerance.
+/// The node of each position. A position at which exactly two ends coincide is a node of its own, however near others
+/// are. Any other position belongs to the nearest such node within the tolerance.
 fn merged(places: &[Point2], ends: &[[usize; 2]]) -> Vec<usize> {
     let mut counts = vec![0_usize; places.len()];
     for &end in ends.as_flattened() {
@@ -181,7 +182,7 @@ mod tests {
             order in Just((0..24).collect::<Vec<usize>>()).prop_shuffle(),
             turned in prop::collection::vec(any::<bool>(), 24),
         ) {
-            // Corners 0.7 µm apart, so that each has two others within the tolerance.
+            // The corners are 0.7 µm apart, so that each has two others within the tolerance.
             let turn = std::f64::consts::TAU / 24.0;
             let radius = 0.35e-6 / (0.5 * turn).sin();
             let angles = (0_u8..24).map(|k| turn * f64::from(k));

@@ -1,14 +1,14 @@
-//! Pieces made to follow each other.
+//! Closing of chains of pieces.
 
 use crate::geometry::{JOIN_TOLERANCE, Piece, SHORTEST_PIECE};
 
 use super::{OutlineFault, TOLERANCE};
 
-/// The same pieces so that each starts where the one before it ends, and the first where the last ends: ends within the
-/// tolerance of each other are moved together, and what is too short to be a piece is left out.
+/// Returns the pieces as an exact closed chain. Ends within the tolerance of each other are moved together, and pieces
+/// that are too short are omitted.
 pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
     let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| piece.length() >= 2.0 * SHORTEST_PIECE).collect();
-    // Where each piece is to end.
+    // The required end of each piece.
     let starts = pieces.iter().cycle().skip(1).map(Piece::start);
     let mut closed = Vec::with_capacity(pieces.len());
     for (piece, end) in pieces.iter().zip(starts) {
@@ -16,7 +16,7 @@ pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
         if gap <= 0.5 * JOIN_TOLERANCE {
             closed.push(*piece);
         } else if gap <= 2.0 * TOLERANCE {
-            // Two ends that are one because both are within the tolerance of a third.
+            // Both ends belong together because both are within the tolerance of a third.
             closed.extend(piece.ending_at(end));
         } else {
             return Err(OutlineFault::Open { from: piece.end(), to: end });

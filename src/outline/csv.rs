@@ -1,4 +1,4 @@
-//! CSV: a corner a line.
+//! CSV: one corner per line.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -9,7 +9,7 @@ use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
 use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions};
 
-/// Reads a polygon: x and y in each line, with a header or without. The first corner may be repeated at the end.
+/// Reads a polygon with x and y in each line, with or without a header. The first corner may be repeated at the end.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let transform = Transform::scaled(options.unit.ok_or(OutlineFault::NoUnit)?);
     let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
@@ -54,13 +54,13 @@ fn place(record: &StringRecord) -> Option<[f64; 2]> {
     if fields.next().is_some() { None } else { Some([x.parse().ok()?, y.parse().ok()?]) }
 }
 
-/// Whether none of the fields begins like a number.
+/// True if no field begins like a number.
 fn is_header(record: &StringRecord) -> bool {
     record.len() == 2
         && record.iter().all(|field| field.starts_with(|letter: char| letter.is_alphabetic() || letter == '_'))
 }
 
-/// A record for a message, cut to a length that can be read.
+/// A record for a message, truncated to a readable length.
 fn shown(record: &StringRecord) -> String {
     let text = record.iter().collect::<Vec<_>>().join(",");
     text.chars().filter(|letter| !letter.is_control()).take(40).collect()

@@ -1,4 +1,4 @@
-//! Why a file gives no outlines.
+//! Errors of outline files.
 
 use std::fmt;
 
@@ -6,138 +6,138 @@ use crate::diagnostic::NotUtf8;
 use crate::geometry::{ContourError, Point2};
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// Why a file gives no outlines, and where in it.
+/// An error of an outline file, with its line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct OutlineError {
-    /// Why.
+    /// The error.
     pub fault: OutlineFault,
-    /// The line, from 1, where that is known.
+    /// The line, counted from 1, if it is known.
     pub line: Option<usize>,
 }
 
-/// Why a file gives no outlines. Places are in the file's frame (m), y up.
+/// The kinds of errors of outline files. Positions are in the file's frame (m), y up.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineFault {
     /// The program was built without the readers.
     #[error("this build reads no outlines from files")]
     NotBuilt,
-    /// There are no bytes.
+    /// The file is empty.
     #[error("there is nothing in it")]
     Empty,
-    /// It should be a text, and is none.
+    /// The file is not valid text.
     #[error("{0}")]
     NotUtf8(NotUtf8),
-    /// There is more in it than is taken.
+    /// The content exceeds a limit.
     #[error("there are more than {limit} {what}")]
     TooLarge {
-        /// What there is too much of.
+        /// The quantity that exceeds its limit.
         what: &'static str,
-        /// The most that is taken.
+        /// The limit.
         limit: usize,
     },
-    /// It is not of its format.
+    /// The file violates its format.
     #[error("{reason}")]
     Syntax {
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
-    /// Nobody says what 1 in it is.
+    /// The unit of length is unknown.
     #[error("it does not say what 1 in it is")]
     NoUnit,
-    /// There is nothing drawn in it.
+    /// The file contains no outline.
     #[error("there is no outline in it")]
     NoOutline,
-    /// There is no such element or layer.
+    /// The requested element or layer does not exist.
     #[error("there is no `{element}` in it")]
     NoElement {
-        /// What was asked for.
+        /// The requested name.
         element: String,
-        /// What was probably meant.
+        /// A similar existing name.
         meant: Option<String>,
     },
-    /// It has something that may change outlines, and that is not understood.
+    /// The file contains an unsupported feature that may change outlines.
     #[error("{what} is not understood")]
     Unsupported {
-        /// What it is.
+        /// The feature.
         what: String,
-        /// What can be done.
+        /// Advice to the user.
         advice: &'static str,
     },
     /// A number is not finite, or too large.
     #[error("a coordinate is more than 100 m from the origin, or no number")]
     FarOff,
-    /// A circle or an arc has no size.
+    /// The radius of a circle or an arc is not positive.
     #[error("a circle or an arc has the radius {radius}: it must be positive")]
     Radius {
-        /// Its radius, in units of the file.
+        /// The radius, in units of the file.
         radius: f64,
     },
-    /// An ellipse has no width, or one that is negative.
+    /// The axis ratio of an ellipse is not positive.
     #[error("an ellipse has the axis ratio {ratio}: it must be positive")]
     AxisRatio {
-        /// Its minor axis, divided by its major axis.
+        /// The ratio of its minor and its major axis.
         ratio: f64,
     },
     /// A polygon has too few corners.
     #[error("{count} corners make no polygon")]
     Corners {
-        /// How many it has.
+        /// The number of its corners.
         count: usize,
     },
-    /// An outline has ends.
+    /// An outline is open.
     #[error("an outline is open: {} from {} to {}", length((to - from).norm()), Place(*from), Place(*to))]
     Open {
         /// One end.
         from: Point2,
-        /// The other.
+        /// The other end.
         to: Point2,
     },
-    /// Lines meet in a place, and there is no saying which of them go on in which.
+    /// More than two lines meet at a point, so that the outline is ambiguous.
     #[error("more than two lines end at {}", Place(*at))]
     Branches {
-        /// Where.
+        /// The point.
         at: Point2,
     },
     /// An outline crosses or touches itself.
     #[error("an outline crosses or touches itself at {}", Place(*at))]
     Crosses {
-        /// Where.
+        /// The point.
         at: Point2,
     },
-    /// An outline is no contour.
+    /// An outline is not a valid contour.
     #[error("an outline cannot be: {0}")]
     Contour(ContourError),
-    /// A curve has a cusp, or a part that is flat.
+    /// A curve has a cusp or a degenerate part.
     #[error("a curve cannot be fitted by arcs to 1 µm")]
     Curve,
-    /// A mesh has a hole where the plane cuts it.
+    /// The mesh has a gap at the cutting plane.
     #[error("the mesh is not watertight: it has a hole at {}", Place(*at))]
     NotWatertight {
-        /// Where.
+        /// The position of the gap.
         at: Point2,
     },
-    /// The plane passes a mesh by. Heights are above the file's z = 0 (m).
+    /// The plane does not intersect the mesh. Heights are relative to the file's z = 0 (m).
     #[error(
         "the plane at {} passes it by: it reaches from {} to {}", length(*height), length(*lowest), length(*highest)
     )]
     Missed {
-        /// That of the plane.
+        /// The height of the plane.
         height: f64,
-        /// Where the mesh begins.
+        /// The lowest point of the mesh.
         lowest: f64,
-        /// Where it ends.
+        /// The highest point of the mesh.
         highest: f64,
     },
     /// An outline lies within another.
     #[error("an outline lies inside another{}", Other(*outer_line))]
     Hole {
-        /// The line of the outer one.
+        /// The line of the outer outline.
         outer_line: Option<usize>,
     },
 }
 
 impl OutlineFault {
-    /// What to do about it.
+    /// Advice to the user.
     #[must_use]
     pub fn advice(&self) -> String {
         match self {
@@ -168,7 +168,7 @@ impl OutlineFault {
         .to_owned()
     }
 
-    /// The same at a line.
+    /// Adds a line to the error.
     #[cfg(feature = "outlines")]
     pub(super) fn at(self, line: Option<usize>) -> OutlineError {
         OutlineError { fault: self, line }
@@ -177,7 +177,7 @@ impl OutlineFault {
 
 #[cfg(feature = "outlines")]
 impl OutlineError {
-    /// The same at a line, unless it has one.
+    /// Adds a line to the error, unless it has one.
     pub(super) fn or_at(self, line: usize) -> Self {
         Self { line: self.line.or(Some(line)), ..self }
     }

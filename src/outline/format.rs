@@ -1,8 +1,8 @@
-//! The formats of files with outlines.
+//! The formats of outline files.
 
 use std::path::Path;
 
-/// What a file with outlines is written in.
+/// The format of an outline file.
 #[derive(Copy, Clone, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Scalable Vector Graphics.
@@ -11,15 +11,15 @@ pub enum Format {
     Dxf,
     /// A polygon: a line for each corner, with x and y.
     Csv,
-    /// A mesh of triangles, as text or binary, to be cut by a plane.
+    /// A triangle mesh, as text or binary, which is cut by a plane.
     Stl,
 }
 
 impl Format {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 4] = [Self::Svg, Self::Dxf, Self::Csv, Self::Stl];
 
-    /// The format that the name of a file ends in.
+    /// Returns the format for the extension of a file name.
     ///
     /// ```
     /// use vibrissa::outline::Format;
@@ -32,7 +32,7 @@ impl Format {
         Self::ALL.into_iter().find(|format| format.ending().eq_ignore_ascii_case(ending))
     }
 
-    /// What names of such files end in, after the point.
+    /// The extension of such files, without the point.
     #[must_use]
     pub fn ending(self) -> &'static str {
         match self {

@@ -1,7 +1,7 @@
-//! OutlineList from files: SVG, DXF and CSV drawings, and STL meshes cut by a plane.
+//! Outlines from files: SVG, DXF and CSV drawings, and STL meshes cut by a plane.
 //!
-//! What is round in a file stays round: circles and arcs are arcs of a [`Contour`], other curves are fitted by arcs to a
-//! micrometre. Files come from outside: whatever is in them, they give contours or an [`OutlineError`].
+//! Circles and arcs become exact arcs of a [`Contour`]. Other curves are approximated by arcs within a micrometre.
+//! Files are untrusted input: every content gives contours or an [`OutlineError`].
 //!
 //! Only builds with the feature `outlines` can read them.
 
@@ -31,25 +31,25 @@ pub use read_options::ReadOptions;
 
 use crate::geometry::Contour;
 
-/// The most bytes that a file may have.
+/// The largest size of a file (bytes).
 pub const SIZE_LIMIT: usize = 16 << 20;
 
-/// How far apart (m) two ends may be that are meant to be one; and how far a curve may be from what it becomes.
+/// The largest distance (m) of two ends that are joined, and of an approximation from its curve.
 #[cfg(feature = "outlines")]
 const TOLERANCE: f64 = 1e-6;
 
-/// The most pieces that all outlines of a file may have together, and all objects of a scenario.
+/// The largest number of pieces of all outlines of a file, and of all objects of a scenario.
 pub const MOST_PIECES: usize = 10_000;
 
-/// The most outlines of a file.
+/// The largest number of outlines of a file.
 #[cfg(feature = "outlines")]
 const MOST_OUTLINES: usize = 256;
 
-/// The outlines in a file: closed contours, none within another. They may meet. Their frame is the file's, in metres; its y
-/// axis points up, so that an SVG, whose own points down, is mirrored.
+/// Reads the outlines of a file: closed contours, none within another. They may touch. Their frame is the file's, in
+/// metres, with the y axis up. The y axis of an SVG points down, so its content is mirrored.
 ///
 /// # Errors
-/// [`OutlineError`], with the line where that is known.
+/// [`OutlineError`], with the line if it is known.
 #[cfg(feature = "outlines")]
 pub fn read(bytes: &[u8], format: Format, options: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineError> {
     if bytes.len() > SIZE_LIMIT {
@@ -68,10 +68,10 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions<'_>) -> Result<V
     Ok(outlines.into_iter().map(|outline| outline.contour).collect())
 }
 
-/// The outlines in a file.
+/// Reads the outlines of a file.
 ///
 /// # Errors
-/// Always: reading them needs the feature `outlines`.
+/// Always, because the readers require the feature `outlines`.
 #[cfg(not(feature = "outlines"))]
 pub fn read(_: &[u8], _: Format, _: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineError> {
     Err(OutlineFault::NotBuilt.into())

@@ -1,17 +1,17 @@
-//! An outline that was found.
+//! The outlines of a file.
 
 use crate::geometry::{Contour, ContourError, Piece};
 
 use super::chain::close;
 use super::{MOST_OUTLINES, MOST_PIECES, OutlineError, OutlineFault};
 
-/// An outline, and the line of the file that it begins in, where that is known.
+/// An outline with the line of its beginning in the file, if that is known.
 pub(super) struct Outline {
     pub(super) contour: Contour,
     pub(super) line: Option<usize>,
 }
 
-/// The outlines that have been found so far.
+/// The outlines that have been read so far.
 #[derive(Default)]
 pub(super) struct OutlineList {
     outlines: Vec<Outline>,
@@ -19,7 +19,7 @@ pub(super) struct OutlineList {
 }
 
 impl OutlineList {
-    /// Adds the outline that `pieces` are, one behind the other, closed by at most a tolerance.
+    /// Adds the outline of consecutive `pieces`. Gaps within the tolerance are closed.
     pub(super) fn add(&mut self, pieces: Vec<Piece>, line: Option<usize>) -> Result<(), OutlineError> {
         self.pieces += pieces.len();
         if self.pieces > MOST_PIECES {
@@ -33,7 +33,7 @@ impl OutlineList {
         Ok(())
     }
 
-    /// All of them, at least one.
+    /// Returns all outlines, at least one.
     pub(super) fn into_outlines(self) -> Result<Vec<Outline>, OutlineError> {
         if self.outlines.is_empty() { Err(OutlineFault::NoOutline.into()) } else { Ok(self.outlines) }
     }
@@ -48,7 +48,7 @@ fn fault(error: ContourError) -> OutlineFault {
     }
 }
 
-/// Whether none of the outlines lies inside another, where it may be meant for a hole; the first that does is told.
+/// Reports the first outline that lies inside of another, because it may be meant as a hole.
 pub(super) fn check_nesting(outlines: &[Outline]) -> Result<(), OutlineError> {
     for (index, second) in outlines.iter().enumerate() {
         for first in &outlines[..index] {

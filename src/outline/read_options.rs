@@ -1,13 +1,12 @@
-//! What is wanted of a file.
+//! The options of a reader.
 
-/// What is wanted of a file, and what it may not say by itself.
+/// The options of a reader. They include properties that a file may lack.
 #[derive(Copy, Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions<'r> {
-    /// What 1 in the file is (m); `None` if the file says it.
+    /// The length of a file unit (m). `None` if the file states it.
     pub unit: Option<f64>,
-    /// The `id` of an element of an SVG, or the name of a layer of a DXF: what is in it alone. `None` for all that is in the
-    /// file.
+    /// The `id` of an SVG element or the name of a DXF layer, if only its content is read. `None` for the whole file.
     pub element: Option<&'r str>,
-    /// How far (m) above the z = 0 of an STL the plane lies that cuts it.
+    /// The height (m) of the cutting plane above the z = 0 of an STL.
     pub height: f64,
 }

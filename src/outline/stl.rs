@@ -1,4 +1,4 @@
-//! STL: the outlines in which a plane cuts a mesh.
+//! STL: the outlines of a mesh in a cutting plane.
 
 use std::io::{Cursor, ErrorKind};
 
@@ -11,14 +11,14 @@ use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
 use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
 
-/// How many bytes stand before the triangles of a binary file, and how many a triangle has.
+/// The number of bytes before the triangles of a binary file, and of a triangle.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// The most sides that triangles may leave in the plane, before those in a line become one.
+/// The largest number of triangle sides in the plane, before collinear ones are merged.
 const MOST_SIDES: usize = 2 * MOST_PIECES;
 
-/// Reads the outlines in a plane of one height.
+/// Reads the outlines in the plane of one height.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let unit = options.unit.ok_or(OutlineFault::NoUnit)?;
     let mut sides: Vec<LoosePiece> = Vec::new();
@@ -57,8 +57,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     outlines.into_outlines()
 }
 
-/// The bytes as the reader knows the two kinds of file apart: by `solid ` at the beginning. A text may do without the blank,
-/// and a binary file may begin so too; its length tells.
+/// Returns the bytes in a form in which the reader recognises the file type, by `solid ` at the beginning. A text file
+/// may lack the blank, and a binary file may begin in this way too. The length of the file decides.
 fn prepared(bytes: &[u8]) -> Vec<u8> {
     let count = bytes.first_chunk::<HEADER>().map(|&[.., a, b, c, d]| u32::from_le_bytes([a, b, c, d]));
     let length = count.and_then(|count| usize::try_from(count).ok()?.checked_mul(TRIANGLE)?.checked_add(HEADER));
@@ -79,7 +79,7 @@ struct Cut {
     height: f64,
 }
 
-/// A corner of a triangle: its place in the plane's coordinates, and how far (m) it is above the plane.
+/// A corner of a triangle: its position in the plane's coordinates, and its height above the plane (m).
 struct Corner {
     place: Point2,
     above: f64,
@@ -93,25 +93,25 @@ impl Cut {
     }
 }
 
-/// The straight line in which a triangle meets the plane, if it does. What lies in the plane counts as above it, so that it is
-/// told by all triangles alike, and a mesh without holes has no open outline.
+/// The intersection of a triangle with the plane. A corner in the plane counts as above it, for all triangles alike, so
+/// that a mesh without gaps has no open outline.
 fn side(corners: &[Corner; 3]) -> Option<Piece> {
     let mut crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter_map(|(from, to)| {
         let (from, to) = (&corners[from], &corners[to]);
-        // From below, so that both triangles at an edge find the very same point.
+        // Computed from below, so that both triangles at an edge give the same point.
         let (low, high) = if from.above < 0.0 { (from, to) } else { (to, from) };
         let crosses = low.above < 0.0 && high.above >= 0.0;
         crosses.then(|| low.place + (high.place - low.place) * (low.above / (low.above - high.above)))
     });
     let (start, end) = (crossings.next()?, crossings.next()?);
-    // A triangle that only touches the plane, with a corner.
+    // The triangle touches the plane with a corner only.
     (start != end).then(|| Piece::segment(start, end))
 }
 
-/// The corners of a closed outline without those that lie in a line with others, to the tolerance.
+/// The corners of a closed outline without those that are collinear within the tolerance.
 fn straightened(sides: &[Piece]) -> Vec<Piece> {
     let corners: Vec<Point2> = sides.iter().map(Piece::start).collect();
-    // The leftmost, of these the lowest, is a corner whatever lies beside it.
+    // The leftmost corner, and of these the lowest, is never collinear with its neighbours.
     let first = (0..corners.len()).min_by(|&a, &b| {
         let key = |index: usize| [corners[index].x, corners[index].y];
         key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal)
@@ -129,7 +129,7 @@ fn straightened(sides: &[Piece]) -> Vec<Piece> {
     kept
 }
 
-/// Whether places go straight ahead from the first to the last.
+/// True if the points lie on a line in ascending order.
 fn is_straight(places: &[Point2]) -> bool {
     let [first, between @ .., last] = places else { return true };
     let Some(along) = (last - first).try_normalize(TOLERANCE) else { return false };

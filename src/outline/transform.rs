@@ -1,28 +1,28 @@
-//! The plane of a drawing.
+//! Coordinate transforms of a drawing.
 
 use crate::geometry::{Point2, Vector2};
 
 use super::OutlineFault;
 
-/// The farthest (m) that a coordinate may be from the origin: as far as scenarios reach.
+/// The largest coordinate (m), equal to the limit of scenarios.
 const REACH: f64 = 100.0;
 
-/// A linear map of a file's coordinates to metres, y up.
+/// An affine map of a file's coordinates to metres, y up.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub(super) struct Transform {
-    /// Where the file's own axes and origin come to lie (m).
+    /// The images of the file's axes and of its origin (m).
     pub(super) x_axis: Vector2,
     pub(super) y_axis: Vector2,
     pub(super) origin: Vector2,
 }
 
 impl Transform {
-    /// With 1 in the file so long (m).
+    /// Creates a scaling with this unit length (m).
     pub(super) fn scaled(unit: f64) -> Self {
         Self { x_axis: Vector2::new(unit, 0.0), y_axis: Vector2::new(0.0, unit), origin: Vector2::zeros() }
     }
 
-    /// The map of coordinates whose axes and origin are given in this plane's own coordinates.
+    /// Composes this transform with an inner one, which is given by the images of its axes and of its origin.
     pub(super) fn inner(&self, x_axis: [f64; 2], y_axis: [f64; 2], origin: [f64; 2]) -> Self {
         Self {
             x_axis: self.direction(x_axis),

@@ -1,11 +1,11 @@
-//! What all objects of a scenario may have together.
+//! Limits for all objects of a scenario together.
 
 use crate::outline::{MOST_PIECES, SIZE_LIMIT};
 
-/// The most bytes of all files that a scenario has outlines from.
+/// The largest total size of a scenario's outline files (bytes).
 const MOST_BYTES: usize = 4 * SIZE_LIMIT;
 
-/// What the objects of a scenario have so far.
+/// The resources of a scenario's objects so far.
 #[derive(Debug, Default)]
 pub(super) struct Budget {
     pieces: usize,
@@ -14,7 +14,8 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// Counts pieces that are to be made. An error if they are too many, with how many that makes if it is the first one.
+    /// Counts pieces before they are created. Returns an error if there are too many. The first error contains the
+    /// total.
     pub(super) fn make(&mut self, pieces: usize) -> Result<(), Option<usize>> {
         if self.is_exceeded {
             return Err(None);
@@ -29,7 +30,7 @@ impl Budget {
         self.bytes = self.bytes.saturating_add(bytes);
     }
 
-    /// Whether another file may be read.
+    /// Returns an error if no further file may be read.
     pub(super) fn check_files(&self) -> Result<(), String> {
         if self.is_exceeded {
             return Err("there are too many lines and arcs already".to_owned());

@@ -1,11 +1,11 @@
-//! The file of a calibration.
+//! The calibration file.
 
 use std::fmt::Write;
 
 use serde::Deserialize;
 use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, UnsoundCalibration};
 
-/// The format that is written and read.
+/// The supported format version.
 const FORMAT: u32 = 2;
 
 /// The keys of a file.
@@ -20,26 +20,26 @@ struct Document {
     recursive: Option<AngleSurface>,
 }
 
-/// The key that files of all formats have.
+/// The key that all format versions have.
 #[derive(Deserialize)]
 struct Heading {
     #[serde(rename = "vibrissa_calibration")]
     format: u32,
 }
 
-/// Why a calibration cannot be read.
+/// The reason why a calibration cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CalibrationError {
-    /// The text is no calibration.
+    /// The text is not a calibration.
     #[error("it is no calibration: {0}")]
     Syntax(String),
-    /// It is in another format.
+    /// The format version is not supported.
     #[error("it is in format {found}, this program reads format {FORMAT}; calibrate with this program")]
     Format {
-        /// The format it is in.
+        /// The format version of the file.
         found: u32,
     },
-    /// A value cannot be used.
+    /// A value is invalid.
     #[error(transparent)]
     Value(#[from] UnsoundCalibration),
 }
@@ -47,11 +47,11 @@ pub enum CalibrationError {
 /// Reads a calibration from the text of its file.
 ///
 /// # Errors
-/// [`CalibrationError`] if the text cannot be read, or a value cannot be used.
+/// [`CalibrationError`] if the text cannot be read, or if a value is invalid.
 pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
     let read: Document = match serde_yaml::from_str(text) {
         Ok(read) => read,
-        // Another format may have keys that are unknown here.
+        // Another format version may have unknown keys.
         Err(error) => match serde_yaml::from_str(text) {
             Ok(Heading { format: found }) if found != FORMAT => return Err(CalibrationError::Format { found }),
             _ => return Err(CalibrationError::Syntax(error.to_string())),
@@ -66,14 +66,14 @@ pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
     Ok(calibration)
 }
 
-/// The text of the file of a calibration.
+/// Returns the text of a calibration file.
 #[must_use]
 pub fn write_calibration(calibration: &Calibration) -> String {
     let mut text = format!(
         "# A whisker's calibration, in metres, radians and newtons; a rig loads it by `calibration: FILE`.\n\
          vibrissa_calibration: {}\nabout: {}\n",
         FORMAT,
-        // What is in quotes in JSON is so in YAML.
+        // Quoted JSON text is valid YAML.
         serde_json::Value::from(calibration.about.as_str())
     );
     // Writing to a string cannot fail.

@@ -1,4 +1,4 @@
-//! Values that a sweep gives to keys of a scenario.
+//! Changes of a scenario by a sweep.
 
 use super::node::{Entry, Node, Placed};
 use super::reader::{Reader, written};
@@ -15,17 +15,17 @@ pub(crate) struct Change {
 }
 
 impl Change {
-    /// `value` for the key at the end of `path`, the keys on the way to it with points between.
+    /// Creates a change of the key at the end of `path` to `value`. The path consists of keys separated by points.
     pub(crate) fn new(path: Placed<String>, value: Placed<Node>) -> Self {
         Self { path, value }
     }
 
-    /// The value, always written the same way.
+    /// The value in canonical notation.
     pub(crate) fn text(&self) -> String {
         flow(&self.value.value)
     }
 
-    /// Puts the value into the tree of a scenario; all places of the change are `offset` bytes farther on there.
+    /// Inserts the value into the tree of a scenario. Spans of the change are moved by `offset` bytes.
     fn apply(&self, reader: &mut Reader<'_>, tree: &mut Placed<Node>, offset: usize) {
         let start = self.path.span.start + offset;
         let (mut node, mut behind) = (tree, 0);
@@ -53,8 +53,7 @@ impl Change {
     }
 }
 
-/// Reads the scenario `source` with changes that `sweep` makes. Faults come with the source that they are in, which has both
-/// texts.
+/// Reads the scenario `source` with the changes of a `sweep`. The source of the diagnostics contains both texts.
 pub(crate) fn read(
     source: &Source,
     sweep: &Source,
@@ -78,7 +77,7 @@ pub(crate) fn read(
     scene.map_err(|faults| (Box::new(both), faults))
 }
 
-/// A value on one line.
+/// Writes a value on one line.
 fn flow(node: &Node) -> String {
     match node {
         Node::List(items) => {
@@ -93,7 +92,7 @@ fn flow(node: &Node) -> String {
     }
 }
 
-/// A text in quotes, if it could be taken for something else than one word.
+/// Returns a text in quotes, if YAML would not read it as one word.
 pub(crate) fn quoted(text: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || " ._-+/^%".contains(letter);
     if text.chars().all(is_plain) { text.to_owned() } else { format!("{text:?}") }

@@ -1,4 +1,4 @@
-//! `expect`: what must hold at the end of a run.
+//! Reader of `expect`.
 
 use super::fields::Fields;
 use super::key::Key;
@@ -6,10 +6,10 @@ use super::node::Entry;
 use super::reader::Reader;
 use crate::scene::{Expectation, Metric, Outcome};
 
-/// What a scenario expects that does not say: that its runs complete.
+/// The expectation of a scenario without `expect`: its runs complete.
 pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
 
-/// The most collisions that can be allowed.
+/// The largest permitted bound of collisions.
 const MOST_COLLISIONS: u32 = 1_000_000;
 
 /// Reads `expect`.

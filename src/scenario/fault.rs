@@ -1,66 +1,67 @@
-//! What the YAML parser refuses, as diagnostics; and the codes of all faults of scenarios and sweeps.
+//! Diagnostics for errors of the YAML parser, and the codes of all diagnostics of scenarios and sweeps.
 
 use super::node::{Node, Placed, span_of};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use serde_yaml::options::{DuplicateKeyPolicy, NonFiniteFloatPolicy};
 use serde_yaml::{Error, Location, MessageFormatter, UserMessageFormatter};
 
-/// The text is no YAML.
+/// The text is not YAML.
 pub(crate) const SYNTAX: &str = "S0001";
-/// There is nothing in the text.
+/// The text is empty.
 pub(crate) const EMPTY: &str = "S0002";
-/// A key stands twice in a mapping.
+/// A key occurs twice in a mapping.
 pub(crate) const DUPLICATE_KEY: &str = "S0003";
-/// The text holds several documents.
+/// The text contains several documents.
 pub(crate) const DOCUMENTS: &str = "S0004";
 /// The text is too large, or its aliases make it so.
 pub(crate) const TOO_LARGE: &str = "S0005";
-/// A key that the format does not know.
+/// A key is unknown.
 pub(crate) const UNKNOWN_KEY: &str = "S0101";
 /// A key is missing.
 pub(crate) const MISSING_KEY: &str = "S0102";
-/// A value is of the wrong type.
+/// A value has the wrong type.
 pub(crate) const TYPE: &str = "S0103";
-/// A word that is none of the possible ones.
+/// A word is none of the possible ones.
 pub(crate) const CHOICE: &str = "S0104";
 /// A number has no unit.
 pub(crate) const BARE_NUMBER: &str = "S0201";
-/// A text is no number with a unit.
+/// A text is not a number with a unit.
 pub(crate) const QUANTITY: &str = "S0202";
-/// A unit that does not exist.
+/// A unit does not exist.
 pub(crate) const UNIT: &str = "S0203";
-/// A unit measures something else than is due.
+/// A unit has the wrong dimension.
 pub(crate) const DIMENSION: &str = "S0204";
-/// A number is out of its range.
+/// A number is out of range.
 pub(crate) const RANGE: &str = "S0301";
-/// A shape that cannot be.
+/// A shape is impossible.
 pub(crate) const SHAPE: &str = "S0302";
-/// Rates and times do not go together.
+/// Rates and times are inconsistent.
 pub(crate) const TIMING: &str = "S0303";
-/// The rig starts in the object.
+/// The rig overlaps an object at the start.
 pub(crate) const OVERLAP: &str = "S0304";
-/// A name that is not fit to be one.
+/// A name is invalid.
 pub(crate) const NAME: &str = "S0305";
-/// The rig does not hang together.
+/// The rig is inconsistent.
 pub(crate) const RIG: &str = "S0306";
 /// A file cannot be read.
 pub(crate) const FILE: &str = "S0401";
-/// What a file holds is no outline.
+/// A file contains no outline.
 pub(crate) const OUTLINE: &str = "S0402";
-/// This build cannot read what a file holds.
+/// This build has no reader for a file.
 pub(crate) const NOT_BUILT: &str = "S0403";
-/// A sweep would do the same run twice.
+/// A sweep would execute a run twice.
 pub(crate) const REPEATED: &str = "S0501";
-/// A policy does not take what a sweep gives it.
+/// A policy does not accept a value of a sweep.
 pub(crate) const UNFIT: &str = "S0502";
-/// What a sweep varies is settled by something else in it.
+/// A sweep varies a key that another of its keys determines.
 pub(crate) const ENTANGLED: &str = "S0503";
 
-/// A scenario has a few dozen nodes; one that traces a shape has some thousands.
+/// The largest number of nodes. A scenario has a few dozen nodes, and one with traced shapes has some thousands.
 const MAX_NODES: usize = 50_000;
 const MAX_BYTES: usize = 1 << 20;
 
-/// Parses a text, which is a `what`, into its tree. With a duplicate key the tree holds its first value, and comes with the fault.
+/// Parses a text into its tree. `what` describes the text in messages. If a key occurs twice, the tree contains its
+/// first value, and the result includes the diagnostic.
 pub(crate) fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
     if source.text.len() > MAX_BYTES {
         let message = format!("the {what} is larger than 1 MiB");
@@ -125,7 +126,7 @@ fn diagnose(source: &Source, what: &str, error: &Error) -> Diagnostic {
     }
 }
 
-/// The place of a parser's location, which may know only line and column.
+/// The span of a parser's location, which may contain only line and column.
 fn place(source: &Source, location: Location) -> Span {
     if location.span().byte_offset().is_some() {
         return span_of(location);

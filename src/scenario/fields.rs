@@ -7,13 +7,13 @@ use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use vibrissa_runtime::units::suggest;
 
-/// The keys of one mapping while it is read. Asking for a key makes it known; [`finish`](Self::finish) reports the keys
-/// that nobody asked for and those that somebody needs and that are not there.
+/// The keys of a mapping while it is read. A request for a key makes it known. [`finish`](Self::finish) reports unknown
+/// keys, and required keys that are missing.
 #[must_use = "unknown and missing keys are reported by `finish`"]
 pub(crate) struct Fields<'n> {
-    /// What the mapping describes, with its article.
+    /// A description of the mapping, with its article.
     what: &'static str,
-    /// Where the mapping as a whole is pointed at.
+    /// The span that represents the whole mapping.
     place: Span,
     entries: &'n [Entry],
     known: Vec<&'static str>,
@@ -21,7 +21,7 @@ pub(crate) struct Fields<'n> {
 }
 
 impl<'n> Fields<'n> {
-    /// The keys of `node`, which describes `what` (with its article) and belongs to the key at `place`.
+    /// The keys of `node`, which belongs to the key at `place`. `what` describes it, with its article.
     pub(crate) fn of(reader: &mut Reader<'_>, node: &'n Placed<Node>, what: &'static str, place: Span) -> Option<Self> {
         let Node::Mapping(entries) = &node.value else {
             let hint = format!("{what} is written as keys with values, `key: value`, indented below its own key");
@@ -31,13 +31,13 @@ impl<'n> Fields<'n> {
         Some(Self { what, place, entries, known: Vec::new(), missing: Vec::new() })
     }
 
-    /// The entry of a key, if it is there.
+    /// The entry of a key, if it exists.
     pub(crate) fn entry(&mut self, name: &'static str) -> Option<&'n Entry> {
         self.known.push(name);
         self.entries.iter().find(|entry| entry.key.value == name)
     }
 
-    /// The entry of a key that must be there; `example` shows a value of it.
+    /// The entry of a required key. `example` is a possible value.
     pub(crate) fn required(&mut self, name: &'static str, example: &str) -> Option<&'n Entry> {
         let entry = self.entry(name);
         if entry.is_none() {
@@ -46,13 +46,13 @@ impl<'n> Fields<'n> {
         entry
     }
 
-    /// The number of a key that must be there.
+    /// The number of a required key.
     pub(crate) fn number(&mut self, reader: &mut Reader<'_>, key: &Key) -> Option<Placed<f64>> {
         let entry = self.required(key.name, key.example)?;
         reader.number(&entry.value, key)
     }
 
-    /// The number of a key that may be left out: puts it into `target`, and gives its place.
+    /// Writes the number of an optional key into `target`, and returns its span.
     pub(crate) fn set(&mut self, reader: &mut Reader<'_>, key: &Key, target: &mut f64) -> Option<Span> {
         let entry = self.entry(key.name)?;
         let number = reader.number(&entry.value, key)?;
@@ -72,7 +72,8 @@ impl<'n> Fields<'n> {
             let mut diagnostic = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, "unknown key");
             if let Some(meant) = suggest(&key.value, absent.iter().copied()) {
                 diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
-                // Telling that the misspelt key is missing as well would be the same fault twice.
+                // A misspelt key is not reported as missing, because the diagnostic of the unknown key already suggests
+                // it.
                 self.missing.retain(|(name, _)| *name != meant);
             }
             reader.report(diagnostic.hint(format!("the keys are {}", list(&self.known, "and"))));
@@ -86,7 +87,7 @@ impl<'n> Fields<'n> {
     }
 }
 
-/// Words in backticks as a list in a sentence.
+/// Lists words in backticks for a sentence.
 pub(crate) fn list(words: &[impl AsRef<str>], conjunction: &str) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
     match quoted.split_last() {

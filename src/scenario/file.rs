@@ -8,7 +8,7 @@ use super::reader::Reader;
 use crate::diagnostic::Diagnostic;
 use crate::scene::FileReference;
 
-/// Reads a path, relative to the text that it stands in. Its last part without the ending is the file's name.
+/// Reads a path, relative to the referring text. The name of the file is its last component without the extension.
 pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<FileReference> {
     let path = reader.text(node)?;
     let Some(name) = Path::new(&path.value).file_stem().and_then(|name| name.to_str()) else {
@@ -23,7 +23,7 @@ pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<
     Some(FileReference { name: name.to_owned(), path: path.value.into(), span: path.span })
 }
 
-/// A file that cannot be read, as an error at the place that names it.
+/// The diagnostic for a file that cannot be read, at the reference to it.
 #[must_use]
 pub fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
     let message = format!("cannot read `{}`", file.path.display());

@@ -1,17 +1,18 @@
-//! A key whose value is a number.
+//! Keys with a numeric value.
 
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// A key whose value is a number: its name, what it measures, and the range in which a value makes sense.
+/// A key with a numeric value: its name, dimension and range.
 ///
-/// The ranges are wide. They refuse what is impossible (a negative radius) and what can only be a slip (a whisker of 100 m).
+/// The ranges are wide. They exclude impossible values, such as a negative radius, and obvious mistakes, such as a
+/// whisker of 100 m.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Key {
     pub(crate) name: &'static str,
     pub(crate) dimension: Dimension,
-    /// The least and the greatest value, in SI units.
+    /// The smallest and the largest value, in SI units.
     pub(crate) range: (f64, f64),
-    /// A value to show to somebody who needs one.
+    /// An example for messages.
     pub(crate) example: &'static str,
 }
 
@@ -25,7 +26,7 @@ impl Key {
         Self { name, dimension, range, example }
     }
 
-    /// The range in words.
+    /// The range as text.
     pub(crate) fn range_text(&self) -> String {
         let (least, greatest) = self.range;
         let text = |value| match self.example.strip_suffix('%') {

@@ -1,7 +1,7 @@
-//! The YAML format of a scenario: from text to a checked [`Scene`].
+//! The YAML format of scenarios: from text to a validated [`Scene`].
 //!
-//! The parser gives a tree in which every node knows its place; reading walks the tree, and puts what is wrong on a list
-//! instead of stopping at it. Checks that take several values together come last and run on what could be read.
+//! The parser returns a tree in which every node has its span. The readers traverse the tree and collect diagnostics
+//! instead of stopping at the first. Checks of several values come last, and use all values that could be read.
 
 mod budget;
 mod calibration;
@@ -41,15 +41,15 @@ pub(crate) use scene::{name, root_place};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::scene::Scene;
 
-/// Gives the bytes of a file by its path, which is relative to the scenario's, or says why it cannot. It need not read more of
-/// one than tells that there are more than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT).
+/// Returns the bytes of a file for a path relative to the scenario, or the reason why it cannot be read. One byte more
+/// than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT) suffices.
 pub type Files<'f> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'f;
 
-/// Reads a scenario that needs no other file.
+/// Reads a scenario that refers to no other file.
 ///
 /// # Errors
-/// Everything that is wrong with it, up to [`FAULT_LIMIT`](crate::diagnostic::FAULT_LIMIT), in the order of the text:
-/// at least one diagnostic, all of them errors. A text that is no YAML is reported alone.
+/// All diagnostics up to [`FAULT_LIMIT`](crate::diagnostic::FAULT_LIMIT), in the order of the text. There is at least
+/// one, and all are errors. If the text is not YAML, that is the only one.
 ///
 /// ```
 /// use vibrissa::diagnostic::Source;
@@ -67,10 +67,10 @@ pub fn read(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     read_with(source, &mut |_| Err("there are no files beside this text".to_owned()))
 }
 
-/// Reads a scenario, and the outlines that it refers to from `files`.
+/// Reads a scenario, with the outlines from `files` to which it refers.
 ///
 /// # Errors
-/// As [`read`].
+/// As for [`read`].
 pub fn read_with(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
     scene::read(source, files)
 }

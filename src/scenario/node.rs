@@ -1,12 +1,11 @@
-//! The tree of a YAML text, every node with its place.
+//! The tree of a YAML text with spans.
 
 use crate::diagnostic::Span;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_yaml::{Location, Spanned};
 use std::fmt;
 
-/// A value with its place in the text. Of a list or mapping it is the place of its beginning; of an alias, the place where
-/// it is used.
+/// A value with its span. For a list or a mapping the span is at its beginning, for an alias at its use.
 #[derive(Debug, Clone)]
 pub(crate) struct Placed<T> {
     pub(crate) value: T,
@@ -33,7 +32,7 @@ pub(crate) struct Entry {
 }
 
 impl Node {
-    /// What it is, with its article.
+    /// The type of the value, with its article.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::Null => "nothing",
@@ -47,7 +46,7 @@ impl Node {
 }
 
 impl Placed<Node> {
-    /// The same with all places `by` bytes farther on.
+    /// Moves all spans by `by` bytes.
     pub(crate) fn moved(mut self, by: usize) -> Self {
         self.move_on(by);
         self
@@ -68,7 +67,7 @@ impl Placed<Node> {
     }
 }
 
-/// The bytes of a parser's location; empty at the start of the text if it does not know them.
+/// The span of a parser's location, empty at the start of the text if it is unknown.
 pub(crate) fn span_of(location: Location) -> Span {
     let byte = |index: Option<u64>| index.and_then(|index| usize::try_from(index).ok()).unwrap_or(0);
     let start = byte(location.span().byte_offset());

@@ -1,4 +1,4 @@
-//! Reading numbers with their units.
+//! Reading of numbers with units.
 
 use super::fault;
 use super::fields::list;
@@ -10,7 +10,7 @@ use crate::geometry::Point2;
 use vibrissa_runtime::units::{Dimension, Quantity, QuantityError, UnitError, parse_quantity, unit_hint, units_of};
 
 impl Reader<'_> {
-    /// A number in the dimension and range of its key, in SI units.
+    /// Reads a number with the dimension and the range of its key, in SI units.
     pub(super) fn number(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<f64>> {
         let span = self.extent(node);
         let quantity = match &node.value {
@@ -45,7 +45,7 @@ impl Reader<'_> {
         Some(Placed { value: quantity.value_si, span })
     }
 
-    /// A point: two numbers, each in the dimension and range of the key.
+    /// Reads a point: two numbers with the dimension and the range of the key.
     pub(super) fn point(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<Point2>> {
         let span = self.extent(node);
         match &node.value {
@@ -84,7 +84,8 @@ impl Reader<'_> {
             QuantityError::Number { .. } => {
                 let message = format!("`{}` is {}, found `{text}`", key.name, key.dimension.phrase());
                 let label = match text {
-                    // The parser's spelling of what is no finite number, whatever the scenario's is.
+                    // The parser's notation of numbers that are not finite, independent of the notation in the
+                    // scenario.
                     ".nan" | ".inf" | "-.inf" => "must be finite",
                     _ if key.dimension == Dimension::NUMBER => "must be a number",
                     _ => "must be a number with its unit",
@@ -99,7 +100,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The place of an error within a scalar, if the scalar stands in the source letter for letter; else the whole scalar.
+    /// The span of an error within a scalar, if the source contains the scalar verbatim. Otherwise the span of the
+    /// whole scalar.
     fn within(&self, node: &Placed<Node>, text: &str, error: &QuantityError) -> Span {
         let written = self.source().slice(node.span);
         let quote = usize::from(written.starts_with(['"', '\'']));

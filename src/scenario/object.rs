@@ -1,4 +1,4 @@
-//! `objects`: the shapes of what is there.
+//! Reader of the shapes in `objects`.
 
 use super::fields::Fields;
 use super::key::Key;
@@ -24,15 +24,15 @@ const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 10
 const KINDS: [&str; 9] =
     ["circle", "rectangle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "outline", "tunnel"];
 
-/// What one object is.
+/// The geometry of an object.
 pub(super) enum Object {
-    /// The inside of an outline.
+    /// The interior of an outline.
     Plain(Contour),
     /// Two walls.
     Tunnel(Box<Tunnel>),
 }
 
-/// What `objects` looks like.
+/// An example of `objects`.
 pub(super) const EXAMPLE: &str = "[{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]";
 
 /// Reads `objects`.
@@ -46,7 +46,7 @@ pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Pla
     Some(objects.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
-/// Reads an object, or several that are in one file. They come with the place of the key of their kind.
+/// Reads an object, or all objects of a file, with the span of the key of their kind.
 fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Object>>> {
     let example = "circle: {centre: [40 cm, 40 cm], radius: 30 cm}";
     let (kind, entry) = reader.variant(item, "an object", &KINDS, example)?;
@@ -167,14 +167,15 @@ pub(super) fn centre(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> Option
     Some(reader.point(&entry.value, &CENTRE)?.value)
 }
 
-/// The heading of an object, 0 if it is left out.
+/// Reads the heading of an object, 0 by default.
 fn heading(reader: &mut Reader<'_>, fields: &mut Fields<'_>) -> f64 {
     let mut heading = 0.0;
     fields.set(reader, &HEADING, &mut heading);
     heading
 }
 
-/// The contour, or the report of why there is none. `pieces` are the places of its pieces, where they have one each.
+/// Returns the contour, or reports why it does not exist. `pieces` are the spans of its pieces, if they have individual
+/// ones.
 pub(super) fn made(
     reader: &mut Reader<'_>,
     shape: Result<Contour, ShapeError>,

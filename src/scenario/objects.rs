@@ -1,4 +1,4 @@
-//! The objects of a scenario together: solid, apart from each other, clear of the rig.
+//! The solids of all objects of a scenario, and their validation: separate from each other and clear of the rig.
 
 use super::fault;
 use super::node::Placed;
@@ -12,12 +12,12 @@ use crate::solid::{Solid, SolidError};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// The most parts of all solids together: MuJoCo takes some 70 µs to build each.
+/// The largest total number of parts of all solids. MuJoCo needs some 70 µs to build each.
 const MOST_PARTS: usize = 8192;
-/// The most that the squares of the corners of all parts may be together: those of eight of the largest prisms.
+/// The largest sum of squared corner counts of all parts, equal to that of eight of the largest prisms.
 const MOST_CORNERS: usize = 8 * 2048 * 2048;
 
-/// The solids of a scenario with the places of their objects, none overlapping another; and what there is to be traced.
+/// The solids of a scenario with the spans of their objects, and the reference. No solid overlaps another.
 pub(super) struct Objects {
     solids: Vec<Placed<Solid>>,
     reference: Vec<Contour>,
@@ -25,7 +25,7 @@ pub(super) struct Objects {
 }
 
 impl Objects {
-    /// The solids that `objects` are. Plain objects that meet are one, in the place of the first of them.
+    /// Creates the solids of `objects`. Plain objects that touch become one solid with the span of the first.
     pub(super) fn of(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Self> {
         let mut all = Self { solids: Vec::new(), reference: Vec::new(), axes: Vec::new() };
         let mut walls = Vec::new();
@@ -55,7 +55,7 @@ impl Objects {
         all.walls_are_apart(reader, &walls).then_some(all)
     }
 
-    /// What runs are measured against; `None` if there is no object.
+    /// The exact geometry for scores. `None` without objects.
     pub(super) fn truth(&self) -> Option<Truth> {
         let outlines = self.solids.iter().map(|solid| solid.value.outline().clone());
         Some(Truth {
@@ -69,7 +69,7 @@ impl Objects {
         self.solids.into_iter().map(|solid| solid.value).collect()
     }
 
-    /// Reports a rig that starts in an object.
+    /// Reports a rig that overlaps an object at the start.
     pub(super) fn check_clearance(&self, reader: &mut Reader<'_>, rig: &Rig, start: &Placed<Pose>) {
         for Placed { value: solid, span } in &self.solids {
             let part = match overlap(rig, &start.value, solid.outline()) {
@@ -87,7 +87,7 @@ impl Objects {
         }
     }
 
-    /// Whether no wall of a tunnel overlaps another solid; the first that does is reported.
+    /// Checks that no wall of a tunnel overlaps another solid, and reports the first overlap.
     fn walls_are_apart(&self, reader: &mut Reader<'_>, walls: &[usize]) -> bool {
         let mut pairs = walls.iter().flat_map(|&wall| {
             let others = self.solids.iter().enumerate().filter(move |&(index, _)| index != wall);
@@ -103,16 +103,16 @@ impl Objects {
     }
 }
 
-/// What it takes to build all solids in MuJoCo.
+/// The work for building all solids in MuJoCo.
 #[derive(Default)]
 struct Work {
     parts: usize,
-    /// The sum of the squares of the corners of all parts: what building a part takes grows with that.
+    /// The sum of squared corner counts. The time for building a part is proportional to it.
     corners: usize,
 }
 
 impl Work {
-    /// Adds a solid. What is too much is reported.
+    /// Adds a solid. Reports a total above the limit.
     fn add(&mut self, reader: &mut Reader<'_>, solid: &Solid, place: Span) -> Option<()> {
         self.parts += solid.parts().len();
         self.corners += solid.parts().iter().map(|part| part.corners().pow(2)).sum::<usize>();
@@ -133,7 +133,7 @@ impl Work {
     }
 }
 
-/// The objects, plain ones that meet as one.
+/// Unites plain objects that touch.
 fn united(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Vec<Placed<Object>>> {
     let (mut outlines, mut spans) = (Vec::new(), Vec::new());
     for object in &objects {

@@ -1,4 +1,4 @@
-//! `outline`: outlines from a file.
+//! Reader of `outline`: outlines from a file.
 
 use super::fault;
 use super::fields::{Fields, list};
@@ -61,7 +61,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
     }
 }
 
-/// The format of a file, which its name tells.
+/// The format of a file, by its extension.
 fn format(reader: &mut Reader<'_>, path: &Placed<String>) -> Option<Format> {
     let format = Format::of(&path.value);
     if format.is_none() {

@@ -1,4 +1,4 @@
-//! `path`: an outline told as a way of going.
+//! Reader of `path`: an outline as a sequence of straights, turns and arcs.
 
 use super::fields::Fields;
 use super::key::Key;
@@ -24,7 +24,7 @@ enum Move {
     Arc { radius: f64, angle: f64 },
 }
 
-/// Reads a path. A closed one is closed by a straight side if it does not come back to its start by itself.
+/// Reads a path. A closed path that does not return to its start gets a straight closing side.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     let mut fields = Fields::of(reader, &entry.value, "a path", entry.key.span)?;
     let start = fields.required("start", "{position: [0 cm, 30 cm], heading: 0 deg}");

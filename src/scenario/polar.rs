@@ -1,4 +1,4 @@
-//! `polar`: smooth closed curves.
+//! Reader of `polar`: smooth closed curves.
 
 use super::fault;
 use super::fields::Fields;
@@ -16,7 +16,7 @@ const PHASE: Key = Key::new("phase", Dimension::ANGLE, (-TAU, TAU), "30 deg");
 
 const HARMONICS: &str = "[{order: 3, amplitude: 20 mm, phase: 30 deg}]";
 
-/// The most harmonics of a curve: one for each order that there may be.
+/// The largest number of harmonics, one per possible order.
 const MOST_HARMONICS: usize = 100;
 
 /// Reads a curve in polar coordinates.

@@ -1,4 +1,4 @@
-//! Reading values from the tree.
+//! Reading of values from the tree.
 
 use super::budget::Budget;
 use super::fault;
@@ -11,7 +11,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 use vibrissa_runtime::units::suggest;
 
-/// Reads values, and collects what is wrong with them. A value that cannot be used is `None`, and has been reported.
+/// Reads values and collects diagnostics. An invalid value is returned as `None` and has been reported.
 pub(crate) struct Reader<'s> {
     source: &'s Source,
     files: &'s mut Files<'s>,
@@ -20,12 +20,12 @@ pub(crate) struct Reader<'s> {
 }
 
 impl<'s> Reader<'s> {
-    /// A reader of the values of `source`, in which `faults` have been found so far; it finds what they refer to in `files`.
+    /// Creates a reader for `source` with the diagnostics that exist so far. Referenced files are in `files`.
     pub(crate) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
         Self { source, files, faults, budget: Budget::default() }
     }
 
-    /// The bytes of the file that the text calls `path`.
+    /// The bytes of the file with this `path`.
     pub(crate) fn file(&mut self, path: &str) -> Result<Vec<u8>, String> {
         self.budget.check_files()?;
         let bytes = (self.files)(path)?;
@@ -33,7 +33,8 @@ impl<'s> Reader<'s> {
         Ok(bytes)
     }
 
-    /// Counts the pieces of an object, at `place`, before it is made. If there are too many of all objects together, none is made.
+    /// Counts the pieces of an object at `place` before it is created. Reports a total above the limit; then no object
+    /// is created.
     pub(crate) fn make(&mut self, pieces: usize, place: Span) -> Option<()> {
         match self.budget.make(pieces) {
             Ok(()) => Some(()),
@@ -50,24 +51,24 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// How many faults there are so far.
+    /// The number of diagnostics so far.
     pub(crate) fn fault_count(&self) -> usize {
         self.faults.len()
     }
 
-    /// The text that is read.
+    /// The text.
     pub(crate) fn source(&self) -> &'s Source {
         self.source
     }
 
-    /// Puts a fault on the list, unless that is full.
+    /// Adds a diagnostic, unless the list is full.
     pub(crate) fn report(&mut self, fault: Diagnostic) {
         if self.faults.len() < FAULT_LIMIT {
             self.faults.push(fault);
         }
     }
 
-    /// What has been read, or the faults, in the order of the text.
+    /// Returns the result, or the diagnostics in the order of the text.
     pub(crate) fn finish<T>(mut self, read: Option<T>) -> Result<T, Vec<Diagnostic>> {
         self.faults.sort_by_key(|fault| fault.primary.span.start);
         read.filter(|_| self.faults.is_empty()).ok_or(self.faults)
@@ -80,7 +81,7 @@ impl<'s> Reader<'s> {
         self.report(Diagnostic::error(fault::TYPE, message, self.extent(node), label).hint(hint));
     }
 
-    /// A whole number in a range.
+    /// Reads an integer within a range.
     pub(crate) fn count<N>(
         &mut self,
         node: &Placed<Node>,
@@ -130,7 +131,7 @@ impl<'s> Reader<'s> {
         triple
     }
 
-    /// A truth value.
+    /// Reads a boolean.
     pub(crate) fn flag(&mut self, node: &Placed<Node>) -> Option<bool> {
         if let Node::Bool(flag) = node.value {
             return Some(flag);
@@ -139,7 +140,7 @@ impl<'s> Reader<'s> {
         None
     }
 
-    /// A text.
+    /// Reads a text.
     pub(crate) fn text(&mut self, node: &Placed<Node>) -> Option<Placed<String>> {
         if let Node::Text(text) = &node.value {
             return Some(Placed { value: text.clone(), span: self.extent(node) });
@@ -153,7 +154,7 @@ impl<'s> Reader<'s> {
         None
     }
 
-    /// One of several words, with its index among them.
+    /// Reads one of several words, and returns its index among them.
     pub(crate) fn choice(&mut self, node: &Placed<Node>, what: &str, words: &[&str]) -> Option<usize> {
         let text = self.text(node)?;
         let index = words.iter().position(|word| *word == text.value);
@@ -163,7 +164,7 @@ impl<'s> Reader<'s> {
         index
     }
 
-    /// The one entry of a mapping whose key says what its value is: `circle: {…}`.
+    /// The single entry of a mapping whose key is the kind of its value: `circle: {…}`.
     pub(crate) fn variant<'n>(
         &mut self,
         node: &'n Placed<Node>,
@@ -191,7 +192,7 @@ impl<'s> Reader<'s> {
         Some((kind?, entry))
     }
 
-    /// The text of a value as a whole, a list or mapping up to its end or that of its first line.
+    /// The span of a complete value. For a list or a mapping, it ends at its end or at the end of its first line.
     pub(crate) fn extent(&self, node: &Placed<Node>) -> Span {
         let last = match &node.value {
             Node::List(items) => items.last(),
@@ -222,7 +223,7 @@ fn unknown_choice(word: &Placed<String>, what: &str, words: &[&str]) -> Diagnost
     }
 }
 
-/// A value in a message: a scalar as it could be written, a list or mapping by its kind.
+/// A value in a message: a scalar in YAML notation, a list or a mapping by its type.
 pub(crate) fn written(node: &Node) -> String {
     match node {
         Node::Bool(flag) => flag.to_string(),

@@ -1,4 +1,4 @@
-//! `rig`: what differs from the reference rig.
+//! Reader of `rig`: the differences from the reference rig.
 
 use super::fault;
 use super::fields::Fields;
@@ -31,7 +31,8 @@ const IMPEDANCE_DEPTH: Key = Key::new("contact_impedance", Dimension::LENGTH, (1
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
 const PENETRATION_LIMIT: Key = Key::new("penetration_limit", Dimension::LENGTH, (1e-6, 0.1), "1 mm");
 
-/// Reads `rig` and the physics in it. Keys that are left out are those of its preset, by default of the reference rig.
+/// Reads `rig` and its physics settings. Omitted keys have the values of the preset, by default those of the reference
+/// rig.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<(Rig, Physics)> {
     let fault_count = reader.fault_count();
     let mut fields = Fields::of(reader, &entry.value, "a rig", entry.key.span)?;
@@ -57,7 +58,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<(Rig, Physi
     if reader.fault_count() == fault_count {
         timing::check(reader, &rig, &mut physics, places);
     }
-    // A rig that could only be read in part would make the checks of the whole scene report what is not there.
+    // An incomplete rig would cause misleading diagnostics in the checks of the whole scene.
     (reader.fault_count() == fault_count).then_some((rig, physics))
 }
 
@@ -98,7 +99,7 @@ fn yaw(reader: &mut Reader<'_>, entry: &Entry, yaw: &mut YawController) {
     fields.finish(reader);
 }
 
-/// Reads `physics`, and gives the place of the step if there is one.
+/// Reads `physics`, and returns the span of the step if it is given.
 fn read_physics(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) -> Option<Span> {
     let mut fields = Fields::of(reader, &entry.value, "the physics", entry.key.span)?;
     let step = fields.set(reader, &timing::STEP, &mut physics.step);

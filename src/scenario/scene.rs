@@ -1,4 +1,4 @@
-//! A scenario as a whole.
+//! The root of a scenario.
 
 use super::fields::Fields;
 use super::node::{Entry, Node, Placed};
@@ -13,7 +13,7 @@ use vibrissa_runtime::rig::Rig;
 
 const NAME_HINT: &str = "results are filed under this name; the `description` takes any text";
 
-/// Reads a scenario. The list of faults is never empty, and in the order of the text.
+/// Reads a scenario. A list of diagnostics is never empty and has the order of the text.
 pub(crate) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
     let (tree, faults) = fault::parse(source, "scenario")?;
     let mut reader = Reader::new(source, files, faults);
@@ -21,8 +21,7 @@ pub(crate) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<
     reader.finish(scene)
 }
 
-/// The place at which a text is pointed at that has `tree` as its root; `None` if there is nothing in it, which is told with what
-/// to write.
+/// The span that represents a text with the root `tree`. An empty text is reported with an example, and gives `None`.
 pub(crate) fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
     match &tree.value {
         Node::Mapping(entries) => Some(entries.first().map_or(tree.span, |first| first.key.span)),
@@ -95,7 +94,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
     })
 }
 
-/// Reads the name of `what`, which is to be a file's name.
+/// Reads the name of `what`, which must be a valid file name.
 pub(crate) fn name(reader: &mut Reader<'_>, entry: &Entry, what: &str, hint: &'static str) -> Option<String> {
     let name = reader.text(&entry.value)?;
     let is_fit = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');

@@ -1,4 +1,4 @@
-//! `start`: where the platform begins.
+//! Reader of `start`: the initial pose of the platform.
 
 use super::fields::Fields;
 use super::key::Key;
@@ -8,12 +8,12 @@ use crate::geometry::Pose;
 use std::f64::consts::TAU;
 use vibrissa_runtime::units::Dimension;
 
-/// Coordinates in the world: nothing is more than 100 m away.
+/// Coordinates in the world frame, limited to 100 m.
 pub(super) const POSITION: Key = Key::new("position", Dimension::LENGTH, (-100.0, 100.0), "[0 mm, 72 mm]");
-/// A direction in the world.
+/// A heading in the world frame.
 pub(super) const HEADING: Key = Key::new("heading", Dimension::ANGLE, (-TAU, TAU), "90 deg");
 
-/// Reads a pose, of which both keys must be there; `what` it is stands in messages.
+/// Reads a pose. Both keys are required. `what` describes it in messages.
 pub(super) fn pose(reader: &mut Reader<'_>, entry: &Entry, what: &'static str) -> Option<Placed<Pose>> {
     let mut fields = Fields::of(reader, &entry.value, what, entry.key.span)?;
     let position = fields.required(POSITION.name, POSITION.example);

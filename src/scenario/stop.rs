@@ -1,4 +1,4 @@
-//! `stop`: when a run ends.
+//! Reader of `stop`: the stop condition of a run.
 
 use super::fault;
 use super::fields::Fields;
@@ -16,21 +16,21 @@ const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
 const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "60 s");
 const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 
-/// The most control ticks of a run: the trace keeps every one of them. Ninety hours at 30 Hz.
+/// The largest number of control ticks of a run, because the trace contains every tick: ninety hours at 30 Hz.
 const MOST_TICKS: f64 = 1e7;
 
-/// Reads `stop`. It comes with the place of its time.
+/// Reads `stop`, with the span of its time.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
     let mut fields = Fields::of(reader, &entry.value, "a stop", entry.key.span)?;
     let time = fields.number(reader, &TIME);
     let [loop_closed, reached, stalled] = ["loop_closed", "reached", "stalled"].map(|name| fields.entry(name));
     fields.finish(reader);
-    // A key that is there and cannot be used has been reported: the scenario is refused.
+    // An invalid key has been reported, so the scenario is rejected anyway.
     let loop_closed = loop_closed.and_then(|entry| read_loop_closed(reader, entry, time.as_ref()));
     let reached = reached.and_then(|entry| read_reached(reader, entry, time.as_ref()));
     let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
     let time = time?;
-    // A run that has nothing to get to need not get anywhere.
+    // A run without a goal need not make progress.
     let has_aim = loop_closed.is_some() || reached.is_some();
     let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
     Some(Placed { value: Stop { time: time.value, loop_closed, reached, stalled }, span: time.span })
@@ -66,7 +66,7 @@ fn read_stalled(reader: &mut Reader<'_>, entry: &Entry) -> Option<Stalled> {
     Some(stalled)
 }
 
-/// Reports what can only come about after the end of the run.
+/// Reports a condition that cannot hold before the end of the run.
 fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Option<&Placed<f64>>) -> Option<()> {
     let end = end?;
     if after.value < end.value {
@@ -78,7 +78,7 @@ fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Op
     None
 }
 
-/// Checks that a run at `control_rate` (Hz) has no more ticks than can be kept.
+/// Checks that a run at `control_rate` (Hz) does not exceed the largest number of ticks.
 pub(super) fn check(reader: &mut Reader<'_>, stop: &Placed<Stop>, control_rate: f64) {
     let ticks = stop.value.time * control_rate;
     if ticks <= MOST_TICKS {

@@ -1,4 +1,4 @@
-//! Texts of scenarios and the scenes that they describe.
+//! Tests of scenarios and the scenes that they describe.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 use super::*;

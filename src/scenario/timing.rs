@@ -1,4 +1,4 @@
-//! `rig.sensing`, and whether its rates and the step of the simulation go together.
+//! Reader of `rig.sensing`, and the consistency of its rates with the simulation step.
 
 use super::fault;
 use super::fields::Fields;
@@ -22,10 +22,10 @@ const ANGLE_NOISE: Key = Key::new("angle_noise", Dimension::ANGLE, (0.0, 1.0), "
 const FORCE_NOISE: Key = Key::new("force_noise", Dimension::FORCE, (0.0, 1.0), "0.002 mN");
 const ANGLE_RESOLUTION: Key = Key::new("angle_resolution", Dimension::ANGLE, (0.0, 1.0), "1 urad");
 
-/// A step that is off a whole part of the sample period by less than this share is taken for that part: 3.33 ms for 1/300 s.
+/// The relative tolerance for a step that is a rounded fraction of the sample period, such as 3.33 ms for 1/300 s.
 const ROUNDED: f64 = 2e-3;
 
-/// Where the keys that must go together stand, as far as they are given.
+/// The spans of the keys that must be consistent, as far as they are given.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Places {
     pub(super) step: Option<Span>,
@@ -34,7 +34,7 @@ pub(super) struct Places {
     pub(super) filter_cutoff: Option<Span>,
 }
 
-/// Reads `sensing`, and notes the places of its rates.
+/// Reads `sensing`, and stores the spans of its rates.
 pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing, places: &mut Places) {
     let Some(mut fields) = Fields::of(reader, &entry.value, "the sensing", entry.key.span) else { return };
     places.sample_rate = fields.set(reader, &SAMPLE_RATE, &mut sensing.sample_rate);
@@ -53,8 +53,8 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
     fields.finish(reader);
 }
 
-/// Checks that a tick is a whole number of samples, and fits the step into the sample period. What no key was given for
-/// is the reference's, and needs no check.
+/// Checks that a tick is a whole number of samples, and adjusts the step to the sample period. Values without a key are
+/// those of the reference rig and need no check.
 pub(super) fn check(reader: &mut Reader<'_>, rig: &Rig, physics: &mut Physics, places: Places) {
     if let Some(place) = places.control_rate.or(places.sample_rate) {
         check_rates(reader, &rig.sensing, place);
@@ -68,7 +68,7 @@ pub(super) fn check(reader: &mut Reader<'_>, rig: &Rig, physics: &mut Physics, p
     }
 }
 
-/// A longest step or a contact's time that is off the sample period by as little as a step may be is taken for it.
+/// Rounds the longest step and the contact time to the sample period, with the tolerance of a step.
 fn fit_to_samples(physics: &mut Physics, sample_rate: f64) {
     let period = sample_rate.recip();
     for time in [&mut physics.calm_step, &mut physics.contact_time] {

@@ -1,4 +1,4 @@
-//! `tunnel`: two walls along a centre line.
+//! Reader of `tunnel`: two walls along a centre line.
 
 use super::fault;
 use super::fields::Fields;

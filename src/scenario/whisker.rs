@@ -1,4 +1,4 @@
-//! `rig.whiskers`: the whiskers by name.
+//! Reader of `rig.whiskers`: the whiskers by name.
 
 use super::calibration::read_calibration;
 use super::fault;
@@ -30,8 +30,8 @@ const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS,
 const HINGE_DAMPING: Key = Key::new("damping", Dimension::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad");
 const HINGE_ARMATURE: Key = Key::new("armature", Dimension::INERTIA, (0.0, 1.0), "1e-5 kg m^2");
 
-/// Reads the whiskers. What one leaves out is as in the whisker of that name of the `preset` rig; a whisker of another
-/// name must tell where it sits and where it points.
+/// Reads the whiskers. Omitted keys have the values of the whisker with the same name in the `preset` rig. A whisker
+/// with a new name requires a position and a direction.
 pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Vec<Whisker>> {
     let entries = match &entry.value.value {
         Node::Mapping(entries) if !entries.is_empty() => entries,
@@ -88,7 +88,7 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
         }
         None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
     };
-    // All of a preset's whiskers have the same shaft and the same hinge.
+    // All whiskers of a preset have the same shaft and the same hinge.
     let usual = preset.first().cloned().map(|whisker| (whisker.shaft, whisker.hinge));
     let (usual_shaft, usual_hinge) = usual.unwrap_or_default();
     let shaft = shaft(reader, &mut fields, usual_shaft, name.span);
@@ -111,7 +111,7 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
     })
 }
 
-/// Reads the file of a calibration.
+/// Reads a calibration file.
 fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
     let path = reader.text(&entry.value)?;
     let found = reader.file(&path.value).and_then(|bytes| {
@@ -126,7 +126,8 @@ fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
         .ok()
 }
 
-/// Reads the keys of the shaft of the whisker whose name stands at `place`, as far as it is not the `usual` one.
+/// Reads the keys of the shaft of a whisker, as differences from the `usual` one. The name of the whisker is at
+/// `place`.
 fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: Span) -> Shaft {
     let fault_count = reader.fault_count();
     let mut shaft = usual;
@@ -152,7 +153,7 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: 
     shaft
 }
 
-/// The fault of a tip that is thicker than the base.
+/// The diagnostic for a tip that is thicker than the base.
 fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
     let millimetres = |radius| format_si(radius, Dimension::LENGTH);
     let label = format!("at the base the radius is {}", millimetres(shaft.radius));
@@ -161,8 +162,8 @@ fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
         .hint("give a `tip_radius` up to `radius`, or none for a wire that is as thick all along")
 }
 
-/// Checks that the last, lightest link's moment of inertia is one that the simulator takes. Its mass is then too: no link is longer than
-/// 250 mm, so that one that is too light is too easy to turn as well.
+/// Checks that the moment of inertia of the last and lightest link is large enough for the simulator. Its mass is then
+/// large enough as well, because no link is longer than 250 mm.
 fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
     let inertia = link_inertia(shaft, shaft.links - 1);
     if inertia >= LEAST_INERTIA {
@@ -178,7 +179,7 @@ fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
     reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
 }
 
-/// Reads a hinge, as far as it is not the `usual` one.
+/// Reads a hinge, as differences from the `usual` one.
 fn hinge(reader: &mut Reader<'_>, entry: &Entry, usual: Hinge) -> Option<Hinge> {
     let mut fields = Fields::of(reader, &entry.value, "a hinge", entry.key.span)?;
     let mut hinge = usual;

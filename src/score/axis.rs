@@ -1,4 +1,4 @@
-//! How well a run kept to the middle of a tunnel.
+//! The distance of a run from the axis of a tunnel.
 
 use crate::geometry::{Point2, TunnelAxis, Vector2};
 use crate::run::{TickRecord, Trace};
@@ -6,14 +6,14 @@ use crate::run::{TickRecord, Trace};
 use super::tip::is_finite;
 use super::{Spread, Statistics};
 
-/// How far the estimated midpoints of a run are from the axis of the tunnel (m): the thesis's axis error (section 5.3).
+/// The distance of the estimated midpoints from the axis of the tunnel (m): the baseline's axis error (section 5.3).
 ///
-/// A midpoint is half-way between the tips that a tick recorded on the left and on the right of the body, of several on a
-/// side between their means. So ticks count in which both walls are recorded, from the first contact with both on: the
-/// transition at the start is part of the thesis's figure. Of several tunnels the nearest axis counts; midpoints before the
-/// beginning and beyond the end of all do not.
+/// A midpoint is half-way between the tips that a tick recorded on the left and on the right of the body. Several tips
+/// on a side are averaged. Only ticks count in which both walls were recorded, starting with the first. The transition
+/// at the start is part of the baseline's figure. With several tunnels, the nearest axis counts. Midpoints before the
+/// beginning and beyond the end of all axes do not count.
 ///
-/// `None` if there is no midpoint that counts.
+/// Returns `None` without midpoints.
 #[must_use]
 pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Spread> {
     let nearest = |midpoint| axes.iter().filter_map(|axis| axis.distance(midpoint)).min_by(f64::total_cmp);
@@ -21,7 +21,7 @@ pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Spread> {
     Statistics::of(errors.collect()).map(|errors| Spread { mean: errors.mean(), std: errors.std() })
 }
 
-/// The point half-way between what a tick recorded on either side of the body (m, world frame).
+/// The midpoint of the tips that a tick recorded on both sides of the body (m, world frame).
 fn midpoint(tick: &TickRecord) -> Option<Point2> {
     if !tick.body.is_finite() {
         return None;

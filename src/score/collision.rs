@@ -1,21 +1,21 @@
-//! When the platform's body touched something.
+//! Collisions of the platform's body.
 
 use crate::run::Trace;
 
 use super::estimate::LONGEST_BREAK;
 
-/// The contacts of the platform's body, which no policy feels.
+/// The contacts of the platform's body. Policies cannot observe them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Collisions {
-    /// How many separate ones there were. One goes on as long as the body is in touch again within [`LONGEST_BREAK`] ticks:
-    /// a body that slides along a wall bounces off it.
+    /// The number of separate contacts. A contact continues if the body touches again within [`LONGEST_BREAK`] ticks,
+    /// because a body that slides along a wall bounces.
     pub count: usize,
-    /// Time in touch (s), to a tick.
+    /// The duration of all contacts (s), with the resolution of a tick.
     pub time: f64,
 }
 
 impl Collisions {
-    /// The contacts of a run. A crash that ended it is one, or the end of one.
+    /// The contacts of a run. A crash at its end counts as a contact, or as the end of one.
     #[must_use]
     pub fn of(trace: &Trace) -> Self {
         let ticks = trace.ticks.iter().map(|tick| tick.body_touches).chain(trace.crashed.then_some(true));

@@ -1,4 +1,4 @@
-//! How well corners were found, and what they cost.
+//! Accuracy and cost of corners.
 
 use std::f64::consts::PI;
 
@@ -8,30 +8,30 @@ use crate::run::Trace;
 use super::tip::{valid_tips, whiskers};
 use super::{Spread, Statistics, excursions};
 
-/// A corner is sharp if the outline's direction jumps by more than this (rad), 20°.
+/// The smallest change of direction (rad) of a sharp corner, 20°.
 pub const SHARP: f64 = PI / 9.0;
 
-/// The tips that show a side of a corner are those between these distances from it along the outline (m). Nearer to it the
-/// two sides of an estimate that is off by millimetres cannot be told apart.
+/// The range of distances from a corner along the outline (m) whose tips determine a side. Closer to the corner, an
+/// estimate with an error of millimetres does not separate the two sides.
 pub const SIDE: (f64, f64) = (0.005, 0.03);
 
-/// A short side counts from this share of its length on, and ends as far from its other corner.
+/// The share of the length of a short side that is excluded at either end.
 const SHORT_SIDE: f64 = 0.2;
 
-/// The tips that show a side are at least this many, and reach over at least this share of it.
+/// The smallest number of tips on a side. They must also cover at least this share of the side.
 const LEAST_TIPS: usize = 3;
 const LEAST_REACH: f64 = 0.3;
 
-/// Of more tips than this on a side, only as many are taken: the work grows with their square.
+/// The largest number of tips that are used for a side, because the work grows quadratically.
 const MOST_TIPS: usize = 300;
 
-/// How far off (m) distances may come out.
+/// Tolerance for the rounding of distances (m).
 const ROUNDING: f64 = 1e-9;
 
-/// Two lines at a smaller angle (rad) do not meet in a definite place.
+/// The smallest angle (rad) at which two lines have a well-defined intersection.
 const LEAST_ANGLE: f64 = 0.1;
 
-/// A whisker that leaves the outline within this distance of a corner (m) does so because of it.
+/// The largest distance from a corner (m) at which a lost contact is attributed to it.
 const CLAIM: f64 = 0.03;
 
 /// A sharp corner of the exact outline that was traced on both sides.
@@ -39,20 +39,20 @@ const CLAIM: f64 = 0.03;
 pub struct TracedCorner {
     /// The exact corner.
     pub corner: Corner,
-    /// Where the estimate has it (m, world frame): where its two sides meet.
+    /// The estimated corner (m, world frame), which is the intersection of its two estimated sides.
     ///
-    /// A side is a line through the tips recorded [near the corner](SIDE), by the median of the slopes of all pairs. Where the outline is curved the
-    /// line is that of the tips' offsets from it: what is fitted is how far the estimate is off and how it is turned.
+    /// A side is a line through the tips recorded [near the corner](SIDE), by the median slope of all pairs of tips. On
+    /// a curved outline, the line is fitted to the offsets of the tips from the outline. It represents the displacement
+    /// and the rotation of the estimate.
     pub place_world: Point2,
-    /// How much more than the exact corner the estimated one turns (rad), in the direction of the exact turn.
+    /// The difference of the estimated and the exact corner angle (rad), positive if the estimate turns more.
     pub turn_error: f64,
-    /// The distance (m) from the corner of the first edge point that belongs to it, the last tip before the whisker left the
-    /// outline; `None` if it did not leave it there.
+    /// The distance (m) between the corner and its first edge point, the last tip before the contact was lost. `None`
+    /// if it was not lost at this corner.
     pub edge: Option<f64>,
-    /// Time (s) in which the whisker, having left the outline at this corner, was not back on it: the longest, if it did so
-    /// more than once, and 0 if it did not leave it.
+    /// The longest time (s) between loss and recovery of the contact at this corner, 0 if it was not lost.
     pub time: f64,
-    /// Path of the platform's centre of mass in such a time (m): the longest.
+    /// The longest path of the platform's centre of mass in such a time (m).
     pub path: f64,
 }
 
@@ -64,8 +64,8 @@ impl TracedCorner {
     }
 }
 
-/// The sharp corners of `outlines` that a run traced on both sides, in the order of the outlines; with the number of all of
-/// them. The tips of all whiskers count, and every time the run passed.
+/// The sharp corners of `outlines` that a run traced on both sides, in the order of the outlines, with the total number
+/// of sharp corners. The tips of all whiskers and of all passes count.
 #[must_use]
 pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner>, usize) {
     let outlines: Vec<&Contour> = outlines.contours().collect();
@@ -86,7 +86,7 @@ pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner
     (traced.collect(), count)
 }
 
-/// What a corner cost, as [`TracedCorner`] has it.
+/// The cost of a corner, as in [`TracedCorner`].
 #[derive(Clone, Copy, Default)]
 struct Cost {
     edge: Option<f64>,
@@ -94,7 +94,7 @@ struct Cost {
     path: f64,
 }
 
-/// What every corner cost: an excursion is put down to the corner nearest to where it began.
+/// The cost of every corner. An excursion is attributed to the corner nearest to its beginning.
 fn costs(trace: &Trace, corners: &[(usize, Corner)]) -> Vec<Cost> {
     let mut costs = vec![Cost::default(); corners.len()];
     for excursion in excursions(trace) {
@@ -114,16 +114,16 @@ fn sharp(outline: &Contour) -> Vec<Corner> {
     outline.corners().into_iter().filter(|corner| corner.turn.abs() > SHARP).collect()
 }
 
-/// A tip as its nearest outline has it: arc length (m), and offset to the right (m).
+/// A tip relative to its nearest outline: arc length (m), and offset to the right (m).
 type Felt = (f64, f64);
 
-/// The tips of a run by their nearest outline, of which these corners are `sharp`; those that may show a side of one.
+/// The tips of a run that may belong to a side of a `sharp` corner, grouped by their nearest outline.
 fn felt(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<Felt>> {
     let mut felt = vec![Vec::new(); outlines.len()];
     for (_, tip) in whiskers(trace).flat_map(|whisker| valid_tips(trace, whisker)) {
         let distances = outlines.iter().map(|outline| outline.distance(tip)).enumerate();
         let Some((index, distance)) = distances.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { continue };
-        // What is so near along the outline is no farther straight from its nearest point on it.
+        // The straight distance is at most the distance along the outline.
         let reach = SIDE.1 + distance + ROUNDING;
         if sharp[index].iter().any(|corner| (tip - corner.point).norm() <= reach) {
             felt[index].push((outlines[index].nearest(tip).arc_length, outlines[index].signed_distance(tip)));
@@ -132,7 +132,7 @@ fn felt(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<
     felt
 }
 
-/// Where the estimate has a corner, and how much more it turns there; `None` if it was not traced on both sides.
+/// The position of the estimated corner and its excess angle. `None` if it was not traced on both sides.
 fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[Felt]) -> Option<(Point2, f64)> {
     let outgoing = outline.tangent_at(corner.arc_length);
     let incoming = rotate(outgoing, -corner.turn);
@@ -148,7 +148,7 @@ fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[F
     Some((before.point + along * before.direction, extra * corner.turn.signum()))
 }
 
-/// A side of a corner, as estimated.
+/// An estimated side of a corner.
 struct Line {
     point: Point2,
     /// A unit vector.
@@ -156,7 +156,8 @@ struct Line {
 }
 
 impl Line {
-    /// The side before (`way` −1) or after (+1) a corner, where the exact outline goes along `tangent`.
+    /// Fits the side before (`way` −1) or after (`way` +1) a corner. The exact outline has the direction `tangent`
+    /// there.
     fn fitted(
         outline: &Contour,
         sharp: &[Corner],
@@ -165,7 +166,7 @@ impl Line {
         tangent: Vector2,
         way: f64,
     ) -> Option<Self> {
-        // Arc length from the corner on, in the direction of the side.
+        // Arc length from the corner in the direction of the side.
         let from_corner = |arc_length: f64| {
             let along = way * (arc_length - corner.arc_length);
             if outline.is_closed() { along.rem_euclid(outline.length()) } else { along }
@@ -194,8 +195,9 @@ impl Line {
     }
 }
 
-/// Value at 0 and slope of the line through (`x`, `y`), by the medians of the pairs' slopes and of the values less it (Theil
-/// and Sen): a few tips that are far off, which the error tells of, do not turn it. `None` without two different `x`.
+/// Fits a line through (`x`, `y`) and returns its value at 0 and its slope. The Theil-Sen estimator uses the median
+/// slope of all pairs and the median intercept. It is robust to a few outliers, which the error metrics already show.
+/// `None` without two different `x`.
 fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
     let stride = x.len() / MOST_TIPS + 1;
     let points: Vec<_> = x.iter().zip(y).step_by(stride).collect();
@@ -208,22 +210,22 @@ fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
     Some((rest.percentile(50.0), slope))
 }
 
-/// The figures of all corners of a run; those of no corner are `None`.
+/// The figures of all corners of a run. A figure is `None` if no corner has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CornerFigures {
-    /// How many sharp corners there are.
+    /// The number of sharp corners.
     pub count: usize,
-    /// How many of them were traced on both sides.
+    /// The number of sharp corners that were traced on both sides.
     pub traced: usize,
     /// Distances of the estimated corners from the exact ones (m).
     pub place: Option<CornerSpread>,
-    /// How much more or less than the exact corners the estimated ones turn (rad), without sign.
+    /// Absolute differences of the corner angles (rad).
     pub turn: Option<CornerSpread>,
-    /// Distances of the edge points from their corners (m), of corners at which a whisker left the outline.
+    /// Distances of the edge points from their corners (m), for corners at which the contact was lost.
     pub edge: Option<CornerSpread>,
-    /// Times that corners cost (s).
+    /// Times of the corners (s).
     pub time: Option<CornerSpread>,
-    /// Paths of the platform that they cost (m).
+    /// Paths of the platform at the corners (m).
     pub path: Option<CornerSpread>,
 }
 
@@ -232,12 +234,12 @@ pub struct CornerFigures {
 pub struct CornerSpread {
     /// Mean and standard deviation.
     pub spread: Spread,
-    /// The worst.
+    /// The largest value.
     pub max: f64,
 }
 
 impl CornerFigures {
-    /// The figures of a run; `None` if the outlines have no sharp corner.
+    /// The figures of a run. `None` if the outlines have no sharp corner.
     #[must_use]
     pub fn new(trace: &Trace, outlines: &ContourSet) -> Option<Self> {
         let (traced, count) = traced_corners(trace, outlines);

@@ -1,4 +1,4 @@
-//! How much of what there is was traced.
+//! Coverage: the traced share of the reference.
 
 use super::Estimate;
 use std::ops::Range;
@@ -6,14 +6,14 @@ use std::ops::Range;
 use super::lipschitz::stretches_below;
 use crate::geometry::{Contour, ContourSet, Point2};
 
-/// How near (m) the estimated contour must be for a point of the reference to count as traced.
+/// The largest distance (m) of a traced point of the reference from the estimated contour.
 pub const COVERAGE_TOLERANCE: f64 = 1e-3;
 
-/// Where a traced stretch of the reference ends is known to half of this (m).
+/// The resolution (m) of the ends of a traced interval. Their error is at most half of it.
 pub const COVERAGE_RESOLUTION: f64 = 2e-5;
 
-/// The stretches of a reference contour (arc lengths in m, ascending) that lie within [`COVERAGE_TOLERANCE`] of the
-/// estimate; none if there is no estimate. One that goes over the start of a closed contour comes in two parts.
+/// The intervals of a reference contour within [`COVERAGE_TOLERANCE`] of the estimate, as ascending arc lengths (m).
+/// Empty without an estimate. An interval across the start of a closed contour has two parts.
 #[must_use]
 pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
     stretches_below(reference.length(), COVERAGE_TOLERANCE, COVERAGE_RESOLUTION, |s| {
@@ -21,8 +21,8 @@ pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
     })
 }
 
-/// The share of the length (0 to 1) of one object's outline that is [traced]: of that on which the last tip of the run lies, which is
-/// the one that closed its loop. 0 if there is no tip.
+/// The traced share (0 to 1) of one object's outline: of the object that the last tip of the run belongs to. Its loop
+/// is the one that closed. 0 without tips.
 #[must_use]
 pub fn object_coverage(estimate: &Estimate, last_tip: Option<Point2>, reference: &ContourSet) -> f64 {
     let Some(tip) = last_tip else { return 0.0 };
@@ -31,14 +31,14 @@ pub fn object_coverage(estimate: &Estimate, last_tip: Option<Point2>, reference:
     nearest.map_or(0.0, |contour| coverage(estimate, &contour.clone().into()))
 }
 
-/// The share of the reference's length (0 to 1) that is [traced].
+/// The [traced] share of the reference's length (0 to 1).
 ///
-/// It counts all of it, whether or not a rig can get there. The share is exact up to half of [`COVERAGE_RESOLUTION`] over the
-/// length, for every end of a traced stretch.
+/// The whole reference counts, including parts out of reach. The error is at most half of [`COVERAGE_RESOLUTION`] per
+/// end of a traced interval, relative to the length.
 #[must_use]
 pub fn coverage(estimate: &Estimate, reference: &ContourSet) -> f64 {
     let stretches = reference.contours().flat_map(|contour| traced(estimate, contour));
-    // Not `sum`, whose nothing is negative zero.
+    // An empty `sum` is negative zero.
     let length = stretches.fold(0.0, |sum, stretch| sum + stretch.end - stretch.start);
     (length / reference.length()).min(1.0)
 }

@@ -1,25 +1,26 @@
-//! The error of a run's tip estimates.
+//! The errors of a run's tip estimates.
 
 use super::{Statistics, Tip, TipOffset};
 
-/// How far a run's tip estimates are from the nearest surface, whiskers pooled; lengths in metres.
+/// The distances of a run's tip estimates from the nearest surface, over all whiskers, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorFigures {
-    /// Mean: the thesis's mean absolute error.
+    /// Mean, the baseline's mean absolute error.
     pub mean: f64,
-    /// Sample standard deviation, which the thesis calls standard error; a single estimate has none.
+    /// Sample standard deviation, called standard error by the baseline. `None` for a single estimate.
     pub std: Option<f64>,
     /// 95th percentile, by [`Statistics::percentile`].
     pub p95: f64,
     /// Maximum.
     pub max: f64,
-    /// Share of the estimates, 0 to 1, that lie within the band of 95 % that they tell themselves: 1.96 standard deviations.
+    /// Coverage of the 95 % interval: the share of estimates (0 to 1) whose error is at most 1.96 reported standard
+    /// deviations.
     pub interval_coverage: f64,
-    /// Share of the estimates, 0 to 1, that are [outliers](Tip::is_outlier).
+    /// Share of the estimates (0 to 1) that are [outliers](Tip::is_outlier).
     pub outliers: f64,
-    /// Their distance from the true tips along the outline; `None` if these are not known.
+    /// Their distances from the true tips along the outline. `None` if the true tips are unknown.
     pub along: Option<TipDistance>,
-    /// The same across the outline.
+    /// Their distances from the true tips perpendicular to the outline.
     pub across: Option<TipDistance>,
     /// Number of estimates.
     pub count: usize,
@@ -36,11 +37,11 @@ pub struct TipDistance {
     pub max: f64,
 }
 
-/// Half of the breadth of the band that holds 95 % of a normal distribution, in standard deviations.
+/// The half-width of the 95 % interval of a normal distribution, in standard deviations.
 const INTERVAL_DEVIATIONS: f64 = 1.96;
 
 impl ErrorFigures {
-    /// The figures of `tips`; `None` if there are none.
+    /// The figures of `tips`. `None` without tips.
     #[must_use]
     pub fn of(tips: &[Tip]) -> Option<Self> {
         let statistics = Statistics::of(tips.iter().map(|tip| tip.error).collect())?;

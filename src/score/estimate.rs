@@ -1,4 +1,4 @@
-//! The contour that a run estimates.
+//! The estimated contour of a run.
 
 use rstar::RTree;
 use rstar::primitives::Line;
@@ -8,22 +8,22 @@ use super::tip::{valid_tips, whiskers};
 use crate::geometry::{Point2, min_distance};
 use crate::run::Trace;
 
-/// How many ticks after a tip the next one of its stroke comes at the latest.
+/// The largest number of ticks between consecutive tips of a stroke.
 ///
-/// A whisker at the threshold of contact misses single ticks without having left the object, so two may be missing: a
-/// tenth of a second at 30 Hz, after which the thesis calls a whisker detached.
+/// A whisker near the contact threshold misses single ticks without loss of contact. Therefore two ticks may be
+/// missing. This is a tenth of a second at 30 Hz, after which the baseline considers a whisker detached.
 pub const LONGEST_BREAK: usize = 3;
 
-/// The greatest distance (m) between consecutive tips of a stroke.
+/// The largest distance (m) between consecutive tips of a stroke.
 ///
-/// At 50 mm/s and 30 Hz a tip moves by 1.7 mm a tick, and by 5 mm over the longest break. A step beyond twice that is a
-/// jump of the estimate, or a touch elsewhere: nothing was traced between its ends.
+/// At 50 mm/s and 30 Hz, a tip moves by 1.7 mm per tick, and by 5 mm over the longest break. A distance of more than
+/// twice that is an outlier or another contact. Nothing was traced between its ends.
 pub const LONGEST_STEP: f64 = 0.01;
 
 /// The estimated contour: the recorded tips of each whisker, in order, joined into strokes.
 ///
-/// A stroke ends where the next tip comes later than [`LONGEST_BREAK`] or farther off than [`LONGEST_STEP`]. The tips of
-/// different whiskers are never joined. A single tip is a stroke of its own.
+/// A stroke ends if the next tip is later than [`LONGEST_BREAK`] or farther than [`LONGEST_STEP`]. Tips of different
+/// whiskers are never joined. A single tip is a stroke of its own.
 #[derive(Debug, Clone)]
 pub struct Estimate {
     strokes: Vec<Vec<Point2>>,
@@ -31,7 +31,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The estimate of a run.
+    /// The estimated contour of a run.
     #[must_use]
     pub fn new(trace: &Trace) -> Self {
         let strokes: Vec<_> = whiskers(trace).flat_map(|whisker| strokes(valid_tips(trace, whisker))).collect();
@@ -39,20 +39,20 @@ impl Estimate {
         Self { lines: RTree::bulk_load(lines.collect()), strokes }
     }
 
-    /// The strokes, whisker by whisker and in the order of time: polylines of at least one point (m, world frame).
+    /// The strokes, by whisker and time, as polylines of at least one point (m, world frame).
     #[must_use]
     pub fn strokes(&self) -> &[Vec<Point2>] {
         &self.strokes
     }
 
-    /// The mean distance (m) of its tips from another's strokes; `None` if either has none.
+    /// The mean distance (m) of the tips from another estimate's strokes. `None` if either has none.
     #[must_use]
     pub fn apart(&self, other: &Self) -> Option<f64> {
         let distances: Option<Vec<f64>> = self.strokes.iter().flatten().map(|&tip| other.distance(tip)).collect();
         Some(Statistics::of(distances?)?.mean())
     }
 
-    /// Distance (m) of a point from the nearest point of any stroke, in logarithmic time; `None` if there is no stroke.
+    /// The distance (m) of a point from the nearest stroke, in logarithmic time. `None` without strokes.
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
         let query = point.into();
@@ -77,7 +77,7 @@ fn strokes(tips: impl Iterator<Item = (usize, Point2)>) -> Vec<Vec<Point2>> {
     strokes
 }
 
-/// The straight lines that a stroke is made of; a single tip is a line of no length.
+/// The line segments of a stroke. A single tip is a segment of length 0.
 fn lines(stroke: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
     let single = if let [tip] = stroke { Some((*tip, *tip)) } else { None };
     stroke.windows(2).map(|ends| (ends[0], ends[1])).chain(single)

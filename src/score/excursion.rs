@@ -1,4 +1,4 @@
-//! When a whisker left its contour, and when it came back.
+//! Excursions: times between loss and recovery of the contour.
 
 use crate::geometry::Point2;
 use crate::run::Trace;
@@ -8,24 +8,25 @@ use super::estimate::LONGEST_BREAK;
 use super::tip::{valid_tips, whiskers};
 use super::{body_path, mark_places};
 
-/// A time without tips: from the last that a whisker recorded before it lost its contour to the first after it is back on it.
+/// An interval without contact: from the last tip of a whisker before it lost the contour to the first tip after it
+/// found the contour again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Excursion {
     /// Index of the whisker in the trace.
     pub whisker: usize,
-    /// Where it left the contour (m, world frame): the last tip before.
+    /// The edge point (m, world frame), which is the last tip before the loss.
     pub edge_world: Point2,
-    /// Time (s).
+    /// Duration (s).
     pub time: f64,
     /// Length of the path of the platform's centre of mass (m).
     pub path: f64,
 }
 
-/// The excursions of a run, in the order of time; one from which the whisker has not come back is none.
+/// The excursions of a run, ordered by time. Without recovery of the contour there is no excursion.
 ///
-/// Every break in a whisker's tips of more than [`LONGEST_BREAK`] ticks is one. A policy that marks says more: one goes from the
-/// tip before a `lost` to the first tip with or after the `found` that follows it. So what a policy does between finding and
-/// following, such as whisking back, is part of it, as long as it does not record meanwhile. What overlaps is one excursion.
+/// Every break of more than [`LONGEST_BREAK`] ticks in a whisker's tips is an excursion. The marks of a policy extend
+/// it: from the tip before `lost` to the first tip at or after the following `found`. It therefore includes manoeuvres
+/// between detection and following, as long as no tip is recorded. Overlapping excursions are merged.
 #[must_use]
 pub fn excursions(trace: &Trace) -> Vec<Excursion> {
     let of_whisker = |whisker| joined([breaks(trace, whisker), marked(trace, whisker)].concat());
@@ -40,10 +41,10 @@ pub fn excursions(trace: &Trace) -> Vec<Excursion> {
     excursions.into_iter().map(excursion).collect()
 }
 
-/// From which tick to which, of which whisker, from which edge point.
+/// First tick, last tick, whisker, edge point.
 type Span = (usize, usize, usize, Point2);
 
-/// Spans of one whisker, those that overlap as one.
+/// Merges overlapping spans of one whisker.
 fn joined(mut spans: Vec<Span>) -> Vec<Span> {
     spans.sort_by_key(|&(from, to, ..)| (from, to));
     let mut joined: Vec<Span> = Vec::with_capacity(spans.len());

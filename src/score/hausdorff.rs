@@ -1,29 +1,30 @@
-//! The greatest distance between what there is and its estimate.
+//! The Hausdorff distance between the reference and the estimate.
 
 use super::Estimate;
 use super::lipschitz::maximum;
 use crate::geometry::{Contour, ContourSet, Point2, Vector2};
 
-/// How much too small (m) the Hausdorff distance may come out.
+/// The largest error (m) of the Hausdorff distance, which is never too large.
 pub const HAUSDORFF_TOLERANCE: f64 = 1e-5;
 
-/// The symmetric Hausdorff distance (m) between the strokes of the estimate and the reference: how far from the
-/// other one can get on either. `None` if there is no estimate.
+/// The symmetric Hausdorff distance (m) between the strokes of the estimate and the reference. `None` without an
+/// estimate.
 ///
-/// It is too small by at most [`HAUSDORFF_TOLERANCE`].
+/// The value is too small by at most [`HAUSDORFF_TOLERANCE`].
 #[must_use]
 pub fn hausdorff(estimate: &Estimate, reference: &ContourSet) -> Option<f64> {
     let distance = |point| reference.distance(point);
     let strokes = estimate.strokes();
     let at_tips: Vec<Vec<f64>> = strokes.iter().map(|stroke| stroke.iter().copied().map(distance).collect()).collect();
     let floor = at_tips.iter().flatten().copied().reduce(f64::max)?;
-    // What was not traced is farthest off, most of the time, and then hardly a line of the estimate is to be looked at.
+    // Untraced parts of the reference are usually farthest away. With them first, few lines of the estimate remain to
+    // be checked.
     let contours: Vec<&Contour> = reference.contours().collect();
     let floor = maximum(contours.iter().map(|contour| contour.length()), floor, HAUSDORFF_TOLERANCE, |contour, s| {
         estimate.distance(contours[contour].point_at(s)).unwrap_or(f64::INFINITY)
     });
     let lines = strokes.iter().zip(&at_tips).flat_map(|(stroke, at_tips)| stroke.windows(2).zip(at_tips.windows(2)));
-    // Both ends of a line bound what is between them.
+    // The distances at both ends bound the distance in between.
     let bound = |ends: &[Point2], at_ends: &[f64]| 0.5 * (at_ends[0] + at_ends[1] + (ends[1] - ends[0]).norm());
     let lines: Vec<(Point2, Vector2)> = lines
         .filter(|(ends, at_ends)| bound(ends, at_ends) > floor + HAUSDORFF_TOLERANCE)

@@ -1,4 +1,4 @@
-//! How long control ticks take.
+//! The wall time of control ticks.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ pub struct Latency {
 }
 
 impl Latency {
-    /// The figures of ticks that took `times`; `None` if there were none.
+    /// The figures of ticks with these `times`. `None` without ticks.
     #[must_use]
     pub fn of(times: &[Duration]) -> Option<Self> {
         let statistics = Statistics::of(times.iter().map(Duration::as_secs_f64).collect())?;

@@ -1,16 +1,16 @@
-//! Questions about a function along a line, answered by halving the line where the answer is open.
+//! Queries of a function along a line by bisection.
 //!
-//! The function never changes faster than its argument (it is Lipschitz with constant 1), as the distance from a set does
-//! along a curve travelled at unit speed. So its value in the middle of a stretch bounds it on the whole stretch, and only
-//! where the bound does not decide is a stretch halved.
+//! The function has the Lipschitz constant 1, for example the distance from a set along a curve of unit speed. Its
+//! value in the middle of an interval therefore bounds it on the whole interval. Only intervals for which the bound is
+//! not decisive are bisected.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
-/// The stretches of `0..length` where `function` is at most `bound`, in ascending order and apart from each other.
+/// The disjoint ascending intervals of `0..length` in which `function` is at most `bound`.
 ///
-/// Their total length is wrong by at most half a `resolution` for every place where the function crosses the bound.
+/// The error of their total length is at most half a `resolution` per crossing of the bound.
 pub(super) fn stretches_below(
     length: f64,
     bound: f64,
@@ -24,7 +24,7 @@ pub(super) fn stretches_below(
         let value = function(start + half);
         if value + half <= bound || (width <= resolution && value <= bound) {
             match below.last_mut() {
-                // What is halved exactly still has its ends rounded.
+                // Bisection is exact, but the ends of intervals are rounded.
                 Some(last) if start - last.end < 1e-3 * resolution => last.end = start + width,
                 _ => below.push(start..start + width),
             }
@@ -35,11 +35,11 @@ pub(super) fn stretches_below(
     below
 }
 
-/// The maximum of `function`, of the index of a line and the place along it, over lines of these `lengths`; or `floor` if that is
-/// more.
+/// The maximum of `function` over lines of these `lengths`, or `floor` if that is larger. The arguments of the function
+/// are the index of a line and the position on it.
 ///
-/// The answer is too small by at most `tolerance`. The stretch with the greatest bound is halved first, so that nothing is looked at
-/// that could not hold the maximum; a high floor makes it quicker still.
+/// The result is too small by at most `tolerance`. The interval with the largest bound is bisected first, so that only
+/// intervals that may contain the maximum are evaluated. A high floor reduces the work further.
 pub(super) fn maximum(
     lengths: impl IntoIterator<Item = f64>,
     floor: f64,
@@ -61,7 +61,7 @@ pub(super) fn maximum(
     greatest
 }
 
-/// A stretch of a line, and a bound of the function there. The greatest bound is the greatest stretch.
+/// An interval of a line with an upper bound of the function, ordered by this bound.
 struct Stretch {
     bound: f64,
     line: usize,
@@ -100,7 +100,7 @@ mod tests {
     }
 
     proptest! {
-        /// Against a saw-tooth, the distance from evenly spaced points, of which everything is known.
+        /// The function is a sawtooth: the distance from equidistant points, for which all results are known.
         #[test]
         fn a_saw_tooth_is_measured_within_the_bounds(
             teeth in 1..20_u32, period in 0.01..1.0_f64, share in 0.05..0.95_f64, resolution in 1e-5..1e-3_f64,

@@ -1,7 +1,6 @@
-//! How well a run traced what is there: figures from what happened and the exact geometry.
+//! The metrics of a run, from its trace and the exact geometry.
 //!
-//! Lengths are metres, times seconds. Only tips whose coordinates are finite numbers count; the others are treated as not
-//! recorded.
+//! Lengths are in metres, times in seconds. Tips with coordinates that are not finite are ignored.
 
 mod axis;
 mod body_path;

@@ -1,4 +1,4 @@
-//! How a run went through a tunnel.
+//! The passage of a run through a tunnel.
 
 use crate::geometry::{Contour, ContourSet, Point2, TunnelAxis, rotate};
 use crate::run::Trace;
@@ -8,30 +8,30 @@ use vibrissa_runtime::rig::{Rig, Whisker};
 use super::coverage::COVERAGE_TOLERANCE;
 use super::{Estimate, Statistics, Tip};
 
-/// Distance between the points of a wall that are looked at (m).
+/// Distance between the sampled points of a wall (m).
 const STEP: f64 = 5e-4;
 
-/// A point of a parallel of the axis is on an inner side if it is this close to it (m). An opening has no inner side.
+/// The largest distance (m) of a point of a parallel of the axis that is on an inner side. Openings have no inner side.
 const ON_SIDE: f64 = 1e-6;
 
-/// How a run went through a tunnel.
+/// The passage of a run through a tunnel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
-    /// The longest stretch of the axis along which the platform's centre of mass went between the walls without leaving them, as a
-    /// share of the axis's length, 0 to 1.
+    /// The longest interval of the axis along which the platform's centre of mass remained between the walls, as a
+    /// share of the axis's length (0 to 1).
     pub share: f64,
-    /// The share of the left inner side that was [traced](super::traced), 0 to 1, between the first and the last contact with
-    /// either inner side; 0 without a contact.
+    /// The [traced](super::traced) share of the left inner side (0 to 1) between the first and the last contact with
+    /// either inner side. 0 without contact.
     pub left_coverage: f64,
-    /// The same of the right inner side.
+    /// The same for the right inner side.
     pub right_coverage: f64,
-    /// Whether the whiskers of the rig reach both walls at once.
+    /// True if whiskers of the rig reach both walls at once.
     pub reaches_both: bool,
 }
 
 impl Passage {
-    /// The passage of a run that recorded `tips`, through the tunnel of `axes` along which it went farthest. The inner sides of
-    /// the tunnels' walls are in `reference`. `None` without a tunnel.
+    /// Computes the passage of a run that recorded `tips`. Of several tunnels in `axes`, the one with the longest
+    /// passage counts. `reference` contains the inner sides of the walls. `None` without a tunnel.
     pub(super) fn of(
         (trace, tips, estimate): (&Trace, &[Tip], &Estimate),
         axes: &[TunnelAxis],
@@ -53,7 +53,7 @@ impl Passage {
         Some(Self { share, left_coverage, right_coverage, reaches_both })
     }
 
-    /// The share that counts: that of the side traced less if the whiskers reach both walls at once, else that of the other.
+    /// The decisive coverage: the smaller of both sides if the whiskers reach both walls at once, else the larger.
     #[must_use]
     pub fn wall_coverage(&self) -> f64 {
         let (left, right) = (self.left_coverage, self.right_coverage);
@@ -61,7 +61,7 @@ impl Passage {
     }
 }
 
-/// The share of `truths` that are true, 0 to 1; 0 of none.
+/// The share of `truths` that are true (0 to 1), 0 if there are none.
 fn share_of(truths: impl Iterator<Item = bool>) -> f64 {
     let (mut count, mut of) = (0_usize, 0_usize);
     for truth in truths {
@@ -73,7 +73,7 @@ fn share_of(truths: impl Iterator<Item = bool>) -> f64 {
 
 fn passed_share(trace: &Trace, axis: &TunnelAxis) -> f64 {
     let line = axis.line();
-    // Least and greatest arc length of the stretch so far, and the newest.
+    // Smallest and largest arc length of the current interval, and the newest.
     let mut stretch: Option<(f64, f64, f64)> = None;
     let mut longest = 0.0_f64;
     for tick in &trace.ticks {
@@ -94,7 +94,7 @@ fn passed_share(trace: &Trace, axis: &TunnelAxis) -> f64 {
     (longest / line.length()).min(1.0)
 }
 
-/// Points of an inner side, with the arc lengths of the axis's line beside them.
+/// Points of an inner side, with the arc lengths of their projections on the axis's line.
 fn side_points(contour: &Contour, axis: &TunnelAxis, reference: &ContourSet) -> Vec<(f64, Point2)> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count that a scene's limits bound")]
     let count = (contour.length() / STEP).ceil() as usize;
@@ -103,7 +103,7 @@ fn side_points(contour: &Contour, axis: &TunnelAxis, reference: &ContourSet) -> 
     points.map(|point| (axis.line().nearest(point).arc_length, point)).collect()
 }
 
-/// From where to where along the axis the tips touch inner sides.
+/// The interval along the axis in which tips touch inner sides.
 fn contact_stretch(tips: &[Tip], axis: &TunnelAxis) -> Option<(f64, f64)> {
     let on_side = |tip: &&Tip| {
         let distance = axis.left().nearest(tip.tip_world).distance.min(axis.right().nearest(tip.tip_world).distance);
@@ -116,7 +116,7 @@ fn contact_stretch(tips: &[Tip], axis: &TunnelAxis) -> Option<(f64, f64)> {
     })
 }
 
-/// The median distance (m) of the points of the inner sides from the side opposite.
+/// The median distance (m) of points of the inner sides from the opposite side.
 fn clear_width(axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> f64 {
     let from_left = left.iter().map(|(_, point)| axis.right().nearest(*point).distance);
     let from_right = right.iter().map(|(_, point)| axis.left().nearest(*point).distance);
@@ -124,10 +124,10 @@ fn clear_width(axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> f6
     widths.map_or(f64::INFINITY, |widths| widths.percentile(50.0))
 }
 
-/// How far apart (m) two parallel walls are at most that a whisker on the left of `rig` and one on the right both feel at once; `None`
-/// if it has no two such whiskers.
+/// The largest distance (m) of two parallel walls that a left and a right whisker of `rig` touch at once. `None`
+/// without two such whiskers.
 fn whisker_span(rig: &Rig) -> Option<f64> {
-    // A wall is felt from the contact threshold on.
+    // A contact is detected above the contact threshold.
     let contact_body = |whisker: &Whisker| {
         let bend = whisker.usual_bend_sign() * rig.sensing.contact_threshold;
         let contact = TipCurve::new(whisker).ok()?.contact_base(bend);

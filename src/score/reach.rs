@@ -1,4 +1,4 @@
-//! What of an outline the rig cannot get to.
+//! Parts of an outline that the rig cannot reach.
 
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -12,35 +12,35 @@ use crate::geometry::{Contour, Point2, Segment, Vector2, perpendicular, rotate};
 use crate::scene::{Truth, gap};
 use vibrissa_runtime::rig::Rig;
 
-/// Side of the squares (m) to whose corners the search for a whisker's base and its shaft goes. Slits narrower than that count as closed.
+/// Cell size (m) of the grid on which the base of a whisker and its shaft are searched. Narrower gaps count as closed.
 const CELL: f64 = 2.5e-3;
-/// Headings in which the platform is tried.
+/// The number of sampled headings of the platform.
 const HEADINGS: u32 = 240;
-/// Lengths of a straight whisker, as shares of the longest one, and how many headings, that are tried before any search.
+/// Lengths of a straight whisker, as shares of the longest one, that are tested before any search.
 const STRAIGHT_REACHES: [f64; 3] = [0.8, 0.4, 0.15];
 const STRAIGHT_HEADINGS: u32 = 24;
-/// Distance (m) between the points of an outline that are tried.
+/// Distance (m) between the sampled points of an outline.
 const SPACING: f64 = 4e-3;
-/// The most by which a way along sides and diagonals of squares is longer than the straight one.
+/// The largest ratio of a path along sides and diagonals of cells to the straight distance.
 const DETOUR: f64 = 1.0824;
-/// A gap (m) up to which two lines cross: where they do, it is zero up to rounding.
+/// The distance (m) up to which two lines intersect, because of rounding.
 const ROUNDING: f64 = 1e-9;
-/// How often the search asks an outline for a distance or a crossing, at most: some seconds.
+/// The largest number of queries of an outline in a search, which take some seconds.
 const MOST_QUERIES: usize = 2_500_000;
-/// How far (m) off an outline its points are tried, on the outside.
+/// The distance (m) of the sampled points from the outline, on the outside.
 const OFF: f64 = 1e-5;
 
-/// The length (m) of the reference that was not traced, and that the rig certainly cannot touch with a tip, wherever it stands.
+/// The length (m) of the untraced reference that no tip of the rig can touch from any pose.
 ///
-/// A tip can touch a point only if the platform has a pose in which its footprint is clear of all solids, and if from a
-/// whisker's base there the shortest way through free space to the point is no longer than the whisker. Bent shafts go along no shorter
-/// ways. Whether the platform can get into that pose, how far a shaft may be bent, and where the other whiskers are, is left out. So what is
-/// told to be out of reach is, and some of the rest may be, too.
+/// A tip can touch a point only under two conditions. The platform has a pose in which its footprint is clear of all
+/// solids. The shortest path through free space from the base of a whisker to the point is no longer than the whisker,
+/// because a bent shaft is never shorter than this path. Other conditions are ignored: whether the platform can move to
+/// the pose, how far a shaft can bend, and where the other whiskers are. The result is therefore a lower bound.
 ///
-/// Poses are tried on a grid, and footprints are smaller by what lies between two poses of it, some 4 mm for the reference rig. Where the
-/// platform gets stuck by its taper, that lets it in some 15 mm deeper. Points are tried every 4 mm.
+/// Poses are sampled on a grid. Footprints are reduced by the distance between neighbouring poses, some 4 mm for the
+/// reference rig. In a tapered gap, this admits some 15 mm more. Points are sampled every 4 mm.
 ///
-/// The work is limited. Points that are left when it is used up count as within reach.
+/// The work is limited. Points that remain at the limit count as within reach.
 #[must_use]
 pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
     let mut search = Search::new(rig, truth);
@@ -49,30 +49,31 @@ pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
             .map(|stretch| search.out_of_reach(contour, &stretch))
             .sum()
     };
-    // Not `sum`, whose nothing is negative zero.
+    // An empty `sum` is negative zero.
     truth.reference.contours().map(of_contour).fold(0.0, |sum, length| sum + length)
 }
 
-/// The stretches of `0..length` between others.
+/// The complement of some intervals in `0..length`.
 fn untraced(traced: &[Range<f64>], length: f64) -> impl Iterator<Item = Range<f64>> {
     let starts = std::iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
     let ends = traced.iter().map(|stretch| stretch.start).chain([length]);
     starts.zip(ends).map(|(start, end)| start..end).filter(|stretch| stretch.end > stretch.start)
 }
 
-/// A corner of the squares, by its column and row.
+/// A node of the grid, by its column and row.
 type Node = (i64, i64);
 
-/// A search through the free space of one scene. What it found out about nodes is kept.
+/// A search through the free space of one scene. Results for nodes are cached.
 struct Search<'s> {
     truth: &'s Truth,
-    /// Of every whisker: its base in the body frame (m), and the corners of the footprint from there, smaller by what lies between poses.
+    /// For every whisker, the corners of the footprint relative to its base (m, body frame), reduced by the distance
+    /// between neighbouring poses.
     mounts: Vec<[Vector2; 4]>,
     /// The longest whisker (m).
     length: f64,
     is_free: HashMap<Node, bool>,
     has_base: HashMap<Node, bool>,
-    /// Queries of outlines so far.
+    /// The number of queries of outlines so far.
     queries: Cell<usize>,
 }
 
@@ -82,7 +83,7 @@ impl<'s> Search<'s> {
         let mounts = rig.whiskers.iter().map(|whisker| {
             let from_base = corners_body.map(|corner| corner - whisker.base_body);
             let arm = from_base.iter().map(Vector2::norm).fold(0.0, f64::max);
-            // Half of a square's diagonal, and half of the turn between two headings.
+            // Half of a cell's diagonal, and half of the rotation between two headings.
             let margin = CELL * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
             shrunk(from_base, margin)
         });
@@ -96,14 +97,14 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// The length (m) of a stretch of a contour that no tip can touch.
+    /// The length (m) of an interval of a contour that no tip can touch.
     fn out_of_reach(&mut self, contour: &Contour, stretch: &Range<f64>) -> f64 {
         let width = stretch.end - stretch.start;
         let pieces = (width / SPACING).ceil().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pieces")]
         let unreached = (0..pieces as usize).filter(|&index| {
             let s = stretch.start + (index as f64 + 0.5) / pieces * width;
-            // The outside is on the right; what can be touched of an open contour may be on either side.
+            // The outside is on the right. An open contour may be touched from either side.
             let outwards = -OFF * perpendicular(contour.tangent_at(s));
             let at = contour.point_at(s);
             !self.can_touch(at, outwards) && (contour.is_closed() || !self.can_touch(at, -outwards))
@@ -111,17 +112,18 @@ impl<'s> Search<'s> {
         unreached.count() as f64 * width / pieces
     }
 
-    /// Whether a tip may touch an outline at a point, from the side to which `outwards` leads.
+    /// True if a tip may touch a point of an outline from the side of `outwards`.
     fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
         let from = at + outwards;
         if self.queries.get() > MOST_QUERIES {
             return true;
         }
-        // Nearly all that can be touched has a pose straight in front of it; the search would take a thousand times as long.
+        // Nearly all reachable points have a pose directly in front of them. The search would take a thousand times as
+        // long.
         self.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
     }
 
-    /// Whether the platform has a pose that is clear of everything, with a straight whisker along the outline's normal to a point.
+    /// True if the platform has a clear pose with a straight whisker along the normal of the outline at a point.
     fn is_in_front(&self, point: Point2, normal: Vector2) -> bool {
         STRAIGHT_REACHES.iter().any(|reach| {
             let base = point + reach * self.length * normal;
@@ -133,7 +135,8 @@ impl<'s> Search<'s> {
         })
     }
 
-    /// Whether the shortest way through free space from a point to a base of a whisker is no longer than the longest whisker.
+    /// True if the shortest path through free space from a point to a base of a whisker is no longer than the longest
+    /// whisker.
     fn reaches(&mut self, point: Point2) -> bool {
         let most = DETOUR * self.length + 2.0 * CELL;
         let mut open = BinaryHeap::new();
@@ -181,12 +184,12 @@ impl<'s> Search<'s> {
         is_outside(self.truth, point)
     }
 
-    /// Counts a query of every outline.
+    /// Counts one query per outline.
     fn count_queries(&self) {
         self.queries.set(self.queries.get() + self.truth.surfaces.contours().count());
     }
 
-    /// Whether nothing is between two points.
+    /// True if the line between two points does not cross an outline.
     fn is_open(&self, start: Point2, end: Point2) -> bool {
         self.count_queries();
         let line = Segment { start, end };
@@ -194,7 +197,7 @@ impl<'s> Search<'s> {
         surfaces.all(|contour| contour.distance(start) > (end - start).norm() || crosses_nothing(contour, &line))
     }
 
-    /// Whether the platform has a pose that is clear of everything, with the base of a whisker at most half a square's diagonal off.
+    /// True if the platform has a clear pose with the base of a whisker within half a cell's diagonal of the node.
     fn has_base(&mut self, node: Node) -> bool {
         if let Some(&known) = self.has_base.get(&node) {
             return known;
@@ -206,12 +209,12 @@ impl<'s> Search<'s> {
         found
     }
 
-    /// Whether the platform, turned by `heading` (rad), is clear of everything with the base of one of its whiskers here.
+    /// True if the platform with this `heading` (rad) and a base of a whisker at this point is clear of all solids.
     fn has_pose(&self, base: Point2, heading: f64) -> bool {
         self.mounts.iter().any(|corners| {
             self.count_queries();
             let corners = corners.map(|corner| base + rotate(corner, heading));
-            // The smaller footprint leaves the base outside, where a thin wall could be between the two.
+            // The reduced footprint does not contain the base, and a thin wall could separate them.
             is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
         })
     }
@@ -221,7 +224,7 @@ fn is_outside(truth: &Truth, point: Point2) -> bool {
     truth.surfaces.contours().all(|contour| !contour.contains(point))
 }
 
-/// Whether a convex polygon, given counter-clockwise, is clear of all solids.
+/// True if a convex polygon, given counter-clockwise, is clear of all solids.
 fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
     let middle = middle_of(corners);
     let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
@@ -248,7 +251,8 @@ fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
     (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
 }
 
-/// A convex polygon, given counter-clockwise, with all sides moved inwards by `margin` (m); one that is thinner than that becomes a point.
+/// Moves all sides of a convex polygon, given counter-clockwise, inwards by `margin` (m). A polygon that is too thin
+/// becomes a point.
 fn shrunk(corners: [Vector2; 4], margin: f64) -> [Vector2; 4] {
     let middle = corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner / 4.0);
     let inwards = |side: usize| perpendicular((corners[(side + 1) % 4] - corners[side]).normalize());
@@ -258,7 +262,7 @@ fn shrunk(corners: [Vector2; 4], margin: f64) -> [Vector2; 4] {
     }
     [0, 1, 2, 3].map(|corner| {
         let (before, after) = (inwards((corner + 3) % 4), inwards(corner));
-        // Where both moved sides meet.
+        // The intersection of both moved sides.
         corners[corner] + margin / (1.0 + before.dot(&after)) * (before + after)
     })
 }
@@ -272,7 +276,7 @@ fn node_at(point: Point2) -> Node {
     ((point.x / CELL).floor() as i64, (point.y / CELL).floor() as i64)
 }
 
-/// The way to a node; the shortest one is the greatest.
+/// A path to a node. The order is reversed for a priority queue of the shortest paths.
 #[derive(PartialEq)]
 struct Way {
     length: f64,

@@ -1,4 +1,4 @@
-//! How far a whisker went to find what it had lost.
+//! Retrievals of the contour.
 
 use crate::geometry::Point2;
 use crate::run::{MarkRecord, Trace};
@@ -8,19 +8,20 @@ use vibrissa_runtime::signal::MAX_WHISKERS;
 use super::tip::is_finite;
 use super::{Statistics, body_path};
 
-/// One retrieval: from where a whisker lost the object to where it found it again (the thesis's section 5.2).
+/// One retrieval: from the point at which a whisker lost the object to the point at which it found it again (section
+/// 5.2 of the baseline).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Retrieval {
     /// Index of the whisker in the trace.
     pub whisker: usize,
-    /// The edge point (m, world frame): the last tip that was recorded before the whisker was marked `lost`.
+    /// The edge point (m, world frame), which is the last recorded tip before the mark `lost`.
     pub edge_world: Point2,
-    /// The retrieved point (m, world frame): the tip when the whisker was marked `found`.
+    /// The retrieved point (m, world frame), which is the tip at the mark `found`.
     pub retrieved_world: Point2,
-    /// The thesis's retrieval radius (m): the distance between the two.
+    /// The baseline's retrieval radius (m): the distance between both points.
     pub radius: f64,
-    /// The thesis's retrieval distance (m): the length of the path of the platform's centre of mass, tick by tick, from the
-    /// edge point to the retrieved point.
+    /// The baseline's retrieval distance (m): the length of the path of the platform's centre of mass from the edge
+    /// point to the retrieved point.
     pub distance: f64,
     /// Time from the edge point to the retrieved point (s).
     pub time: f64,
@@ -31,44 +32,44 @@ pub struct Retrieval {
 pub struct Spread {
     /// Mean.
     pub mean: f64,
-    /// Sample standard deviation; a single value has none.
+    /// Sample standard deviation. `None` for a single value.
     pub std: Option<f64>,
 }
 
-/// The figures of all retrievals of a run, whiskers pooled; those of no retrieval are `None`.
+/// The figures of all retrievals of a run, over all whiskers. They are `None` without retrievals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RetrievalFigures {
-    /// How many there were.
+    /// The number of retrievals.
     pub count: usize,
-    /// Their radii (m).
+    /// Retrieval radii (m).
     pub radius: Option<Spread>,
-    /// Their distances (m).
+    /// Retrieval distances (m).
     pub distance: Option<Spread>,
-    /// Their times (s).
+    /// Retrieval times (s).
     pub time: Option<Spread>,
 }
 
-/// Where a mark belongs.
+/// The position and time of a mark.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MarkPlace {
-    /// What was marked.
+    /// The mark.
     pub mark: Mark,
     /// Index of the whisker in the trace.
     pub whisker: usize,
-    /// Index of the tick in the trace: for `lost`, that of the edge point.
+    /// Index of the tick in the trace. For `lost`, it is the tick of the edge point.
     pub tick: usize,
     /// The edge point or the retrieved point (m, world frame).
     pub point_world: Point2,
 }
 
-/// The places of a run's marks in the order in which they were made.
+/// The positions of a run's marks, in the order of the marks.
 ///
-/// A whisker is marked `lost` when it has touched nothing for a while. Its place is then somewhere in the air, so that the mark
-/// belongs to the last tip recorded before; or to where the tip was if none was recorded. A mark whose place is not a number
-/// counts as not made.
+/// A policy marks a whisker `lost` after some time without contact. The whisker is then no longer at the edge. The mark
+/// therefore refers to the last recorded tip, or to the current tip if none was recorded. Marks whose position is not
+/// finite are ignored.
 #[must_use]
 pub fn mark_places(trace: &Trace) -> Vec<MarkPlace> {
-    // The last tip of every whisker in the ticks before the mark at hand, and its own.
+    // The last tip of every whisker before the current tick, and its tick.
     let mut last: [Option<(usize, Point2)>; MAX_WHISKERS] = [None; MAX_WHISKERS];
     let mut ticks = trace.ticks.iter().enumerate().peekable();
     let place = |&MarkRecord { mark, whisker, tick, tip_world }: &MarkRecord| {
@@ -84,8 +85,8 @@ pub fn mark_places(trace: &Trace) -> Vec<MarkPlace> {
     trace.marks.iter().filter_map(place).collect()
 }
 
-/// The retrievals of a run in the order in which they ended: every `found` of a whisker with the first `lost` of it since the
-/// `found` before. A `lost` that no `found` follows is none, nor is a `found` without a `lost`.
+/// The retrievals of a run in the order of their ends. Each consists of a `found` and the first `lost` of the same
+/// whisker since its previous `found`. A `lost` without a later `found` is ignored, as is a `found` without a `lost`.
 #[must_use]
 pub fn retrievals(trace: &Trace) -> Vec<Retrieval> {
     let mut retrievals = Vec::new();
@@ -113,7 +114,7 @@ fn retrieval(trace: &Trace, edge: &MarkPlace, found: &MarkPlace) -> Retrieval {
 }
 
 impl RetrievalFigures {
-    /// The figures of a run; `None` if its policy made no marks.
+    /// The figures of a run. `None` if its policy made no marks.
     #[must_use]
     pub fn new(trace: &Trace) -> Option<Self> {
         let retrievals = retrievals(trace);

@@ -1,4 +1,4 @@
-//! All figures of a run.
+//! All metrics of a run.
 
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Passage, RetrievalFigures, Spread, StateShare,
@@ -8,42 +8,42 @@ use crate::run::Run;
 use crate::scene::{Metric, Truth};
 use vibrissa_runtime::rig::Rig;
 
-/// All figures of a run; lengths in metres, times in seconds.
+/// All metrics of a run. Lengths are in metres, times in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Score {
-    /// How far the tip estimates are from what is there; `None` if no tip was recorded.
+    /// Errors of the tip estimates. `None` without recorded tips.
     pub error: Option<ErrorFigures>,
-    /// The [share of the reference](coverage) that was traced, 0 to 1.
+    /// The [traced share of the reference](coverage), 0 to 1.
     pub coverage: f64,
-    /// The share of the [object whose loop closed](object_coverage) that was traced, 0 to 1.
+    /// The traced share of the [object whose loop closed](object_coverage), 0 to 1.
     pub object_coverage: f64,
-    /// The share of the reference that was not traced and that the rig certainly [cannot reach](out_of_reach), 0 to 1.
+    /// The share of the reference (0 to 1) that was not traced and is certainly [out of reach](out_of_reach).
     pub out_of_reach: f64,
-    /// How the platform went through a tunnel; `None` without one.
+    /// The passage through a tunnel. `None` without one.
     pub passage: Option<Passage>,
-    /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference; `None` if no tip
-    /// was recorded.
+    /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference. `None` without
+    /// recorded tips.
     pub hausdorff: Option<f64>,
-    /// Retrievals; `None` if the policy made no marks.
+    /// Retrievals. `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
-    /// [Distance of the estimated midpoints from the tunnel's axis](axis_error); `None` without a tunnel.
+    /// [Distance of the estimated midpoints from the tunnel's axis](axis_error). `None` without a tunnel.
     pub axis: Option<Spread>,
-    /// Corners; `None` if the reference has no sharp one.
+    /// Corners. `None` if the reference has no sharp corner.
     pub corners: Option<CornerFigures>,
-    /// What the time went into.
+    /// The time shares of the states.
     pub states: Vec<StateShare>,
     /// Length of the path of the platform's centre of mass (m).
     pub path: f64,
-    /// That length over the reference's.
+    /// The ratio of this length to the length of the reference.
     pub path_ratio: f64,
-    /// What the platform's body ran into.
+    /// Collisions of the platform's body.
     pub collisions: Collisions,
-    /// Wall time of the control ticks; `None` if there was none.
+    /// Wall time of the control ticks. `None` without ticks.
     pub latency: Option<Latency>,
 }
 
 impl Score {
-    /// The figures of a `run` of `rig` against what is true of its scene.
+    /// Computes the metrics of a `run` of `rig` against the exact geometry of its scene.
     #[must_use]
     pub fn new(run: &Run, truth: &Truth, rig: &Rig) -> Self {
         let estimate = Estimate::new(&run.trace);
@@ -68,18 +68,19 @@ impl Score {
         }
     }
 
-    /// The share of what is not [out of reach](Self::out_of_reach) that was traced, 0 to 1.
+    /// The traced share of the reference without the parts [out of reach](Self::out_of_reach), 0 to 1.
     #[must_use]
     pub fn coverage_in_reach(&self) -> f64 {
         (self.coverage / (1.0 - self.out_of_reach)).min(1.0)
     }
 
-    /// The figures of corners if all were traced: one that was never found is worse than the worst of the others.
+    /// The figures of corners, if all sharp corners were traced. A corner without an estimate has no finite error, so
+    /// the maxima are unknown otherwise.
     fn all_corners(&self) -> Option<CornerFigures> {
         self.corners.filter(|corners| corners.traced == corners.count)
     }
 
-    /// One figure (SI), for an expectation; `None` if the run has none.
+    /// The value of a metric (SI units), for an expectation. `None` if the run has none.
     #[must_use]
     pub fn figure(&self, metric: Metric) -> Option<f64> {
         match metric {

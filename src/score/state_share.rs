@@ -1,21 +1,21 @@
-//! What a run's time went into.
+//! The time shares of the states of a policy.
 
 use crate::run::Trace;
 
-/// How much of a run a state took.
+/// The time share of a state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateShare {
-    /// Name of the state; `Failure` for the time after a failure.
+    /// Name of the state, `Failure` for the time after a failure.
     pub state: String,
     /// Its share of the run's ticks, 0 to 1.
     pub share: f64,
 }
 
-/// The shares of all states that were active, in the order of the machine. Of nested states the innermost counts, so that the
-/// shares add up to 1; there are none without a tick.
+/// The shares of all active states, in the order of the machine. Of nested states the innermost counts, so that the
+/// shares sum to 1. Empty without ticks.
 #[must_use]
 pub fn state_shares(trace: &Trace) -> Vec<StateShare> {
-    // What is no index of a state is the failure, behind all states.
+    // An index without a state represents the failure, after all states.
     let failure = trace.states.len();
     let mut ticks = vec![0_usize; failure + 1];
     for tick in &trace.ticks {

@@ -1,6 +1,6 @@
 //! Statistics of a set of numbers.
 
-/// A set of numbers that has been put in order, at least one.
+/// A sorted, non-empty set of numbers.
 ///
 /// ```
 /// use vibrissa::score::Statistics;
@@ -11,19 +11,19 @@
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statistics {
-    /// In ascending order, so that sums do not depend on the order in which the numbers came.
+    /// In ascending order, so that sums do not depend on the original order.
     sorted: Vec<f64>,
 }
 
 impl Statistics {
-    /// The statistics of `values`; `None` if there are none.
+    /// The statistics of `values`. `None` if there are none.
     #[must_use]
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         (!values.is_empty()).then_some(Self { sorted: values })
     }
 
-    /// How many numbers there are.
+    /// The number of values.
     #[must_use]
     pub fn count(&self) -> usize {
         self.sorted.len()
@@ -35,7 +35,7 @@ impl Statistics {
         self.sorted.iter().sum::<f64>() / self.count() as f64
     }
 
-    /// The sample standard deviation, of divisor `n − 1`; a single number has none.
+    /// The sample standard deviation with the divisor `n − 1`. `None` for a single value.
     #[must_use]
     pub fn std(&self) -> Option<f64> {
         let mean = self.mean();
@@ -43,8 +43,8 @@ impl Statistics {
         (self.count() > 1).then(|| (squares / (self.count() - 1) as f64).sqrt())
     }
 
-    /// The value below which `percent` (0 to 100) of the numbers lie, by linear interpolation: the `k`-th of `n` numbers
-    /// in order, counted from 0, is the percentile `100 k / (n − 1)` (Hyndman and Fan's definition 7).
+    /// The percentile for `percent` (0 to 100), by linear interpolation. The `k`-th of `n` sorted numbers, counted from
+    /// 0, is the percentile `100 k / (n − 1)` (definition 7 of Hyndman and Fan).
     #[must_use]
     pub fn percentile(&self, percent: f64) -> f64 {
         let last = self.count() - 1;
@@ -53,11 +53,11 @@ impl Statistics {
         let below = place as usize;
         let (low, high) = (self.sorted[below], self.sorted[last.min(below + 1)]);
         let share = place - below as f64;
-        // An exact place takes its number as it is: infinities must not meet in a difference.
+        // An exact position takes its value directly, because the difference of infinities is not a number.
         if share > 0.0 { low + share * (high - low) } else { low }
     }
 
-    /// The greatest.
+    /// The maximum.
     #[must_use]
     pub fn max(&self) -> f64 {
         self.sorted[self.count() - 1]
@@ -91,7 +91,7 @@ mod tests {
             let statistics = Statistics::of(values.clone()).unwrap();
             let count = values.len() as f64;
             prop_assert!((statistics.mean() * count - values.iter().sum::<f64>()).abs() < 1e-9);
-            // The variance as half the mean squared difference of pairs knows nothing of the mean.
+            // The variance as half of the mean squared difference of all pairs does not use the mean.
             let pairs = values.iter().flat_map(|a| values.iter().map(move |b| (a - b).powi(2))).sum::<f64>();
             let variance = 0.5 * pairs / (count * (count - 1.0));
             prop_assert!((statistics.std().unwrap().powi(2) - variance).abs() < 1e-8 * variance.max(1.0));

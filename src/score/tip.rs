@@ -1,4 +1,4 @@
-//! Recorded tips, and how far they are from what is there.
+//! Recorded tips and their errors.
 
 use crate::geometry::{ContourSet, Point2, perpendicular};
 use crate::run::Trace;
@@ -12,43 +12,44 @@ pub struct Tip {
     pub tick: usize,
     /// Index of its whisker in the trace.
     pub whisker: usize,
-    /// Where it is estimated to be (m, world frame).
+    /// The estimated position (m, world frame).
     pub tip_world: Point2,
-    /// Its distance from the nearest surface (m), never negative: the thesis's absolute error (section 5.1).
+    /// The distance from the nearest surface (m), never negative: the baseline's absolute error (section 5.1).
     pub error: f64,
-    /// How far off it may be by what the estimate tells (m), as a standard deviation.
+    /// The reported standard deviation (m).
     pub spread: f64,
-    /// Its offset from the true tip; `None` if the world did not tell where that was.
+    /// The offset from the true tip. `None` if the simulator did not report the true tip.
     pub offset: Option<TipOffset>,
 }
 
-/// How far a tip estimate is from the point of the true tip that is nearest to the outline (m). Neither is negative.
+/// The distance (m) of a tip estimate from the point of the true tip that is nearest to the outline. Both components
+/// are non-negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipOffset {
-    /// Along the tangent of the outline where that is nearest to the true tip.
+    /// Along the tangent of the outline at its point nearest to the true tip.
     pub along: f64,
-    /// Across it, along the normal.
+    /// Along the normal at that point.
     pub across: f64,
 }
 
-/// An outlier's error exceeds this (m), which no use of a contour notices, plus [`OUTLIER_DEVIATIONS`].
+/// The absolute term (m) in the error threshold of an outlier. The other term is [`OUTLIER_DEVIATIONS`].
 pub const OUTLIER_ERROR: f64 = 1e-4;
 
-/// How many of its own standard deviations an outlier's error exceeds besides [`OUTLIER_ERROR`]. A normal distribution does so once
-/// in 16 000 cases.
+/// The number of reported standard deviations in the error threshold of an outlier, besides [`OUTLIER_ERROR`]. A normal
+/// distribution exceeds it once in 16 000 cases.
 pub const OUTLIER_DEVIATIONS: f64 = 4.0;
 
 impl Tip {
-    /// Whether the error is more than the estimate's own standard deviation (m) explains.
+    /// True if the error exceeds the threshold of an outlier.
     #[must_use]
     pub fn is_outlier(&self) -> bool {
         let is_explained = self.error <= OUTLIER_ERROR + OUTLIER_DEVIATIONS * self.spread;
-        // An error that is not a number is an outlier, and so is a standard deviation that is not.
+        // An error or a standard deviation that is not a number makes an outlier.
         !is_explained
     }
 }
 
-/// Every valid tip estimate of a run on `rig`, whisker by whisker and in the order of time, against the exact `surfaces`.
+/// All valid tip estimates of a run on `rig`, by whisker and time, with their errors against the exact `surfaces`.
 #[must_use]
 pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
     let whisker = |name: &String| rig.whiskers.iter().find(|whisker| whisker.name == *name);
@@ -65,8 +66,8 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
         .collect()
 }
 
-/// The offset of an estimate (m, world frame) from a tip of this `radius` (m) whose axis ends at `end`; `None` if that is on the
-/// outline itself, where its normal is unknown.
+/// The offset of an estimate (m, world frame) from a tip of this `radius` (m) whose axis ends at `end`. `None` if `end`
+/// is on the outline, where the normal is undefined.
 fn offset(tip_world: Point2, end: Point2, radius: f64, surfaces: &ContourSet) -> Option<TipOffset> {
     let outwards = (end - surfaces.nearest(end).point).try_normalize(0.0)?;
     let error = tip_world - (end - radius * outwards);
@@ -74,17 +75,17 @@ fn offset(tip_world: Point2, end: Point2, radius: f64, surfaces: &ContourSet) ->
     (along.is_finite() && across.is_finite()).then_some(TipOffset { along, across })
 }
 
-/// Indices of the whiskers that the trace has room for.
+/// Indices of the whiskers in the trace.
 pub(super) fn whiskers(trace: &Trace) -> std::ops::Range<usize> {
     0..trace.whiskers.len().min(MAX_WHISKERS)
 }
 
-/// The recorded tips of one whisker whose coordinates are finite, with the ticks' indices.
+/// The recorded tips of one whisker with finite coordinates, with the indices of their ticks.
 pub(super) fn valid_tips(trace: &Trace, whisker: usize) -> impl Iterator<Item = (usize, Point2)> {
     trace.tips(whisker).filter(|(_, tip)| is_finite(tip))
 }
 
-/// Whether a tip counts.
+/// True if a tip is valid.
 pub(super) fn is_finite(tip: &Point2) -> bool {
     tip.x.is_finite() && tip.y.is_finite()
 }

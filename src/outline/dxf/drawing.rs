@@ -1,4 +1,4 @@
-//! A drawing as a whole.
+//! A DXF drawing.
 
 use std::collections::HashSet;
 
@@ -6,12 +6,12 @@ use super::super::OutlineError;
 use super::pair::{Pair, cut_off, pairs};
 use super::record::Record;
 
-/// What is read of a drawing.
+/// The relevant content of a drawing.
 #[derive(Debug, Default)]
 pub(super) struct Drawing<'t> {
-    /// What 1 in it is (m), if it says so.
+    /// The length of a drawing unit (m), if the file states it.
     pub(super) unit: Option<f64>,
-    /// The names of layers that are not shown, in small letters.
+    /// The names of hidden layers, in lower case.
     pub(super) hidden: HashSet<String>,
     pub(super) entities: Vec<Record<'t>>,
 }
@@ -20,7 +20,7 @@ impl<'t> Drawing<'t> {
     pub(super) fn read(text: &'t str) -> Result<Self, OutlineError> {
         let mut drawing = Self::default();
         let mut section = "";
-        // What is read at the moment, if it is of use.
+        // The current record, if it is relevant.
         let mut record: Option<Record<'t>> = None;
         let mut variable = "";
         for pair in pairs(text) {
@@ -49,12 +49,12 @@ impl<'t> Drawing<'t> {
         Err(cut_off().into())
     }
 
-    /// Takes a record that is complete.
+    /// Adds a complete record.
     fn take(&mut self, record: Option<Record<'t>>) -> Result<(), OutlineError> {
         let Some(record) = record else { return Ok(()) };
         match (record.kind, self.entities.last_mut()) {
             ("LAYER", _) => {
-                // A colour below 0 is that of a layer that is off; the first flag is set of one that is frozen.
+                // A negative colour means that the layer is off. The first flag means that it is frozen.
                 if record.integer(62)? < 0 || record.integer(70)? & 1 != 0 {
                     self.hidden.insert(record.text(2).to_lowercase());
                 }
@@ -66,7 +66,7 @@ impl<'t> Drawing<'t> {
     }
 }
 
-/// What 1 is (m), by the number of a unit; `None` if there is none.
+/// The length of a unit (m) by its number. `None` if there is no unit.
 fn metres(unit: &Pair<'_>) -> Result<Option<f64>, OutlineError> {
     Ok(Some(match unit.integer()? {
         1 => 0.0254,

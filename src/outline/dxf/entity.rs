@@ -1,4 +1,4 @@
-//! What entities draw.
+//! The geometry of entities.
 
 use std::f64::consts::TAU;
 
@@ -8,11 +8,11 @@ use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault, TOLERANCE};
 use super::record::Record;
 
-/// Arcs that may be larger (m) would lose their digits.
+/// The largest radius (m) of an arc, because of rounding.
 const LARGEST_RADIUS: f64 = 1e6;
 
-/// What stands beside outlines and is none: texts, dimensions, hatches, points, pictures, views, what helps to construct, and
-/// the end of the list of a polyline's vertices.
+/// Entities that are not outlines: texts, dimensions, hatches, points, images, views, construction aids, and the end of
+/// a polyline's vertex list.
 const ANNOTATIONS: [&str; 31] = [
     "TEXT",
     "MTEXT",
@@ -47,16 +47,16 @@ const ANNOTATIONS: [&str; 31] = [
     "SEQEND",
 ];
 
-/// What an entity draws.
+/// The geometry of an entity.
 pub(super) enum Drawn {
     Nothing,
-    /// An outline.
+    /// A complete outline.
     Whole(Vec<Piece>),
-    /// A part of one.
+    /// A part of an outline.
     Loose(Vec<Piece>),
 }
 
-/// A vertex of a polyline: where it is, and how much the side behind it bulges.
+/// A vertex of a polyline: its position, and the bulge of the following side.
 type Vertex = ([f64; 2], f64);
 
 pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn, OutlineError> {
@@ -82,7 +82,7 @@ pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn,
             if ratio <= 0.0 {
                 return Err(OutlineFault::AxisRatio { ratio }.into());
             }
-            // Its centre and its axis are the world's, whichever side it is seen from.
+            // The centre and the axis are in world coordinates, regardless of the direction of view.
             let hand = own(entity, transform)?.x_axis.dot(&transform.x_axis).signum();
             let major = Vector2::from(entity.place(11)?);
             let minor = perpendicular(major) * (hand * ratio);
@@ -102,7 +102,7 @@ pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn,
     Ok(drawn?)
 }
 
-/// The plane of an entity's own coordinates. An entity that is seen from below has its x axis turned round.
+/// The transform of an entity's own coordinates. The x axis of an entity that is seen from below is reversed.
 fn own(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
     let [x, y, z] = [entity.number(210, 0.0)?, entity.number(220, 0.0)?, entity.number(230, 1.0)?];
     let is_level = z != 0.0 && x.abs() + y.abs() <= 1e-9 * z.abs();
@@ -125,7 +125,7 @@ fn elliptic(
     if !from.is_finite() || !turn.is_finite() {
         return Err(OutlineFault::FarOff);
     }
-    // From an angle to itself is all the way round.
+    // An arc with equal angles is a full turn.
     let is_whole = turn <= 1e-9 || TAU - turn <= 1e-9;
     let sweep = if is_whole { TAU } else { turn };
     let radii = radii.map(|radius| transform.direction(radius.into()));
@@ -134,7 +134,7 @@ fn elliptic(
     Ok(if is_whole { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
 }
 
-/// The vertices of a polyline that has them in itself.
+/// The vertices of a lightweight polyline, within the entity.
 fn light(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     let mut vertices: Vec<Vertex> = Vec::new();
     for pair in &entity.pairs {
@@ -148,7 +148,7 @@ fn light(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     Ok(vertices)
 }
 
-/// The vertices of a polyline that has them behind it.
+/// The vertices of a polyline in following entities.
 fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     const CLOSED_OR_FITTED_BY_ARCS: i32 = 1 | 2;
     const CONTINUOUS_PATTERN: i32 = 128;
@@ -160,7 +160,7 @@ fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     entity.vertices.iter().map(|vertex| Ok((vertex.place(10)?, vertex.number(42, 0.0)?))).collect()
 }
 
-/// A polyline whose sides are arcs where they bulge: by the tangent of a quarter of the angle, positive to the left.
+/// A polyline with arcs as sides. The bulge is the tangent of a quarter of the angle, positive to the left.
 fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<Drawn, OutlineFault> {
     let hand = transform.x_axis.perp(&transform.y_axis).signum();
     let is_closed = flags & 1 != 0;

@@ -1,4 +1,4 @@
-//! DXF: lines, arcs, circles, ellipses and polylines, seen from above.
+//! DXF: lines, arcs, circles, ellipses and polylines in top view.
 
 mod drawing;
 mod entity;
@@ -15,16 +15,16 @@ use drawing::Drawing;
 use entity::{Drawn, drawn};
 use record::Record;
 
-/// What a binary DXF begins with.
+/// The beginning of a binary DXF.
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
 
-/// Reads the outlines of all layers that are shown, or those of one layer.
+/// Reads the outlines of all visible layers, or of one layer.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     if bytes.starts_with(BINARY) {
         let advice = "save it as a DXF of text (ASCII)";
         return Err(OutlineFault::Unsupported { what: "a binary DXF".to_owned(), advice }.into());
     }
-    // Older files have names in other encodings; all else is ASCII.
+    // Older files have names in other encodings. Everything else is ASCII.
     let text = String::from_utf8_lossy(bytes);
     let drawing = Drawing::read(&text)?;
     let transform = Transform::scaled(options.unit.or(drawing.unit).ok_or(OutlineFault::NoUnit)?);
@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     outlines.into_outlines()
 }
 
-/// The entities of a layer; or all that are to be seen. Names of layers do not tell capitals from small letters.
+/// The entities of a layer, or all visible entities. Names of layers are case-insensitive.
 fn chosen<'d>(drawing: &'d Drawing<'_>, layer: Option<&str>) -> Result<Vec<&'d Record<'d>>, OutlineError> {
     let in_the_model = drawing.entities.iter().filter(|entity| !entity.is_on_paper());
     let Some(layer) = layer else {

@@ -1,8 +1,8 @@
-//! What a DXF is made of: pairs of lines, the first with a number that says what the second is.
+//! The group pairs of a DXF: a line with a group code, and a line with its value.
 
 use super::super::{OutlineError, OutlineFault};
 
-/// A value with the number of its group.
+/// A value with its group code.
 #[derive(Copy, Clone, Debug)]
 pub(super) struct Pair<'t> {
     pub(super) code: i32,
@@ -17,13 +17,13 @@ impl Pair<'_> {
         self.value.parse().map_err(|_| syntax(self.line, "a number", self.value))
     }
 
-    /// The value as a whole number.
+    /// The value as an integer.
     pub(super) fn integer(&self) -> Result<i32, OutlineError> {
         self.value.parse().map_err(|_| syntax(self.line, "a whole number", self.value))
     }
 }
 
-/// The pairs of a text, up to the first that is none.
+/// The pairs of a text, up to the first invalid one.
 pub(super) fn pairs(text: &str) -> impl Iterator<Item = Result<Pair<'_>, OutlineError>> {
     let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..);
     let mut is_over = false;
@@ -39,7 +39,7 @@ pub(super) fn pairs(text: &str) -> impl Iterator<Item = Result<Pair<'_>, Outline
     })
 }
 
-/// The report of a text that ends too soon.
+/// The error for a truncated text.
 pub(super) fn cut_off() -> OutlineFault {
     OutlineFault::Syntax { reason: "it ends before the drawing does".to_owned() }
 }

@@ -1,9 +1,9 @@
-//! Entities and what else has a kind and pairs.
+//! Entities and other records with a kind and pairs.
 
 use super::super::OutlineError;
 use super::pair::Pair;
 
-/// Something of a kind, with all its pairs.
+/// A record of some kind with all its pairs.
 #[derive(Debug)]
 pub(super) struct Record<'t> {
     pub(super) kind: &'t str,
@@ -24,22 +24,22 @@ impl<'t> Record<'t> {
         self.pairs.iter().find(|pair| pair.code == code)
     }
 
-    /// The text of a group; empty if it is left out.
+    /// The text of a group, empty by default.
     pub(super) fn text(&self, code: i32) -> &'t str {
         self.value(code).map_or("", |pair| pair.value)
     }
 
-    /// The number of a group, or the one that it has if it is left out.
+    /// The number of a group, or its default.
     pub(super) fn number(&self, code: i32, default: f64) -> Result<f64, OutlineError> {
         self.value(code).map_or(Ok(default), Pair::number)
     }
 
-    /// The whole number of a group, 0 if it is left out.
+    /// The integer of a group, 0 by default.
     pub(super) fn integer(&self, code: i32) -> Result<i32, OutlineError> {
         self.value(code).map_or(Ok(0), Pair::integer)
     }
 
-    /// The x and y of a point whose x is in a group.
+    /// The position of a point, by the group code of its x coordinate.
     pub(super) fn place(&self, code: i32) -> Result<[f64; 2], OutlineError> {
         Ok([self.number(code, 0.0)?, self.number(code + 10, 0.0)?])
     }
@@ -49,7 +49,7 @@ impl<'t> Record<'t> {
         self.text(8)
     }
 
-    /// Whether it is on a sheet on which the model is shown, and no part of the model.
+    /// True if the entity belongs to a paper layout instead of the model.
     pub(super) fn is_on_paper(&self) -> bool {
         self.text(67) == "1"
     }

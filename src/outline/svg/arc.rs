@@ -1,8 +1,8 @@
-//! Arcs of paths, which are given by their ends.
+//! Arcs of paths, given by their end points.
 
 use crate::geometry::Vector2;
 
-/// An arc of an ellipse, in user units.
+/// An elliptic arc, in user units.
 pub(super) struct Centred {
     pub(super) centre: Vector2,
     /// The semi-axes.
@@ -11,26 +11,26 @@ pub(super) struct Centred {
     pub(super) sweep: f64,
 }
 
-/// An arc as `A` gives it.
+/// An arc with the parameters of `A`.
 pub(super) struct Given {
     pub(super) start: Vector2,
     pub(super) end: Vector2,
     pub(super) radii: [f64; 2],
-    /// From the x axis to the first radius (rad).
+    /// The angle from the x axis to the first radius (rad).
     pub(super) rotation: f64,
     pub(super) is_large: bool,
-    /// Whether angles grow along it.
+    /// True if angles increase along the arc.
     pub(super) is_positive: bool,
 }
 
 impl Given {
-    /// The arc about its centre, as the standard has it (SVG 2, B.2.4). Radii too small for the ends are made larger. `None` if
-    /// it is a straight line, because a radius is 0.
+    /// Returns the arc with its centre, by the conversion of SVG 2, B.2.4. Radii that are too small for the end points
+    /// are enlarged. `None` if a radius is 0, because the arc is then a straight line.
     pub(super) fn centred(&self) -> Option<Centred> {
         let [rx, ry] = self.radii.map(f64::abs);
         let (sin, cos) = self.rotation.sin_cos();
         let axes = [Vector2::new(cos, sin), Vector2::new(-sin, cos)];
-        // In the frame in which the ellipse is the unit circle.
+        // In this frame, the ellipse is the unit circle.
         let to_circle = |offset: Vector2| Vector2::new(axes[0].dot(&offset) / rx, axes[1].dot(&offset) / ry);
         let half = to_circle(0.5 * (self.start - self.end));
         if rx == 0.0 || ry == 0.0 || !half.norm().is_finite() {
@@ -40,7 +40,7 @@ impl Given {
         let half = half / stretch;
         let (rx, ry) = (rx * stretch, ry * stretch);
         let side = if self.is_large == self.is_positive { -1.0 } else { 1.0 };
-        // The way from the chord's middle to the centre is square to the chord.
+        // The line from the middle of the chord to the centre is perpendicular to the chord.
         let far = (1.0 - half.norm_squared()).max(0.0).sqrt();
         let centre = Vector2::new(half.y, -half.x).try_normalize(0.0)? * (side * far);
         let (from, to) = (half - centre, -half - centre);

@@ -6,13 +6,14 @@ use svgtypes::{Length, LengthUnit};
 use super::super::OutlineFault;
 use super::super::transform::Transform;
 
-/// User units to the inch, by the standard.
+/// User units per inch, by the standard.
 const PER_INCH: f64 = 96.0;
 
-/// Attributes that newer drawings may have in a style. Width and height are not among them: there they tell how a page is laid out.
+/// Attributes that newer drawings may set in a style. Width and height are excluded, because in a style they describe
+/// the page layout.
 const SIZES: [&str; 8] = ["d", "x", "y", "cx", "cy", "r", "rx", "ry"];
 
-/// A length in user units; `None` if there is no such attribute.
+/// A length in user units. `None` without the attribute.
 pub(super) fn length(node: Node<'_, '_>, name: &str) -> Result<Option<f64>, OutlineFault> {
     let Some(text) = node.attribute(name) else { return Ok(None) };
     let Length { number, unit } = text.trim().parse().map_err(|_| unreadable(node, name, text))?;
@@ -31,13 +32,13 @@ pub(super) fn length(node: Node<'_, '_>, name: &str) -> Result<Option<f64>, Outl
     Ok(Some(number * scale))
 }
 
-/// A length in user units, 0 if it is left out.
+/// A length in user units, 0 by default.
 pub(super) fn length_or_zero(node: Node<'_, '_>, name: &str) -> Result<f64, OutlineFault> {
     Ok(length(node, name)?.unwrap_or(0.0))
 }
 
-/// The value of a property: what an element's style says goes before the attribute of that name, in a style the last, or the last
-/// that is important.
+/// The value of a property. The element's style has precedence over the attribute. Within a style, the last value or
+/// the last important value holds.
 pub(super) fn property<'n>(node: Node<'n, '_>, name: &str) -> Option<&'n str> {
     let values = || rules(node).filter(|(rule, _)| rule.eq_ignore_ascii_case(name)).map(|(_, value)| value);
     let important = |value: &'n str| value.split_once('!').map(|(value, _)| value);
@@ -51,12 +52,12 @@ fn rules<'n>(node: Node<'n, '_>) -> impl Iterator<Item = (&'n str, &'n str)> {
     rules.map(|(name, value)| (name.trim(), value.trim()))
 }
 
-/// Whether a style is written in a way that [`property`] does not understand.
+/// True if a style has syntax that [`property`] does not support.
 pub(super) fn is_intricate(node: Node<'_, '_>) -> bool {
     node.attribute("style").is_some_and(|style| style.contains("/*") || style.contains('\\'))
 }
 
-/// The plane within an element.
+/// The transform within an element.
 pub(super) fn inner(node: Node<'_, '_>, outer: &Transform) -> Result<Transform, OutlineFault> {
     for name in ["clip-path", "mask"] {
         if property(node, name).is_some_and(|value| !value.eq_ignore_ascii_case("none")) {
@@ -81,7 +82,7 @@ pub(super) fn inner(node: Node<'_, '_>, outer: &Transform) -> Result<Transform, 
     Ok(outer.inner([a, b], [c, d], [e, f]))
 }
 
-/// The report of an attribute's value.
+/// The error for the value of an attribute.
 pub(super) fn unreadable(node: Node<'_, '_>, name: &str, text: &str) -> OutlineFault {
     let text: String = text.chars().take(40).collect();
     OutlineFault::Syntax { reason: format!("`{}` has an unreadable `{name}`: `{text}`", node.tag_name().name()) }

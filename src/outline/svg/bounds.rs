@@ -1,14 +1,14 @@
-//! What is refused before the parser sees it, because parsing it would take too long or too much memory.
+//! Limits that are checked before parsing, because parsing could take too long or too much memory.
 //!
-//! The parser compares each attribute of an element with all others, copies the namespaces of an element into those in it, and
-//! replaces each reference to an entity by its text.
+//! The parser compares each attribute of an element with all others. It copies the namespaces of an element into its
+//! children, and expands every reference to an entity.
 
 use super::super::{OutlineError, OutlineFault, SIZE_LIMIT};
 
-/// The most attributes of an element. Drawings have a few dozen.
+/// The largest number of attributes of an element. Drawings have a few dozen.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// The most declarations of namespaces in a document. Drawings have a dozen, most of them in their first element.
+/// The largest number of namespace declarations of a document. Drawings have a dozen, mostly in their first element.
 const MOST_NAMESPACES: usize = 1000;
 
 /// Checks that a document can be parsed in a time and with memory proportional to its text.
@@ -40,11 +40,11 @@ pub(super) fn check(text: &str) -> Result<(), OutlineError> {
     Ok(())
 }
 
-/// A tag, from behind its `<`.
+/// A tag, without its `<`.
 struct Tag {
-    /// How many values in quotes it has.
+    /// The number of its quoted values.
     attributes: usize,
-    /// Whether there is no end of it.
+    /// True if the tag has no end.
     is_open: bool,
 }
 

@@ -1,4 +1,4 @@
-//! SVG: shapes and paths, where they are drawn.
+//! SVG: shapes and paths with their transforms.
 
 mod arc;
 mod attribute;
@@ -19,17 +19,17 @@ use super::outline_list::{Outline, OutlineList};
 use super::{OutlineError, OutlineFault, ReadOptions};
 use walk::Walk;
 
-/// The most elements, attributes and texts of a document.
+/// The largest number of elements, attributes and texts of a document.
 const MOST_NODES: u32 = 500_000;
 
-/// Reads the outlines of all shapes, or of those of one element.
+/// Reads the outlines of all shapes, or of the shapes in one element.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
     bounds::check(text)?;
     // Drawing programs write a document type.
     let parsing = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, parsing).map_err(|error| {
-        // The parser says 1:1 where it knows no place.
+        // The parser reports 1:1 if the position is unknown.
         let line = usize::try_from(error.pos().row).ok().filter(|&row| row > 1 || error.pos().col > 1);
         syntax(&error.to_string()).at(line)
     })?;
@@ -40,7 +40,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     }
     let transform = root::transform(root, options.unit)?;
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
-    // Of two of one name the first counts.
+    // Of two elements with one id, the first counts.
     let named: HashMap<_, _> = ids.rev().collect();
     let mut walk = Walk { named, source: Source::new("", text), outlines: OutlineList::default(), steps: 0 };
     walk.check(document.root())?;

@@ -10,7 +10,7 @@ use super::super::{MOST_PIECES, OutlineFault};
 use super::arc::Given;
 use super::attribute::unreadable;
 
-/// The subpaths of a path, each in pieces. Those that `Z` closes come back to their start.
+/// The subpaths of a path, each as pieces. Subpaths closed by `Z` return to their start.
 pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<Piece>>, OutlineFault> {
     let text = node.attribute("d").unwrap_or_default();
     let mut pen = Pen::new(transform);
@@ -24,7 +24,7 @@ pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<
     Ok(pen.drawn)
 }
 
-/// What a smooth curve takes over from the one before it.
+/// The state of the previous curve that a smooth curve continues.
 #[derive(Copy, Clone, PartialEq)]
 enum Before {
     Cubic,
@@ -32,14 +32,14 @@ enum Before {
     Other,
 }
 
-/// A pen on paper; places are in user units.
+/// The state of the drawing commands. Positions are in user units.
 struct Pen<'p> {
     transform: &'p Transform,
     drawn: Vec<Vec<Piece>>,
     subpath: Vec<Piece>,
     start: Vector2,
     at: Vector2,
-    /// The last point that pulled at a curve, and at which kind of curve.
+    /// The last control point, and the kind of its curve.
     pull: Vector2,
     before: Before,
     count: usize,
@@ -54,7 +54,7 @@ impl<'p> Pen<'p> {
     fn draw(&mut self, segment: PathSegment) -> Result<(), OutlineFault> {
         let from = if segment.is_abs() { Vector2::zeros() } else { self.at };
         let place = |x, y| from + Vector2::new(x, y);
-        // The last pull, mirrored where the pen is.
+        // The last control point, mirrored about the current point.
         let mirrored = |kind| if self.before == kind { 2.0 * self.at - self.pull } else { self.at };
         match segment {
             PathSegment::MoveTo { x, y, .. } => {
@@ -92,7 +92,7 @@ impl<'p> Pen<'p> {
 
     fn line(&mut self, end: Vector2) -> Result<(), OutlineFault> {
         let piece = Piece::segment(self.transform.point(self.at.into())?, self.transform.point(end.into())?);
-        // Most paths are back at their start when they are closed.
+        // Most paths are at their start when they are closed.
         let pieces = if end == self.at { Vec::new() } else { vec![piece] };
         self.go(pieces, end);
         Ok(())
@@ -115,7 +115,7 @@ impl<'p> Pen<'p> {
     }
 
     fn arc(&mut self, given: &Given) -> Result<(), OutlineFault> {
-        // One that ends where it starts is not drawn.
+        // An arc with equal end points is not drawn.
         if given.start == given.end {
             return Ok(());
         }

@@ -1,4 +1,4 @@
-//! What a user unit of a document is.
+//! The user unit of a document.
 
 use roxmltree::Node;
 use svgtypes::{Length, LengthUnit, ViewBox};
@@ -6,17 +6,18 @@ use svgtypes::{Length, LengthUnit, ViewBox};
 use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault};
 
-/// How much of themselves the scales of width and height may differ by: their digits are rounded.
+/// The largest relative difference of the scales of width and height, because their digits are rounded.
 const EVEN: f64 = 1e-4;
 
-/// The plane of the document's own coordinates, y up; a user unit is `unit` (m), or what width, height and view box say.
+/// The transform of the document's coordinates, y up. A user unit is `unit` (m), or follows from width, height and view
+/// box.
 pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>) -> Result<Transform, OutlineError> {
     let unit = unit.or_else(|| unit_of(root)).ok_or(OutlineFault::NoUnit)?;
-    // In the file y points down.
+    // The y axis of the file points down.
     Ok(Transform::scaled(unit).inner([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
 }
 
-/// A user unit (m) where width and height are lengths on paper, and the view box says how many units they have.
+/// The user unit (m), if width and height are physical lengths and the view box gives their number of units.
 fn unit_of(root: Node<'_, '_>) -> Option<f64> {
     let view: ViewBox = root.attribute("viewBox")?.parse().ok()?;
     let paper = |name| metres(root.attribute(name)?.parse().ok()?);
@@ -24,7 +25,7 @@ fn unit_of(root: Node<'_, '_>) -> Option<f64> {
     ((across - up).abs() <= EVEN * across).then_some(across)
 }
 
-/// A length on paper (m).
+/// A physical length (m).
 fn metres(length: Length) -> Option<f64> {
     let unit = match length.unit {
         LengthUnit::Mm => 1e-3,

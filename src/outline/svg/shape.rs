@@ -11,7 +11,7 @@ use super::super::transform::Transform;
 use super::super::{MOST_PIECES, OutlineFault};
 use super::attribute::{length, length_or_zero, unreadable};
 
-/// The outlines of a shape, each in pieces; none if it is not drawn, because it has no size.
+/// The outlines of a shape, each as pieces. Empty for a shape without size, which is not drawn.
 pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<Piece>>, OutlineFault> {
     let pieces = match node.tag_name().name() {
         "rect" => rectangle(node, transform)?,
@@ -70,7 +70,7 @@ fn ellipse(node: Node<'_, '_>, transform: &Transform, [rx, ry]: [f64; 2]) -> Res
         return Ok(Vec::new());
     }
     let centre = [length_or_zero(node, "cx")?, length_or_zero(node, "cy")?];
-    // Halves, so that what is not quite a circle joins like any other outline.
+    // Two halves, so that a distorted circle is joined like any other outline.
     let mut pieces = elliptic(transform, centre, [rx, ry], 0.0, PI)?;
     if let [Piece::Arc(half)] = pieces.as_slice() {
         return Ok(vec![Piece::arc(half.centre, half.radius, half.start_angle, TAU.copysign(half.sweep))]);
@@ -86,7 +86,7 @@ fn elliptic(
     start_angle: f64,
     sweep: f64,
 ) -> Result<Vec<Piece>, OutlineFault> {
-    // What is farther off than the corners of its box is not on it.
+    // Points outside of the bounding box's corners are not on the ellipse.
     for corner in [[-rx, -ry], [rx, ry]] {
         transform.point([centre[0] + corner[0], centre[1] + corner[1]])?;
     }
@@ -95,7 +95,7 @@ fn elliptic(
     arc.pieces().ok_or(OutlineFault::Curve)
 }
 
-/// `rx` and `ry`, of which one may stand for both.
+/// `rx` and `ry`. One of them may represent both.
 fn radii(node: Node<'_, '_>) -> Result<(f64, f64), OutlineFault> {
     let (rx, ry) = (length(node, "rx")?, length(node, "ry")?);
     Ok((rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0)))

@@ -1,4 +1,4 @@
-//! The way through a document.
+//! The traversal of a document.
 
 use std::collections::HashMap;
 
@@ -12,26 +12,26 @@ use super::super::{OutlineError, OutlineFault};
 use super::attribute::{inner, is_intricate, length_or_zero, property};
 use super::{path, shape};
 
-/// How deep elements may lie in each other.
+/// The largest nesting depth of elements.
 const DEEPEST: usize = 100;
 
-/// The most steps: one for each node and one more for so many bytes of its attributes, and what `use` repeats counts each
-/// time. A file without `use` always has fewer.
+/// The largest number of steps. A node counts one step, plus a share for the bytes of its attributes. Content repeated
+/// by `use` counts each time. A file without `use` never reaches the limit.
 const MOST_STEPS: usize = 1_000_000;
 const BYTES_PER_STEP: usize = 64;
 
-/// A way through a document, and what was found on it.
+/// A traversal of a document with its results.
 pub(super) struct Walk<'d> {
-    /// The elements that can be referred to.
+    /// The elements with an id.
     pub(super) named: HashMap<&'d str, Node<'d, 'd>>,
-    /// The text, for lines.
+    /// The text, for line numbers.
     pub(super) source: Source,
     pub(super) outlines: OutlineList,
     pub(super) steps: usize,
 }
 
 impl<'d> Walk<'d> {
-    /// Takes one element as its ancestors show it, be it visible or not.
+    /// Reads one element with the transforms of its ancestors, regardless of its visibility.
     pub(super) fn one(&mut self, node: Node<'d, 'd>, root: &Transform) -> Result<(), OutlineError> {
         let mut transform = *root;
         let above: Vec<_> = node.ancestors().skip(1).filter(Node::is_element).collect();
@@ -42,7 +42,7 @@ impl<'d> Walk<'d> {
         self.draw(node, &transform, 0, true)
     }
 
-    /// Counts what it costs to look at a node, before that is done.
+    /// Counts the cost of a node before it is read.
     fn step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.name().len() + attribute.value().len()).sum();
         self.steps += 1 + bytes / BYTES_PER_STEP;
@@ -60,7 +60,7 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    /// Whether there are no rules for the document as a whole, which may hide, move or change any of its elements.
+    /// Reports style sheets, because they may hide, move or change any element.
     pub(super) fn check(&self, document: Node<'d, 'd>) -> Result<(), OutlineError> {
         let is_sheet = |node: &Node<'_, '_>| {
             is(*node, "style") || node.pi().is_some_and(|instruction| instruction.target == "xml-stylesheet")
@@ -71,7 +71,7 @@ impl<'d> Walk<'d> {
         Err(self.at(sheet, OutlineFault::Unsupported { what, advice }))
     }
 
-    /// Takes what is to be seen of an element and what is in it; `is_visible` unless it says otherwise itself.
+    /// Reads the visible content of an element. `is_visible` is the inherited visibility.
     pub(super) fn all(
         &mut self,
         node: Node<'d, 'd>,
@@ -81,7 +81,7 @@ impl<'d> Walk<'d> {
     ) -> Result<(), OutlineError> {
         self.step(node, depth)?;
         let is_hidden = property(node, "display").is_some_and(|value| value.eq_ignore_ascii_case("none"));
-        // A symbol is there to be used.
+        // A symbol is drawn only by `use`.
         if is_hidden || is(node, "symbol") {
             return Ok(());
         }
@@ -98,7 +98,7 @@ impl<'d> Walk<'d> {
         match node.tag_name().name() {
             "svg" | "g" | "a" | "symbol" => {
                 let transform = self.within(node, transform)?;
-                // Texts and comments count as steps, too.
+                // Texts and comments also count as steps.
                 for child in node.children() {
                     self.all(child, &transform, depth + 1, is_visible)?;
                 }
@@ -109,24 +109,24 @@ impl<'d> Walk<'d> {
                 let advice = "put what it is to show in its place";
                 return Err(self.at(node, OutlineFault::Unsupported { what, advice }));
             }
-            // Of a group that is not visible parts may be, but a shape is not.
+            // Parts of a hidden group may be visible, but a hidden shape is not.
             "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" if is_visible => {
                 let transform = self.within(node, transform)?;
                 let drawn = if is(node, "path") { path::read(node, &transform) } else { shape::read(node, &transform) };
                 let drawn = drawn.map_err(|fault| self.at(node, fault))?;
-                // Lines are counted for those few only that draw something.
+                // Lines are computed only for the few elements that draw something.
                 let line = if drawn.is_empty() { None } else { Some(self.line(node)) };
                 for pieces in drawn {
                     self.outlines.add(pieces, line)?;
                 }
             }
-            // Definitions, texts, pictures and what programs keep for themselves.
+            // Definitions, texts, images and data of drawing programs.
             _ => {}
         }
         Ok(())
     }
 
-    /// Draws what a `use` refers to.
+    /// Draws the target of a `use` element.
     fn repeat(
         &mut self,
         node: Node<'d, 'd>,
@@ -150,7 +150,7 @@ impl<'d> Walk<'d> {
         self.draw(found, &transform, depth + 1, visibility(found).unwrap_or(is_visible))
     }
 
-    /// The plane within an element.
+    /// The transform within an element.
     fn within(&self, node: Node<'d, 'd>, transform: &Transform) -> Result<Transform, OutlineError> {
         let is_root = node.parent().is_none_or(|parent| parent.is_root());
         let fits = node.attribute("viewBox").is_some() || is(node, "svg");
@@ -171,7 +171,7 @@ impl<'d> Walk<'d> {
     }
 }
 
-/// Whether an element says itself that it is visible or not.
+/// The visibility that an element states itself.
 fn visibility(node: Node<'_, '_>) -> Option<bool> {
     match property(node, "visibility")?.to_ascii_lowercase().as_str() {
         "hidden" | "collapse" => Some(false),
@@ -180,7 +180,7 @@ fn visibility(node: Node<'_, '_>) -> Option<bool> {
     }
 }
 
-/// Whether an element has this name, in whatever namespace.
+/// True if an element has this name, in any namespace.
 fn is(node: Node<'_, '_>, name: &str) -> bool {
     node.tag_name().name() == name
 }
