@@ -1,13 +1,13 @@
-//! Circular pieces.
+//! Circular arcs.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{BoundingBox, Point2, Pose, Vector2, perpendicular, unit};
 
-/// How near to a spoke (rad, about) rounding might decide on which side of it a point is.
+/// The angle (rad, approximately) next to a spoke within which rounding may decide on which side of it a point is.
 const SIDE_SLACK: f64 = 1e-9;
 
-/// A circular piece of a contour.
+/// A circular arc of a contour.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Arc {
     /// Centre of the circle (m).
@@ -16,7 +16,7 @@ pub struct Arc {
     pub radius: f64,
     /// Direction from the centre to the start (rad).
     pub start_angle: f64,
-    /// Angle travelled (rad), positive counter-clockwise; a full circle is ±2π.
+    /// Sweep angle (rad), positive counter-clockwise. A full circle is ±2π.
     pub sweep: f64,
 }
 
@@ -27,31 +27,31 @@ impl Arc {
         self.radius * self.sweep.abs()
     }
 
-    /// Where it starts (m).
+    /// The start (m).
     #[must_use]
     pub fn start(&self) -> Point2 {
         self.at_angle(self.start_angle)
     }
 
-    /// Where it ends (m).
+    /// The end (m).
     #[must_use]
     pub fn end(&self) -> Point2 {
         self.at_angle(self.start_angle + self.sweep)
     }
 
-    /// The point at arc length `s` (m) from the start, `s` held to the arc.
+    /// The point at arc length `s` (m) from the start, with `s` clamped to the arc.
     #[must_use]
     pub fn point_at(&self, s: f64) -> Point2 {
         self.at_angle(self.angle_at(s))
     }
 
-    /// The direction of travel at arc length `s` (m), a unit vector.
+    /// The tangent at arc length `s` (m), a unit vector in the direction of travel.
     #[must_use]
     pub fn tangent_at(&self, s: f64) -> Vector2 {
         perpendicular(unit(self.angle_at(s))) * self.sweep.signum()
     }
 
-    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    /// Arc length (m) from the start to the point nearest to `point`. It is exactly 0 or `length()` at an end.
     #[must_use]
     pub fn nearest(&self, point: Point2) -> f64 {
         let travelled = self.angle_travelled(point - self.centre);
@@ -64,13 +64,13 @@ impl Arc {
         }
     }
 
-    /// Distance (m) from a point to the nearest point of the arc.
+    /// Distance (m) of a point from the arc.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
         self.distance_by(self.spokes(), point)
     }
 
-    /// The same, for who keeps the arc's [spokes](Self::spokes).
+    /// The same, with precomputed [spokes](Self::spokes).
     pub(super) fn distance_by(&self, spokes: [Vector2; 2], point: Point2) -> f64 {
         let outward = point - self.centre;
         if self.is_beside(spokes, outward) {
@@ -86,7 +86,8 @@ impl Arc {
         [unit(self.start_angle), unit(self.start_angle + self.sweep)]
     }
 
-    /// Whether a ray from the centre goes through the arc. The sides of its spokes tell, and next to those the angle.
+    /// True if a ray from the centre intersects the arc. The test uses the sides of the spokes, and the angle next to
+    /// them.
     fn is_beside(&self, [start, end]: [Vector2; 2], outward: Vector2) -> bool {
         let (after_start, before_end) = (start.perp(&outward), outward.perp(&end));
         if after_start.abs().min(before_end.abs()) > SIDE_SLACK * (outward.x.abs() + outward.y.abs()) {
@@ -98,19 +99,19 @@ impl Arc {
         }
     }
 
-    /// The same arc travelled the other way.
+    /// The same arc in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self { start_angle: self.start_angle + self.sweep, sweep: -self.sweep, ..*self }
     }
 
-    /// The arc, given in the frame of `pose`, in world coordinates.
+    /// Transforms the arc from the frame of `pose` to world coordinates.
     #[must_use]
     pub fn transformed(&self, pose: &Pose) -> Self {
         Self { centre: pose.point_to_world(self.centre), start_angle: self.start_angle + pose.heading, ..*self }
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         let mut bounds = BoundingBox::around(self.start(), self.end());
@@ -134,7 +135,7 @@ impl Arc {
     /// The angle in [0, 2π) from the start to a ray from the centre, in the direction of travel.
     fn angle_travelled(&self, outward: Vector2) -> f64 {
         let start = unit(self.start_angle);
-        // The angle between two vectors, rather than a difference of two angles, keeps its digits near the start.
+        // The angle between two vectors is accurate near the start. A difference of two angles is not.
         let from_start = start.perp(&outward).atan2(start.dot(&outward)) * self.sweep.signum();
         if from_start < 0.0 { (from_start + TAU).min(TAU.next_down()) } else { from_start }
     }

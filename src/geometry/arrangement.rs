@@ -1,4 +1,4 @@
-//! Outlines cut where they meet, and what of them is the outline of all together.
+//! The arrangement of outlines: their parts between intersections, and the outer boundary.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -7,13 +7,13 @@ use super::simple::{MOST_PAIRS, crossings, grown};
 use super::union::TOUCHING;
 use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment};
 
-/// The most places in which outlines may meet.
+/// The largest number of intersections.
 const MOST_CUTS: usize = 20_000;
 
-/// Two places on a piece are one within this (m).
+/// Two positions on a piece are equal within this distance (m).
 const SAME: f64 = 2.0 * TOUCHING;
 
-/// How far apart (m) an end and the start of what goes on there may be.
+/// The largest distance (m) between the end of a part and the start of its successor.
 const JOINT: f64 = 4.0 * TOUCHING;
 
 /// A part of a piece between two cuts, by arc lengths (m) from the piece's start.
@@ -26,24 +26,24 @@ pub(super) struct Part {
     to: f64,
 }
 
-/// All parts of closed outlines, in the order of travel, one outline after the other.
+/// All parts of closed outlines, in the order of travel, by outline.
 pub(super) struct Arrangement {
     parts: Vec<Part>,
-    /// Whether a part belongs to the outline of all together.
+    /// For every part, true if it belongs to the outer boundary.
     is_outer: Vec<bool>,
-    /// The part behind each on the outline that it is of.
+    /// For every part, its successor on its own outline.
     next: Vec<usize>,
 }
 
-/// Parts that come back to where they started, at least one.
+/// A closed sequence of at least one part.
 pub(super) struct Loop {
     pub(super) parts: Vec<Part>,
-    /// The members that they are of, each once, in order.
+    /// The members of the parts, without repetition, in order.
     pub(super) members: Vec<usize>,
 }
 
 impl Arrangement {
-    /// The arrangement of `members`; the most cuts that there may be, if there are more.
+    /// The arrangement of `members`. The error is the largest number of cuts, if there are more.
     pub(super) fn of(members: &[&Contour]) -> Result<Self, usize> {
         let near = Near::of(members);
         let (mut parts, mut next, mut cuts, mut work) = (Vec::new(), Vec::new(), 0, 0);
@@ -71,7 +71,7 @@ impl Arrangement {
         Ok(Self { parts, is_outer, next })
     }
 
-    /// The closed outlines that the outer parts make; `None` if one does not come back to where it started.
+    /// The closed outlines of the outer parts. `None` if one of them does not close.
     pub(super) fn loops(&self) -> Option<Vec<Loop>> {
         let outer = || (0..self.parts.len()).filter(|&part| self.is_outer[part]);
         let starts = outer().map(|part| GeomWithData::new(self.parts[part].start().into(), part));
@@ -99,7 +99,7 @@ impl Arrangement {
         Some(loops)
     }
 
-    /// The part that goes on where one ends. Where outlines only touch, both go on by themselves.
+    /// The successor of a part. Where outlines only touch, each continues on itself.
     fn following(
         &self,
         part: usize,
@@ -117,16 +117,16 @@ impl Arrangement {
     }
 }
 
-/// Members, found by where they are.
+/// A spatial index of the members.
 pub(super) struct Near<'m> {
     members: &'m [&'m Contour],
-    /// The boxes of members.
+    /// The bounding boxes of the members.
     frames: RTree<Boxed<usize>>,
-    /// The boxes of their pieces, each with its member and its index there.
+    /// The bounding boxes of their pieces, each with its member and its index there.
     pieces: RTree<Boxed<(usize, usize)>>,
 }
 
-/// Something in a box that has room for all that touches it.
+/// An item with its bounding box, enlarged by the touching distance.
 type Boxed<T> = GeomWithData<Rectangle<[f64; 2]>, T>;
 
 fn boxed<T>(bounds: &BoundingBox, data: T) -> Boxed<T> {
@@ -144,7 +144,8 @@ impl<'m> Near<'m> {
         Self { members, frames: RTree::bulk_load(frames.collect()), pieces: RTree::bulk_load(pieces.collect()) }
     }
 
-    /// The places (m) on a member's piece where other members cross it, touch it or end on it; `None` if there are more than `most`.
+    /// The positions (m) on a member's piece at which other members cross it, touch it or end on it. `None` if there
+    /// are more than `most`.
     fn cuts(&self, member: usize, piece: &Piece, most: usize, work: &mut usize) -> Option<Vec<f64>> {
         let mut cuts = Vec::new();
         for near in self.pieces.locate_in_envelope_intersecting(grown(&piece.bounding_box(), 0.0)) {
@@ -165,14 +166,15 @@ impl<'m> Near<'m> {
         Some(cuts)
     }
 
-    /// The least signed distance (m) of a point from members whose boxes come within a `reach` (m) of it; infinite if none does.
+    /// The smallest signed distance (m) of a point from the members whose boxes are within `reach` (m), infinite if
+    /// there are none.
     pub(super) fn signed_distance(&self, point: Point2, reach: f64) -> f64 {
         let near = self.frames.locate_in_envelope_intersecting(grown(&BoundingBox::around(point, point), reach));
         near.map(|frame| self.members[frame.data].signed_distance(point)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a part belongs to the outline of all members together: it is inside of none of the others, and not on a side that lies
-    /// against another. Of sides that lie on each other that of the first member counts.
+    /// True if a part belongs to the outer boundary: it is inside of no other member, and its side does not touch the
+    /// side of another. Of coincident sides, that of the first member counts.
     fn is_outer(&self, part: &Part, work: &mut usize) -> Option<bool> {
         let along = 0.5 * (part.from + part.to);
         let (place, tangent) = (part.piece.point_at(along), part.piece.tangent_at(along));
@@ -206,7 +208,7 @@ impl Part {
         self.piece.point_at(self.to)
     }
 
-    /// The part as a piece of its own.
+    /// The part as a piece.
     fn piece(&self) -> Piece {
         let length = self.piece.length();
         if self.from <= 0.0 && self.to >= length {
@@ -223,10 +225,11 @@ impl Part {
     }
 }
 
-/// The outline that the parts of a loop are, the member itself if they are all of that; `None` if what they enclose is on their right.
+/// The outline of a loop. If the loop is a complete member, the member itself. `None` if the enclosed area is on the
+/// right.
 ///
 /// # Errors
-/// The pieces do not make a contour.
+/// The pieces are not a valid contour.
 pub(super) fn outline(parts: &[Part], members: &[&Contour]) -> Result<Option<Contour>, ContourError> {
     let parts = whole_parts(parts);
     let pieces: Vec<Piece> = parts.iter().map(Part::piece).collect();
@@ -242,7 +245,7 @@ pub(super) fn outline(parts: &[Part], members: &[&Contour]) -> Result<Option<Con
     Contour::closed(straightened(joined(&pieces))).map(Some)
 }
 
-/// The parts, those that were cut where nothing ends joined again.
+/// Merges parts that were cut at a position where nothing ends.
 fn whole_parts(cut: &[Part]) -> Vec<Part> {
     let goes_on = |last: &Part, next: &Part| {
         (last.member, last.index) == (next.member, next.index) && last.to.to_bits() == next.from.to_bits()
@@ -263,7 +266,7 @@ fn whole_parts(cut: &[Part]) -> Vec<Part> {
     parts
 }
 
-/// The pieces so that each ends where the next one starts: ends that only touch are moved together.
+/// Moves ends that touch to one point, so that the pieces are contiguous.
 fn joined(pieces: &[Piece]) -> Vec<Piece> {
     let starts = pieces.iter().cycle().skip(1).map(Piece::start);
     let join = |(piece, start): (&Piece, Point2)| {
@@ -273,7 +276,7 @@ fn joined(pieces: &[Piece]) -> Vec<Piece> {
     pieces.iter().zip(starts).flat_map(join).collect()
 }
 
-/// The pieces of a closed contour with one straight piece for several that go on straight ahead.
+/// Merges collinear consecutive segments of a closed contour.
 fn straightened(pieces: Vec<Piece>) -> Vec<Piece> {
     let goes_on = |last: &Piece, next: &Piece| match (last, next) {
         (Piece::Segment(last), Piece::Segment(next)) => {

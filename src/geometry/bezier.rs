@@ -3,29 +3,29 @@
 use super::fit::fit;
 use super::{Piece, Point2, Vector2};
 
-/// Parts to begin with: a cubic bends back once at most.
+/// The initial number of parts. A cubic changes the sign of its curvature at most twice.
 const PARTS: u32 = 2;
 
-/// Control points so near (m) to the chord do not bend the curve.
+/// The distance (m) of control points from the chord within which the curve is straight.
 const STRAIGHT: f64 = 1e-9;
 
 /// A cubic Bézier curve.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Bezier {
-    /// Where it starts, the two points that pull at it, and where it ends (m).
+    /// The start, the two control points and the end (m).
     pub control: [Point2; 4],
 }
 
 impl Bezier {
-    /// The curve that goes from `start` to `end` (m) under the pull of one point: a parabola.
+    /// The quadratic curve from `start` to `end` (m) with one control point, a parabola.
     #[must_use]
     pub fn quadratic(start: Point2, pull: Point2, end: Point2) -> Self {
         let towards = |from: Point2| from + (pull - from) * (2.0 / 3.0);
         Self { control: [start, towards(start), towards(end), end] }
     }
 
-    /// Pieces within a micrometre of it, joined without corners but for its cusps, from its start to its end: one if it is
-    /// straight, none if it is a point. `None` if a coordinate is no number.
+    /// Approximates the curve by pieces within a micrometre, from its start to its end. Corners occur only at its
+    /// cusps. A straight curve gives one piece, a point none. `None` if a coordinate is not finite.
     ///
     /// ```
     /// use vibrissa::geometry::{Bezier, Contour, Point2};
@@ -46,7 +46,7 @@ impl Bezier {
         fit(|share| (self.point(share), self.direction(share)), 0.0, 1.0, PARTS)
     }
 
-    /// Whether it goes straight ahead from its start to its end.
+    /// True if the curve moves along its chord without reversal.
     fn is_straight(&self) -> bool {
         let [start, first, second, end] = self.control;
         let Some(along) = (end - start).try_normalize(STRAIGHT) else { return false };
@@ -63,7 +63,7 @@ impl Bezier {
         Point2::from(a * (rest * rest * rest) + inner + d * (share * share * share))
     }
 
-    /// Which way it goes. At an end with which control points coincide, the next of them says it.
+    /// The direction of travel. If control points coincide with an end, the next one determines it.
     fn direction(&self, share: f64) -> Vector2 {
         let [a, b, c, d] = self.control;
         let rest = 1.0 - share;
@@ -92,7 +92,7 @@ mod tests {
         (-0.3..0.3_f64, -0.3..0.3_f64).prop_map(|(x, y)| Point2::new(x, y))
     }
 
-    /// How far the curve is from its pieces at most.
+    /// The largest distance of the curve from its pieces.
     fn strays(curve: &Bezier, pieces: &[Piece]) -> f64 {
         let places = (0..=2000).map(|k| curve.point(f64::from(k) / 2000.0));
         let off = |place| pieces.iter().map(|piece| piece.distance(place)).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! Contours: pieces joined end to end.
+//! Contours: contiguous pieces.
 
 use std::f64::consts::TAU;
 
@@ -7,15 +7,15 @@ use rstar::RTree;
 use super::distance::Leaf;
 use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, simple};
 
-/// How far apart (m) the end of a piece and the start of the next may be.
+/// The largest distance (m) between the end of a piece and the start of the next.
 pub const JOIN_TOLERANCE: f64 = 1e-9;
 
-/// The least length (m) of a piece: below it a piece could not be told from the gap at a joint.
+/// The smallest length (m) of a piece. A shorter piece cannot be distinguished from a gap.
 pub const SHORTEST_PIECE: f64 = 1e-8;
 
-/// A curve made of segments and circular arcs joined end to end, which neither crosses nor touches itself.
+/// A curve of contiguous segments and circular arcs. It neither crosses nor touches itself.
 ///
-/// A closed contour is travelled counter-clockwise: its interior is on the left.
+/// A closed contour is counter-clockwise: its interior is on the left.
 ///
 /// ```
 /// use std::f64::consts::{FRAC_PI_2, PI};
@@ -33,7 +33,7 @@ pub struct Contour {
     pub(super) pieces: Vec<Piece>,
     /// Arc length at the start of each piece.
     pub(super) starts: Vec<f64>,
-    /// Turn at the start of each piece; 0 at the free start of an open contour.
+    /// Turn at the start of each piece, 0 at the free start of an open contour.
     pub(super) turns: Vec<f64>,
     pub(super) length: f64,
     pub(super) closed: bool,
@@ -41,19 +41,19 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// A closed contour. Pieces that go clockwise are reversed, and their order with them.
+    /// Creates a closed contour. Clockwise pieces are reversed, together with their order.
     ///
     /// # Errors
-    /// If there is no piece, a piece is not sound, consecutive pieces (the last and the first among them) do not join to
+    /// If there is no piece, a piece is invalid, consecutive pieces (including the last and the first) do not join
     /// within [`JOIN_TOLERANCE`], or the contour meets itself.
     pub fn closed(pieces: Vec<Piece>) -> Result<Self, ContourError> {
         Self::build(pieces, true)
     }
 
-    /// An open contour, travelled in the order given.
+    /// Creates an open contour with the given direction of travel.
     ///
     /// # Errors
-    /// If there is no piece, a piece is not sound, consecutive pieces do not join to within [`JOIN_TOLERANCE`], or the
+    /// If there is no piece, a piece is invalid, consecutive pieces do not join within [`JOIN_TOLERANCE`], or the
     /// contour meets itself.
     pub fn open(pieces: Vec<Piece>) -> Result<Self, ContourError> {
         Self::build(pieces, false)
@@ -65,7 +65,7 @@ impl Contour {
         &self.pieces
     }
 
-    /// Whether it ends where it starts and so has an interior.
+    /// True if the contour ends at its start and has an interior.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.closed
@@ -77,43 +77,43 @@ impl Contour {
         self.length
     }
 
-    /// The point at arc length `s` (m) from the start. A closed contour goes round and round; on an open one `s` is held
-    /// to its length.
+    /// The point at arc length `s` (m) from the start. On a closed contour `s` is periodic, on an open one it is
+    /// clamped.
     #[must_use]
     pub fn point_at(&self, s: f64) -> Point2 {
         let (index, along) = self.locate(s);
         self.pieces[index].point_at(along)
     }
 
-    /// The direction of travel, a unit vector, at arc length `s` (m), counted as in [`point_at`](Self::point_at). At a
-    /// corner it is the direction in which the contour goes on.
+    /// The tangent at arc length `s` (m), a unit vector in the direction of travel. `s` counts as in
+    /// [`point_at`](Self::point_at). At a corner it is the tangent after the corner.
     #[must_use]
     pub fn tangent_at(&self, s: f64) -> Vector2 {
         let (index, along) = self.locate(s);
         self.pieces[index].tangent_at(along)
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         let envelope = self.tree.root().envelope();
         BoundingBox::around(Point2::from(envelope.lower()), Point2::from(envelope.upper()))
     }
 
-    /// The area inside a closed contour (m²); 0 for an open one, which has no inside.
+    /// The enclosed area (m²), 0 for an open contour.
     #[must_use]
     pub fn area(&self) -> f64 {
         if self.closed { signed_area(&self.pieces) } else { 0.0 }
     }
 
-    /// The contour, given in the frame of `pose`, in world coordinates.
+    /// Transforms the contour from the frame of `pose` to world coordinates.
     #[must_use]
     pub fn transformed(&self, pose: &Pose) -> Self {
         let pieces: Vec<_> = self.pieces.iter().map(|piece| piece.transformed(pose)).collect();
         Self { tree: Leaf::tree(&pieces), pieces, starts: self.starts.clone(), turns: self.turns.clone(), ..*self }
     }
 
-    /// The piece at arc length `s` and the arc length from its start.
+    /// The piece at arc length `s`, and the arc length from its start.
     fn locate(&self, s: f64) -> (usize, f64) {
         let s = if self.closed { s.rem_euclid(self.length) } else { s };
         let index = self.starts.partition_point(|&start| start <= s).saturating_sub(1);
@@ -131,7 +131,7 @@ impl Contour {
             for piece in &mut pieces {
                 *piece = piece.reversed();
             }
-            // The joint at the start of the first piece stays where it is; the others change order.
+            // The vertex at the start of the first piece stays first. The order of the others is reversed.
             turns[1..].reverse();
             for turn in &mut turns {
                 *turn = -*turn;
@@ -211,9 +211,9 @@ fn turns(pieces: &[Piece], closed: bool) -> Result<Vec<f64>, ContourError> {
         .collect()
 }
 
-/// The area (m²) inside a closed chain, positive if it goes counter-clockwise.
+/// The enclosed area (m²) of a closed chain, positive counter-clockwise.
 fn signed_area(pieces: &[Piece]) -> f64 {
-    // About a point of the chain itself, so that nothing is lost where it is small and far from the origin.
+    // The origin is a point of the chain, so that a small distant chain loses no digits.
     let origin = pieces[0].start();
     pieces.iter().map(|piece| piece.swept_area(origin)).sum()
 }

@@ -1,8 +1,8 @@
-//! Several contours as one.
+//! Sets of contours.
 
 use super::{BoundingBox, Contour, Nearest, Point2};
 
-/// Several contours, at least one, as one thing to measure from. Arc lengths count along one contour after the other.
+/// A non-empty set of contours with common distance queries. Arc lengths continue from one contour to the next.
 ///
 /// ```
 /// use vibrissa::geometry::{ContourSet, Point2, circle};
@@ -19,31 +19,31 @@ pub struct ContourSet {
 }
 
 impl ContourSet {
-    /// The set of `contours`; `None` if there is none.
+    /// The set of `contours`. `None` if there are none.
     #[must_use]
     pub fn new(contours: impl IntoIterator<Item = Contour>) -> Option<Self> {
         let mut contours = contours.into_iter();
         Some(Self { first: contours.next()?, rest: contours.collect() })
     }
 
-    /// The contours, in the order given.
+    /// The contours, in the given order.
     pub fn contours(&self) -> impl Iterator<Item = &Contour> {
         std::iter::once(&self.first).chain(&self.rest)
     }
 
-    /// Length of all together (m).
+    /// Total length (m).
     #[must_use]
     pub fn length(&self) -> f64 {
         self.rest.iter().fold(self.first.length(), |length, contour| length + contour.length())
     }
 
-    /// The nearest point of any of the contours. If several are as near, one of them, always the same.
+    /// The nearest point of all contours. Of several equally near points, always the same is returned.
     #[must_use]
     pub fn nearest(&self, point: Point2) -> Nearest {
         let mut nearest = self.first.nearest(point);
         let mut start = self.first.length();
         for contour in &self.rest {
-            // Each contour has a tree of its pieces; boxes spare asking those that are far off.
+            // Each contour has a tree of its pieces. The bounding boxes exclude distant contours.
             if contour.bounding_box().distance(point) < nearest.distance {
                 let found = contour.nearest(point);
                 if found.distance < nearest.distance {
@@ -55,14 +55,14 @@ impl ContourSet {
         nearest
     }
 
-    /// Distance (m) of a point from the nearest of the contours, never negative; infinite where the point is no number. It is that of
-    /// [`nearest`](Self::nearest), and quicker.
+    /// Distance (m) of a point from the nearest contour, never negative. Infinite if the point is not finite. It equals
+    /// the distance of [`nearest`](Self::nearest) and is faster.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
         self.contours().fold(f64::INFINITY, |within, contour| contour.distance_within(point, within))
     }
 
-    /// The box around all.
+    /// The bounding box of all contours.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         self.rest.iter().fold(self.first.bounding_box(), |bounds, contour| bounds.union(&contour.bounding_box()))

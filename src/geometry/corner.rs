@@ -1,29 +1,29 @@
-//! Joints between neighbouring pieces.
+//! Vertices between consecutive pieces: corners and cusps.
 
 use std::f64::consts::PI;
 
 use super::{Contour, Piece, Point2, Vector2};
 
-/// Two tangents within this angle (rad) of opposite make a cusp.
+/// Two tangents are a cusp if they are opposite within this angle (rad).
 const CUSP_TOLERANCE: f64 = 1e-9;
 
-/// A joint that turns less than this (rad) is smooth: the direction of a piece carries the rounding of its coordinates.
+/// A vertex with a smaller turn (rad) is smooth, because tangents have the rounding errors of coordinates.
 const SMOOTH_TOLERANCE: f64 = 1e-6;
 
-/// A point where the direction of a contour jumps.
+/// A discontinuity of a contour's direction.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Corner {
-    /// Where along the contour (m).
+    /// The arc length along the contour (m).
     pub arc_length: f64,
-    /// Where in the plane (m).
+    /// The position (m).
     pub point: Point2,
-    /// How the direction of travel jumps (rad), in [−π, π], positive to the left. On a closed contour a positive turn is a
-    /// convex corner, and its interior angle is π − turn.
+    /// The change of direction (rad) in [−π, π], positive to the left. On a closed contour, a positive turn is a convex
+    /// corner with the interior angle π − turn.
     pub turn: f64,
 }
 
 impl Contour {
-    /// The corners, in the order of travel; joints where the direction does not change are none.
+    /// The corners in the order of travel, without smooth vertices.
     ///
     /// ```
     /// use vibrissa::geometry::{Point2, regular_polygon};
@@ -42,7 +42,7 @@ impl Contour {
             .collect()
     }
 
-    /// Whether the contour is closed and its interior convex.
+    /// True if the contour is closed and its interior convex.
     #[must_use]
     pub fn is_convex(&self) -> bool {
         self.is_closed()
@@ -51,12 +51,12 @@ impl Contour {
     }
 }
 
-/// The jump of direction (rad, in [−π, π], positive to the left) from the end of `before` to the start of `after`.
-/// `None` if `after` goes back over `before`.
+/// The change of direction (rad, in [−π, π], positive to the left) from the end of `before` to the start of `after`.
+/// `None` if `after` retraces `before`.
 ///
-/// At a cusp the tangents are opposite and do not tell a turn by π from one by −π. The curvatures do: with `before`
-/// arriving along +x at the origin, the two lie at y = κ₁ x²/2 and y = −κ₂ x²/2, so the space between them is on the left
-/// of `before`, and the turn π, where κ₁ + κ₂ is negative.
+/// At a cusp the tangents are opposite, so that they do not distinguish the turns π and −π. The curvatures do. With
+/// `before` arriving along +x at the origin, the pieces are y = κ₁ x²/2 and y = −κ₂ x²/2. The space between them is on
+/// the left of `before`, and the turn is π, if κ₁ + κ₂ is negative.
 pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
     let (incoming, outgoing) = (before.tangent_at(before.length()), after.tangent_at(0.0));
     let turn = incoming.perp(&outgoing).atan2(incoming.dot(&outgoing));
@@ -68,8 +68,9 @@ pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
     if opening.abs() > CUSP_TOLERANCE * (kappa_1.abs() + kappa_2.abs()) { Some(-PI * opening.signum()) } else { None }
 }
 
-/// Whether a joint is a cusp so near, `to_joint` (m), to the nearest point of a point at `from_foot` that rounding decides
-/// which of the two pieces was found to be nearest; they are on opposite sides of the point.
+/// True if rounding decides which of the two pieces at a cusp is nearest to a point. Both pieces are on opposite sides
+/// of the point. `to_joint` is the distance (m) from the nearest point to the vertex, `from_foot` the vector from the
+/// nearest point.
 pub(super) fn is_ambiguous_at_cusp(turn: f64, to_joint: f64, from_foot: Vector2) -> bool {
     // The distances to the two pieces differ by the square of this times their curvatures.
     const REACH: f64 = 1e-6;
@@ -77,11 +78,11 @@ pub(super) fn is_ambiguous_at_cusp(turn: f64, to_joint: f64, from_foot: Vector2)
     PI - turn.abs() <= CUSP_TOLERANCE && to_joint < REACH && from_foot.norm() > to_joint
 }
 
-/// The side, +1 right or −1 left, of a joint on which the point at `from_joint` lies, given that the joint is its nearest
+/// The side of a vertex, +1 right or −1 left, on which the point at `from_joint` lies. The vertex must be its nearest
 /// point.
 pub(super) fn side(turn: f64, incoming: Vector2, outgoing: Vector2, from_joint: Vector2) -> f64 {
-    // The points nearest to a joint fill the wedge between its two normals, which opens away from the turn. Where the turn
-    // is slight the wedge is thin and rounding may put a point of either side into it: there the tangent decides.
+    // The points nearest to a vertex fill the wedge between its two normals, on the outside of the turn. The wedge of a
+    // slight turn is thin, and rounding may place a point of either side in it. There, the tangent decides.
     const SLIGHT: f64 = 1e-3;
     if turn.abs() > SLIGHT { turn.signum() } else { right_of(incoming + outgoing, from_joint) }
 }
@@ -99,7 +100,7 @@ mod tests {
 
     #[test]
     fn the_curvatures_tell_a_convex_cusp_from_a_reflex_one() {
-        // Arriving at the origin along +x; leaving along −x by an arc that bends up, then by one that bends down.
+        // Arriving at the origin along +x, then leaving along −x by an arc that bends up or down.
         let arriving = Piece::segment(Point2::new(-1.0, 0.0), Point2::origin());
         let above = Piece::arc(Point2::new(0.0, 1.0), 1.0, -0.5 * PI, -1.0);
         let below = Piece::arc(Point2::new(0.0, -1.0), 1.0, 0.5 * PI, 1.0);

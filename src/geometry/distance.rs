@@ -1,4 +1,4 @@
-//! Nearest points and distances, by a tree of boxes around the pieces.
+//! Nearest points and distances, by a tree of the pieces' bounding boxes.
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
@@ -9,16 +9,16 @@ use super::{Contour, Piece, Point2, Vector2, corner, min_distance};
 pub struct Nearest {
     /// The nearest point (m).
     pub point: Point2,
-    /// Where it is along the contour (m); on a closed one below the contour's length.
+    /// Its arc length (m), less than the length of a closed contour.
     pub arc_length: f64,
     /// Its distance from the given point (m), never negative.
     pub distance: f64,
-    /// The direction of travel there, a unit vector; at a corner, that of one of the two pieces that meet.
+    /// The tangent there, a unit vector in the direction of travel. At a corner, it belongs to one of the two pieces.
     pub tangent: Vector2,
 }
 
 impl Contour {
-    /// The nearest point of the contour. If several are as near, one of them, always the same.
+    /// The nearest point of the contour. Of several equally near points, always the same is returned.
     ///
     /// ```
     /// use vibrissa::geometry::{Point2, circle};
@@ -41,22 +41,22 @@ impl Contour {
         }
     }
 
-    /// Distance (m) of a point from the contour, never negative; infinite where the point is no number. It is that of
-    /// [`nearest`](Self::nearest), and quicker.
+    /// Distance (m) of a point from the contour, never negative. Infinite if the point is not finite. It equals the
+    /// distance of [`nearest`](Self::nearest) and is faster.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
         self.distance_within(point, f64::INFINITY)
     }
 
-    /// The same, or `within` (m) if it is not nearer than that.
+    /// The minimum of the distance and `within` (m).
     pub(super) fn distance_within(&self, point: Point2, within: f64) -> f64 {
         min_distance(&self.tree, point, within, |leaf| leaf.distance(point))
     }
 
-    /// Distance (m) from the contour: positive on the right of the direction of travel, which is the outside of a closed
-    /// contour, and negative on the left, the inside.
+    /// Signed distance (m) from the contour: positive on the right of the direction of travel, which is the outside of
+    /// a closed contour, and negative on the left.
     ///
-    /// Beyond an end of an open contour the straight line on from it tells the sides apart.
+    /// Beyond an end of an open contour, its tangent line separates the sides.
     ///
     /// ```
     /// use vibrissa::geometry::{Point2, polygon};
@@ -72,23 +72,23 @@ impl Contour {
         if distance > 0.0 { distance * self.side(index, along, point) } else { distance }
     }
 
-    /// Whether a point is strictly inside a closed contour; nothing is inside an open one.
+    /// True if a point is strictly inside of a closed contour. Always false for an open one.
     #[must_use]
     pub fn contains(&self, point: Point2) -> bool {
         self.closed && self.signed_distance(point) < 0.0
     }
 
-    /// The piece nearest to a point and the arc length along it of its nearest point.
+    /// The piece nearest to a point, and the arc length of the nearest point on it.
     fn foot(&self, point: Point2) -> (usize, f64) {
-        // The tree's `nearest_neighbor` prunes by a bound that holds only for boxes without rounding, and so misses the
-        // nearest piece now and then where that is nearest at a corner of its box. Its iterator does not.
+        // The tree's `nearest_neighbor` prunes by a bound that assumes exact boxes. It misses a nearest piece at a
+        // corner of its box now and then. The iterator does not.
         let nearest = self.tree.nearest_neighbor_iter([point.x, point.y]).next();
-        // Only coordinates that are no numbers have no nearest piece; they give distances that are none either.
+        // Only points that are not finite have no nearest piece. Their distances are not finite either.
         let index = nearest.map_or(0, |leaf| leaf.index);
         (index, self.pieces[index].nearest(point))
     }
 
-    /// The side of the contour, +1 right or −1 left, of a point whose nearest point is `along` the piece `index`.
+    /// The side of the contour, +1 right or −1 left, of a point whose nearest point is at `along` on the piece `index`.
     fn side(&self, index: usize, along: f64, point: Point2) -> f64 {
         let piece = &self.pieces[index];
         let from_foot = point - piece.point_at(along);
@@ -125,7 +125,7 @@ impl Contour {
 pub(super) struct Leaf {
     pub(super) index: usize,
     pub(super) piece: Piece,
-    /// Those of an arc, which are asked for at every distance.
+    /// The spokes of an arc, which every distance query needs.
     spokes: [Vector2; 2],
     envelope: AABB<[f64; 2]>,
 }

@@ -1,33 +1,33 @@
-//! Arcs of ellipses.
+//! Elliptic arcs.
 
 use std::f64::consts::TAU;
 
 use super::fit::fit;
 use super::{Piece, Point2, Vector2, perpendicular};
 
-/// Parts of a whole ellipse to begin with.
+/// The initial number of parts of a whole ellipse.
 const PARTS: f64 = 16.0;
 
-/// By how much of themselves the radii of a circle may differ, and be off a right angle.
+/// The relative tolerance for equal and perpendicular radii of a circle.
 const ROUND: f64 = 1e-9;
 
-/// A part of an ellipse: `centre + u cos t + v sin t`, with `t` from an angle on, over a sweep.
+/// An elliptic arc: `centre + u cos t + v sin t`, with `t` from the start angle over the sweep.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct EllipticArc {
     /// The centre (m).
     pub centre: Point2,
-    /// Two conjugate radii `u` and `v` (m), such as the semi-axes: the ellipse goes through `centre + u` in the direction of
-    /// `v`, and through `centre + v` against that of `u`. A linear map of the two is that of the ellipse.
+    /// Two conjugate radii `u` and `v` (m), such as the semi-axes. At `centre + u` the direction is `v`, at
+    /// `centre + v` it is `−u`. A linear map of the ellipse maps the radii in the same way.
     pub radii: [Vector2; 2],
-    /// Where it starts (rad).
+    /// The start angle (rad).
     pub start_angle: f64,
-    /// How far it goes (rad), 2π at most; negative from `v` to `u`.
+    /// The sweep angle (rad), at most 2π, negative from `v` to `u`.
     pub sweep: f64,
 }
 
 impl EllipticArc {
-    /// Pieces within a micrometre of it, joined without corners, from its start to its end: one arc if it is round. `None` if
-    /// it is flat, or a number is not finite.
+    /// Approximates the arc by pieces within a micrometre, from its start to its end, without corners. A circular arc
+    /// gives one piece. `None` if the ellipse is degenerate, or a number is not finite.
     ///
     /// ```
     /// use std::f64::consts::TAU;

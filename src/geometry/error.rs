@@ -1,8 +1,8 @@
-//! Why pieces do not make a contour.
+//! Errors of contours.
 
 use super::{JOIN_TOLERANCE, Point2, SHORTEST_PIECE};
 
-/// Why pieces do not make a contour. Pieces are counted from 0, as they were given.
+/// The reason why pieces are not a contour. Pieces are counted from 0, in the given order.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContourError {
     /// There is no piece.
@@ -24,7 +24,7 @@ pub enum ContourError {
         /// Its radius (m).
         radius: f64,
     },
-    /// An arc goes round more than once.
+    /// The sweep of an arc exceeds a full turn.
     #[error("arc {piece} sweeps {sweep} rad: it can sweep at most a full circle, 2π")]
     Sweep {
         /// The piece.
@@ -32,7 +32,7 @@ pub enum ContourError {
         /// Its sweep (rad).
         sweep: f64,
     },
-    /// A piece has no length to speak of.
+    /// A piece is too short.
     #[error("piece {piece} is {length} m long: leave it out, or make it longer than {SHORTEST_PIECE} m")]
     TooShort {
         /// The piece.
@@ -40,25 +40,25 @@ pub enum ContourError {
         /// Its length (m).
         length: f64,
     },
-    /// A piece does not start where the one before it ends.
+    /// A piece does not start at the end of the previous one.
     #[error(
         "piece {piece} ends {distance} m from where piece {next} starts: move them together, to within {JOIN_TOLERANCE} m"
     )]
     Gap {
         /// The piece before the gap.
         piece: usize,
-        /// The piece after it; the first one if a closed contour does not close.
+        /// The piece after the gap, the first one if a closed contour does not close.
         next: usize,
         /// The width of the gap (m).
         distance: f64,
     },
-    /// An open contour ends where it starts.
+    /// An open contour ends at its start.
     #[error("the contour ends where it starts: make it a closed one")]
     EndsMeet,
-    /// There are too many long pieces beside each other to check that none meets another.
+    /// There are too many pairs of long neighbouring pieces for an intersection test.
     #[error("more than {limit} pairs of its pieces may meet: use fewer long slanting sides")]
     Intricate {
-        /// How many pairs can be checked.
+        /// The largest number of pairs.
         limit: usize,
     },
     /// Two pieces cross, touch or cover each other.
@@ -68,7 +68,7 @@ pub enum ContourError {
         first: usize,
         /// The later piece.
         second: usize,
-        /// A point that they share (m).
+        /// A common point (m).
         at: Point2,
     },
 }

@@ -1,40 +1,41 @@
-//! Smooth curves as arcs.
+//! Approximation of smooth curves by arcs.
 
 use super::{Arc, Piece, Point2, Vector2, perpendicular};
 
-/// How far (m) a fitted arc may lie from its curve.
+/// The largest distance (m) of an arc from its curve.
 const TOLERANCE: f64 = 1e-6;
 
-/// Parts that a wave of a few turns is cut into before any fitting.
+/// The number of parts of a wave with a few turns before any fitting.
 pub(super) const LEAST_PARTS: u32 = 32;
 
-/// How often a part is halved at most; a smooth curve needs a fraction of it.
+/// The largest number of bisections of a part. A smooth curve needs a fraction of it.
 const MOST_HALVINGS: u32 = 12;
 
-/// Places between the ends of a part at which its arcs are checked. Between them they may be off by a fiftieth more.
+/// The number of sampled points of a part at which its arcs are checked. Between them the error may be larger by a
+/// fiftieth.
 const CHECKS: u32 = 15;
 
-/// An arc flatter than this (m) is drawn as a straight piece: its centre would be too far away to keep its digits.
+/// An arc of a larger radius (m) becomes a segment, because its distant centre has rounding errors.
 const LARGEST_RADIUS: f64 = 1e6;
 
-/// Where a curve is at a parameter, and the direction in which it goes, of any length but zero.
+/// The point of a curve at a parameter, and its derivative, of any non-zero length.
 pub(super) type Place = (Point2, Vector2);
 
-/// Arcs that lie within a micrometre of the smooth `curve` for parameters between `from` and `to`, and join without corners:
-/// pairs of arcs (biarcs) that share ends and directions with the curve. `None` where the curve is not smooth, or its
-/// coordinates are no numbers.
+/// Approximates the smooth `curve` between the parameters `from` and `to` by arcs within a micrometre, without corners.
+/// Pairs of arcs (biarcs) share ends and directions with the curve. `None` if the curve is not smooth, or if its
+/// coordinates are not finite.
 ///
-/// Before any fitting it is cut into so many `parts`: what happens twice in a part could hide from its check.
+/// The curve is first divided into `parts`. Features that occur twice in a part could escape its check.
 pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) -> Option<Vec<Piece>> {
     let mut pieces = Vec::new();
-    // The parts that are still to be fitted, the next one last.
+    // The parts that remain to be fitted, the next one last.
     let cut = |index: u32| from + (to - from) * (f64::from(index) / f64::from(parts));
     let mut open: Vec<(f64, f64, u32)> = (0..parts).rev().map(|k| (cut(k), cut(k + 1), 0)).collect();
     while let Some((start, end, halvings)) = open.pop() {
         let arcs = biarc(curve(start), curve(end));
         let strays = |index| {
             let (point, _) = curve(start + (end - start) * (f64::from(index) / f64::from(CHECKS + 1)));
-            // What is no number is not close.
+            // This comparison also rejects values that are not a number.
             !arcs.iter().any(|arc| arc.distance(point) <= TOLERANCE)
         };
         if !(1..=CHECKS).any(strays) {
@@ -49,20 +50,23 @@ pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) 
     Some(pieces)
 }
 
-/// How much more a curve may turn between the places than at them: sharp turns of steep waves are met by few places.
+/// The factor by which the curvature between samples may exceed that at the samples. Steep waves have sharp bends that
+/// few samples meet.
 const BETWEEN_PLACES: f64 = 1.2;
 
-/// At most how many arcs [`fit`] makes of a curve, a few times too many: from its first three derivatives, taken in so many places.
+/// An upper bound of the number of arcs that [`fit`] creates for a curve. It is a few times too large. It follows from
+/// the first three derivatives at sampled points.
 ///
-/// Over a length 2 h whose curvature changes evenly, by k' along it, a pair of arcs that shares ends and directions with the curve is
-/// off by k'/6 t (h - t)² at the distance t from its middle: by k' (2 h)³ / 324 at most. Halving makes up to twice as many as are needed.
+/// Consider a biarc that shares ends and directions with a curve of length 2 h, whose curvature changes linearly with
+/// the slope k'. At the distance t from the middle its error is k'/6 t (h - t)², at most k' (2 h)³ / 324. Bisection
+/// creates up to twice as many arcs as necessary.
 pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to: f64, places: u32) -> usize {
     let step = (to - from) / f64::from(places);
     let share = |index: u32| {
         let [first, second, third] = derivatives(from + step * (f64::from(index) + 0.5));
         let speed = first.norm();
         let turning = 3.0 * first.perp(&second) * first.dot(&second) / (speed * speed);
-        // The change of the curvature with the parameter, times the square of the speed.
+        // The derivative of the curvature with respect to the parameter, times the squared speed.
         ((first.perp(&third) - turning).abs() / (speed * 324.0 * TOLERANCE)).cbrt()
     };
     let pairs = 2.0 * step.abs() * (0..places).map(share).sum::<f64>();
@@ -75,11 +79,11 @@ pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to
     arcs.saturating_add(2 * LEAST_PARTS as usize)
 }
 
-/// Two arcs that go from one place to another, leaving the first and reaching the second in its direction.
+/// Two arcs from one point to another, with the given directions at both.
 fn biarc((start, out): Place, (end, into): Place) -> [Piece; 2] {
     let (out, into) = (out.normalize(), into.normalize());
     let chord = end - start;
-    // The middle where both arcs have tangents of one length.
+    // The junction at which both arcs have tangents of equal length.
     let along = chord.dot(&(out + into));
     let across = 2.0 * (1.0 - out.dot(&into));
     let tangent = chord.norm_squared() / (along + (along * along + across * chord.norm_squared()).sqrt());

@@ -1,17 +1,18 @@
-//! The least distance from what is in a tree of boxes.
+//! The minimum distance from the objects in a tree of bounding boxes.
 
 use rstar::{AABB, ParentNode, RTree, RTreeNode, RTreeObject};
 
 use super::Point2;
 
-/// How much (m) rounding may put a box farther off than what is in it.
+/// The rounding error (m) by which a box may seem farther away than its content.
 const SLACK: f64 = 1e-12;
 
-/// The least distance (m) of a point from the objects of a tree, of which each has the `distance` that is told; `within` if none is
-/// nearer than that.
+/// The minimum distance (m) of a point from the objects of a tree, or `within` if none is nearer. `distance` returns
+/// the distance of an object.
 ///
-/// It goes straight down to the box that is nearest, and then into those alone that are nearer than what it has found. The tree's own
-/// iterator keeps a list of all that it passes: it can tell which object is nearest, and takes several times as long.
+/// The search first descends to the nearest box, then visits only boxes that are nearer than the current minimum. The
+/// tree's own iterator keeps a list of visited nodes. It also returns the nearest object, and takes several times as
+/// long.
 pub(crate) fn min_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
     tree: &RTree<T>,
     point: Point2,

@@ -1,8 +1,8 @@
-//! Poses, and exact planar contours made of segments and circular arcs: lengths, areas, nearest points, signed
-//! distances, parallel contours, unions, shape makers.
+//! Poses, and exact planar contours of segments and circular arcs: lengths, areas, nearest points, signed distances,
+//! parallel contours, unions, constructors of shapes.
 //!
-//! Lengths are metres, angles radians; x is to the right, y up, angles and turns are positive counter-clockwise.
-//! Everything is computed on the pieces themselves, never on a polyline that stands in for them.
+//! Lengths are in metres, angles in radians. x is to the right, y up. Angles and turns are positive counter-clockwise.
+//! All results are computed on the pieces themselves, never on an approximating polyline.
 
 mod arc;
 mod arrangement;

@@ -1,4 +1,4 @@
-//! Parallel contours.
+//! Parallel contours (offset curves).
 
 use std::f64::consts::TAU;
 
@@ -8,17 +8,17 @@ use cavalier_contours::polyline::{
 
 use super::{Arc, Contour, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, Vector2, perpendicular, rotate};
 
-/// How far (m) a parallel contour may be off. Its corners are crossings, so they are less exact than its pieces.
+/// The largest error (m) of a parallel contour. Its corners are intersections, which are less accurate than its pieces.
 const TOLERANCE: f64 = 2e-8;
 
-/// A change of the distance (m) that leaves a parallel contour within the tolerance.
+/// A change of the distance (m) that keeps a parallel contour within the tolerance.
 const NUDGE: f64 = 0.5 * TOLERANCE;
 
-/// The offset library compares squares of lengths with a built-in 1e-8, so it is given millimetres: what it takes for zero
-/// is then far below what a contour can resolve.
+/// The scale for the offset library. The library compares squared lengths with a constant 1e-8. In millimetres, this is
+/// far below the resolution of a contour.
 const PER_METRE: f64 = 1e3;
 
-/// Why there is no parallel contour.
+/// The reason why there is no parallel contour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OffsetError {
     /// The distance is infinite or not a number.
@@ -27,7 +27,7 @@ pub enum OffsetError {
         /// The distance.
         distance: f64,
     },
-    /// What was computed does not stand its check.
+    /// The result fails its verification.
     #[error(
         "there is no sound parallel contour at {distance} m: at this very distance it touches itself, splits or vanishes; \
          take one a micrometre more or less"
@@ -40,15 +40,15 @@ pub enum OffsetError {
 
 impl Contour {
     /// The contours parallel to this one at a signed `distance` (m): positive on the right of the direction of travel,
-    /// which is outwards of a closed contour, negative on the left.
+    /// which is the outside of a closed contour, negative on the left.
     ///
-    /// They are the points at that distance from the whole contour, on that side of it: corners that turn away are
-    /// rounded, those that turn towards it are trimmed. There may be several contours, or none where there is no room.
-    /// Those of a closed contour are closed, and each is counter-clockwise: one around a gap that has closed up at its
-    /// mouth has that gap inside. Those of an open contour leave out the caps around its ends and go its way, but one that
-    /// runs into its own start is closed.
+    /// They consist of the points at that distance from the whole contour, on that side of it. Corners are rounded on
+    /// their outside and trimmed on their inside. There may be several contours, or none if there is no space. Those of
+    /// a closed contour are closed and counter-clockwise. A contour around a gap with a closed mouth has the gap
+    /// inside. Those of an open contour lack the caps around its ends and have its direction. One that meets its own
+    /// start is closed.
     ///
-    /// They are exact to 20 nm; a distance below that gives the contour itself.
+    /// The error is at most 20 nm. A smaller distance gives the contour itself.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -71,13 +71,13 @@ impl Contour {
         if distance.abs() <= TOLERANCE {
             return Ok(vec![self.clone()]);
         }
-        // At just the distance at which a parallel touches itself, splits or vanishes, that just beyond is as good.
+        // At a distance at which a parallel touches itself, splits or vanishes, a slightly larger one is equivalent.
         let beyond = distance + NUDGE * distance.signum();
         let found = [distance, beyond].into_iter().find_map(|distance| self.parallel(distance));
         found.ok_or(OffsetError::Unsound { distance })
     }
 
-    /// The parallels at a distance, if they stand the check.
+    /// The parallels at a distance, if they pass the verification.
     fn parallel(&self, distance: f64) -> Option<Vec<Self>> {
         let bounds = self.bounding_box();
         let origin = nalgebra::center(&bounds.min, &bounds.max);
@@ -90,29 +90,29 @@ impl Contour {
         // The library counts a distance to the left as positive.
         let found = to_polyline(self, origin).parallel_offset_opt(-distance * PER_METRE, &options);
         let found = stitched(found).into_iter().map(|polyline| (to_pieces(&polyline, origin), polyline.is_closed()));
-        // At a cusp it also finds the half circle on the other side.
+        // At a cusp the library also returns the half circle on the other side.
         let found = found.filter(|(pieces, _)| pieces.iter().all(|piece| self.is_beside(piece, distance)));
         let found = found.map(|(pieces, closed)| if closed { Self::closed(pieces) } else { Self::open(pieces) });
         let found = found.collect::<Result<Vec<_>, _>>().ok()?;
         self.has_parallel(&found, distance).then_some(found)
     }
 
-    /// Whether the middle of a piece is on the side of this contour that the sign of the distance says.
+    /// True if the middle of a piece is on the side of this contour that the sign of the distance determines.
     fn is_beside(&self, piece: &Piece, distance: f64) -> bool {
         self.signed_distance(piece.point_at(0.5 * piece.length())) * distance > 0.0
     }
 
-    /// Whether the contours are at the distance, and whether they lack none of the points there.
+    /// True if the contours have the distance and lack no points at it.
     fn has_parallel(&self, found: &[Self], distance: f64) -> bool {
         const ALONG: [f64; 5] = [0.0, 0.02, 0.5, 0.98, 1.0];
-        // The sides are checked elsewhere: beyond an end of an open contour they meet.
+        // The sides are checked elsewhere. Beyond an end of an open contour they meet.
         let at_distance = |point| (self.nearest(point).distance - distance.abs()).abs() <= TOLERANCE;
         let sound = found
             .iter()
             .flat_map(|contour| &contour.pieces)
             .all(|piece| ALONG.iter().all(|share| at_distance(piece.point_at(share * piece.length()))));
         let covered = |point: Point2| {
-            // Points nearer to another part of the contour are trimmed, and rightly missing.
+            // Points nearer to another part of the contour are trimmed, so their absence is correct.
             (self.signed_distance(point) - distance).abs() > 0.1 * JOIN_TOLERANCE
                 || found.iter().any(|contour| contour.nearest(point).distance <= TOLERANCE)
         };
@@ -156,11 +156,11 @@ fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
     polyline
 }
 
-/// Joins open parallels where the end of one meets the start of another, or of its own.
+/// Joins open parallels whose ends meet.
 ///
-/// Where a contour ends in an arc, the circle around its end touches the arc's parallel. Crossings with the one and with the
-/// other are then one place to what the library takes for nothing, but not to its joints nor to those of a contour: it leaves
-/// parallels in parts there, and slivers between the crossings.
+/// If a contour ends with an arc, the circle around its end touches the parallel of the arc. Intersections with both
+/// are then equal within the library's tolerance, but not within the tolerance of contours. The library returns
+/// separate parts there, with slivers between the intersections.
 fn stitched(found: Vec<Polyline>) -> Vec<Polyline> {
     let meet = |end: &Polyline, start: &Polyline| {
         let joint = end.last().zip(start.get(0));
@@ -218,7 +218,7 @@ fn to_piece(from: PlineVertex, to: PlineVertex, origin: Point2) -> Piece {
     Piece::arc(centre, outward.norm(), outward.y.atan2(outward.x), 4.0 * from.bulge.atan())
 }
 
-/// Whether `next` goes on along the circle of `last`.
+/// True if `next` continues on the circle of `last`.
 fn continues(last: &Arc, next: &Arc) -> bool {
     const SAME: f64 = 1e-3 * JOIN_TOLERANCE;
     (next.centre - last.centre).norm() <= SAME

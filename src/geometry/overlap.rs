@@ -1,4 +1,4 @@
-//! Whether two contours overlap.
+//! Overlap of two contours.
 
 use rstar::AABB;
 
@@ -7,7 +7,7 @@ use super::simple::{grown, meeting};
 use super::{Contour, JOIN_TOLERANCE, Piece, Segment};
 
 impl Contour {
-    /// Whether two contours cross or touch, or one lies inside the other.
+    /// True if two contours cross or touch, or if one lies inside of the other.
     ///
     /// ```
     /// use vibrissa::geometry::{Point2, circle};
@@ -22,16 +22,16 @@ impl Contour {
         self.meets(other, JOIN_TOLERANCE, &mut 0, usize::MAX).unwrap_or(true)
     }
 
-    /// Whether two contours come within a `tolerance` (m) of each other, or one lies inside the other. What is looked at is added
-    /// to `work`; `None` if that is more than `most`.
+    /// True if two contours are within a `tolerance` (m) of each other, or if one lies inside of the other. The number
+    /// of tests is added to `work`. `None` if it exceeds `most`.
     pub(super) fn meets(&self, other: &Self, tolerance: f64, work: &mut usize, most: usize) -> Option<bool> {
         let frame = grown(&self.bounding_box(), tolerance);
-        // What is nowhere near the other contour as a whole need not be asked for by each piece.
+        // Pieces need no test if the contours are far apart as a whole.
         if other.near(frame).next().is_none() && self.near(grown(&other.bounding_box(), tolerance)).next().is_none() {
             return Some(false);
         }
         for piece in &self.pieces {
-            // Looking for pieces is work, too.
+            // The search for pieces counts as work.
             *work += 1;
             for leaf in other.near(grown(&piece.bounding_box(), tolerance)) {
                 *work += 1;
@@ -46,12 +46,12 @@ impl Contour {
         Some(self.contains(other.point_at(0.0)) || other.contains(self.point_at(0.0)))
     }
 
-    /// The pieces that may come near a line: their boxes meet its box, grown by [`JOIN_TOLERANCE`].
+    /// The pieces that may be near a line: their boxes intersect its box, enlarged by [`JOIN_TOLERANCE`].
     pub(crate) fn pieces_near(&self, line: &Segment) -> impl Iterator<Item = &Piece> {
         self.near(grown(&line.bounding_box(), JOIN_TOLERANCE)).map(|leaf| &leaf.piece)
     }
 
-    /// The pieces whose boxes meet a box.
+    /// The pieces whose boxes intersect a box.
     pub(super) fn near(&self, frame: AABB<[f64; 2]>) -> impl Iterator<Item = &Leaf> {
         self.tree.locate_in_envelope_intersecting(frame)
     }

@@ -1,10 +1,10 @@
-//! What contours are made of.
+//! The pieces of contours.
 
 use std::f64::consts::PI;
 
 use super::{Arc, BoundingBox, Point2, Pose, Segment, Vector2, perpendicular};
 
-/// One piece of a contour, travelled from its start to its end.
+/// One piece of a contour, with a direction from its start to its end.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub enum Piece {
     /// A straight piece.
@@ -14,36 +14,36 @@ pub enum Piece {
 }
 
 impl Piece {
-    /// A straight piece between two points (m).
+    /// A segment between two points (m).
     #[must_use]
     pub fn segment(start: Point2, end: Point2) -> Self {
         Self::Segment(Segment { start, end })
     }
 
-    /// A circular piece: centre and radius (m), direction from the centre to the start (rad), angle travelled (rad,
-    /// positive counter-clockwise).
+    /// A circular arc: centre and radius (m), direction from the centre to the start (rad), sweep angle (rad, positive
+    /// counter-clockwise).
     #[must_use]
     pub fn arc(centre: Point2, radius: f64, start_angle: f64, sweep: f64) -> Self {
         Self::Arc(Arc { centre, radius, start_angle, sweep })
     }
 
-    /// The arc over a sweep (rad, positive to the left, not 0, within ±2π) from one point (m) to another.
+    /// The arc from one point (m) to another with this sweep (rad, positive to the left, not 0, within ±2π).
     #[must_use]
     pub fn arc_between(start: Point2, end: Point2, sweep: f64) -> Self {
         let chord = end - start;
-        // The centre lies to the left of the chord's middle for a left turn.
+        // The centre is to the left of the middle of the chord for a left turn.
         let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / (0.5 * sweep).tan());
         let outward = start - centre;
         Self::arc(centre, outward.norm(), outward.y.atan2(outward.x), sweep)
     }
 
-    /// One or two pieces that go from the same start to another end (m), near its own: a straight one, or arcs over the same angle.
+    /// One or two pieces from the same start to another end (m), near its own: a segment, or arcs with the same sweep.
     #[must_use]
     pub fn ending_at(&self, end: Point2) -> Vec<Self> {
         match self {
             Self::Segment(segment) => vec![Self::segment(segment.start, end)],
             Self::Arc(arc) if arc.sweep.abs() <= PI => vec![Self::arc_between(arc.start(), end, arc.sweep)],
-            // Of an arc that is nearly a circle the ends are near each other, and would tell little of where it is.
+            // The ends of a nearly full circle are close together, and determine its centre only poorly.
             Self::Arc(arc) => {
                 let half = Arc { sweep: 0.5 * arc.sweep, ..*arc };
                 vec![Self::Arc(half), Self::arc_between(half.end(), end, half.sweep)]
@@ -60,7 +60,7 @@ impl Piece {
         }
     }
 
-    /// Where it starts (m).
+    /// The start (m).
     #[must_use]
     pub fn start(&self) -> Point2 {
         match self {
@@ -69,7 +69,7 @@ impl Piece {
         }
     }
 
-    /// Where it ends (m).
+    /// The end (m).
     #[must_use]
     pub fn end(&self) -> Point2 {
         match self {
@@ -78,7 +78,7 @@ impl Piece {
         }
     }
 
-    /// The point at arc length `s` (m) from the start, `s` held to the piece.
+    /// The point at arc length `s` (m) from the start, with `s` clamped to the piece.
     #[must_use]
     pub fn point_at(&self, s: f64) -> Point2 {
         match self {
@@ -87,7 +87,7 @@ impl Piece {
         }
     }
 
-    /// The direction of travel at arc length `s` (m), a unit vector.
+    /// The tangent at arc length `s` (m), a unit vector in the direction of travel.
     #[must_use]
     pub fn tangent_at(&self, s: f64) -> Vector2 {
         match self {
@@ -96,7 +96,7 @@ impl Piece {
         }
     }
 
-    /// Curvature (1/m), positive where the piece bends to the left.
+    /// Curvature (1/m), positive if the piece bends to the left.
     #[must_use]
     pub fn curvature(&self) -> f64 {
         match self {
@@ -105,7 +105,7 @@ impl Piece {
         }
     }
 
-    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    /// Arc length (m) from the start to the point nearest to `point`. It is exactly 0 or `length()` at an end.
     #[must_use]
     pub fn nearest(&self, point: Point2) -> f64 {
         match self {
@@ -114,7 +114,7 @@ impl Piece {
         }
     }
 
-    /// Distance (m) from a point to the nearest point of the piece.
+    /// Distance (m) of a point from the piece.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
         match self {
@@ -123,7 +123,7 @@ impl Piece {
         }
     }
 
-    /// The same piece travelled the other way.
+    /// The same piece in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         match self {
@@ -132,7 +132,7 @@ impl Piece {
         }
     }
 
-    /// The piece, given in the frame of `pose`, in world coordinates.
+    /// Transforms the piece from the frame of `pose` to world coordinates.
     #[must_use]
     pub fn transformed(&self, pose: &Pose) -> Self {
         match self {
@@ -141,7 +141,7 @@ impl Piece {
         }
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         match self {
@@ -150,26 +150,26 @@ impl Piece {
         }
     }
 
-    /// The signed area (m²) that the ray from `origin` to a point of the piece sweeps over as the point travels along it,
-    /// positive counter-clockwise: half the integral of x dy − y dx about `origin`.
+    /// The signed area (m²) swept by the ray from `origin` to a point that moves along the piece, positive
+    /// counter-clockwise. It is half the integral of x dy − y dx about `origin`.
     #[must_use]
     pub fn swept_area(&self, origin: Point2) -> f64 {
         let (start, end) = (self.start(), self.end());
         let triangle = 0.5 * (start - origin).perp(&(end - start));
         match self {
             Self::Segment(_) => triangle,
-            // About the arc's own chord, so that nothing is lost where the arc is flat and its centre far away.
+            // Relative to the chord of the arc, so that a flat arc with a distant centre loses no digits.
             Self::Arc(arc) => triangle + 0.5 * arc.radius * arc.radius * minus_sine(arc.sweep),
         }
     }
 }
 
-/// x − sin x, to the last digits for a small x too.
+/// x − sin x, accurate also for small x.
 fn minus_sine(x: f64) -> f64 {
     if x.abs() > 0.5 {
         return x - x.sin();
     }
-    // The series of x − sin x in Horner's form; the first term left out is below 1e-17 of the sum.
+    // The series of x − sin x in Horner's form. The first omitted term is below 1e-17 of the sum.
     let square = x * x;
     let tail = [272.0, 210.0, 156.0, 110.0, 72.0, 42.0, 20.0].iter().fold(1.0, |sum, n| 1.0 - square / n * sum);
     x * square / 6.0 * tail

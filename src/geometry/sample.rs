@@ -1,22 +1,22 @@
-//! Points along a contour.
+//! Sampled points of a contour.
 
 use super::{Contour, Point2, Vector2};
 
 /// A point of a contour.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct ContourPoint {
-    /// Where it is (m).
+    /// The position (m).
     pub point: Point2,
-    /// The direction of travel there, a unit vector.
+    /// The tangent, a unit vector in the direction of travel.
     pub tangent: Vector2,
-    /// Where it is along the contour (m).
+    /// The arc length along the contour (m).
     pub arc_length: f64,
 }
 
 impl Contour {
-    /// Points at equal steps of arc length, as near to `spacing` (m) as an even division allows but never above it, from
-    /// the start. An open contour's last point is its end; a closed one's start is not repeated. A spacing that is not a
-    /// positive number gives one step.
+    /// Points at equal steps of arc length, starting at the start. The step is the largest uniform one that does not
+    /// exceed `spacing` (m). An open contour's last point is its end. A closed contour's start is not repeated. A
+    /// spacing that is not a positive number gives one step.
     ///
     /// ```
     /// use vibrissa::geometry::{Point2, circle};
@@ -27,7 +27,7 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn sample(&self, spacing: f64) -> Vec<ContourPoint> {
-        // A length that is a whole number of spacings up to rounding has just as many steps.
+        // A length that is a multiple of the spacing up to rounding has exactly that number of steps.
         let steps = if spacing > 0.0 { (self.length / spacing * (1.0 - 1e-12)).ceil().max(1.0) } else { 1.0 };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of at least 1")]
         let count = steps as usize + usize::from(!self.closed);

@@ -1,13 +1,13 @@
-//! Straight pieces.
+//! Line segments.
 
 use super::{BoundingBox, Point2, Pose, Vector2};
 
 /// A straight piece of a contour.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Where it starts (m).
+    /// The start (m).
     pub start: Point2,
-    /// Where it ends (m).
+    /// The end (m).
     pub end: Point2,
 }
 
@@ -24,11 +24,11 @@ impl Segment {
         (self.end - self.start).normalize()
     }
 
-    /// The point at arc length `s` (m) from the start, `s` held to the segment.
+    /// The point at arc length `s` (m) from the start, with `s` clamped to the segment.
     #[must_use]
     pub fn point_at(&self, s: f64) -> Point2 {
         let length = self.length();
-        // Both ends come out exactly, so that neighbours meet without a gap.
+        // Both ends are exact, so that neighbours meet without a gap.
         if s <= 0.0 {
             self.start
         } else if s >= length {
@@ -38,13 +38,13 @@ impl Segment {
         }
     }
 
-    /// Arc length (m) from the start of the point nearest to `point`: exactly 0 or `length()` where that is an end.
+    /// Arc length (m) from the start to the point nearest to `point`. It is exactly 0 or `length()` at an end.
     #[must_use]
     pub fn nearest(&self, point: Point2) -> f64 {
         (point - self.start).dot(&self.tangent()).clamp(0.0, self.length())
     }
 
-    /// Distance (m) from a point to the nearest point of the segment.
+    /// Distance (m) of a point from the segment.
     #[must_use]
     pub fn distance(&self, point: Point2) -> f64 {
         let along = (point - self.start).dot(&self.tangent());
@@ -57,19 +57,19 @@ impl Segment {
         }
     }
 
-    /// The same segment travelled the other way.
+    /// The same segment in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self { start: self.end, end: self.start }
     }
 
-    /// The segment, given in the frame of `pose`, in world coordinates.
+    /// Transforms the segment from the frame of `pose` to world coordinates.
     #[must_use]
     pub fn transformed(&self, pose: &Pose) -> Self {
         Self { start: pose.point_to_world(self.start), end: pose.point_to_world(self.end) }
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         BoundingBox::around(self.start, self.end)

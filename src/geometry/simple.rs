@@ -1,16 +1,16 @@
-//! Whether a contour meets itself.
+//! The test for self-intersections of a contour.
 
 use rstar::{AABB, RTree};
 
 use super::distance::Leaf;
 use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendicular};
 
-/// How many pairs of pieces whose boxes overlap are looked at before it takes too long, a second or two. Only of many long slanting
-/// pieces there are so many.
+/// The largest number of pairs of pieces with overlapping boxes, which take a second or two. Only many long diagonal
+/// pieces reach it.
 pub(super) const MOST_PAIRS: usize = 2_000_000;
 
-/// Checks that the pieces of a chain meet nowhere but at their joints. Neighbours that go back over each other from a
-/// joint are for [`turn`](super::corner::turn) to find.
+/// Checks that the pieces of a chain meet only at their vertices. Neighbours that retrace each other from a vertex are
+/// found by [`turn`](super::corner::turn).
 pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Result<(), ContourError> {
     let mut pairs = 0;
     for (first, piece) in pieces.iter().enumerate() {
@@ -32,12 +32,12 @@ pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Resul
     Ok(())
 }
 
-/// The box of all that is within a `margin` (m) of a box.
+/// Enlarges a box by a `margin` (m).
 pub(super) fn grown(bounds: &BoundingBox, margin: f64) -> AABB<[f64; 2]> {
     AABB::from_corners([bounds.min.x - margin, bounds.min.y - margin], [bounds.max.x + margin, bounds.max.y + margin])
 }
 
-/// The joints that two pieces of a chain share.
+/// The vertices that two pieces of a chain share.
 fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) -> Vec<Point2> {
     let mut joints = Vec::new();
     if second == first + 1 {
@@ -49,9 +49,10 @@ fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) ->
     joints
 }
 
-/// A point that two pieces share, to a `tolerance` (m), apart from their joints.
+/// A common point of two pieces within a `tolerance` (m), other than their shared vertices.
 ///
-/// Pieces that meet cross, or touch, or an end of one lies on the other; where they cover each other, an end of one does.
+/// Pieces that meet cross or touch, or an end of one is on the other. If they cover each other, an end of one is on the
+/// other.
 pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2], tolerance: f64) -> Option<Point2> {
     let ends = [a.start(), a.end(), b.start(), b.end()];
     let crossings = match joints.first() {
@@ -63,11 +64,11 @@ pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2], tolerance: f64) -
     ends.into_iter().chain(crossings.into_iter().flatten()).find(|point| shared(point) && !at_joint(point))
 }
 
-/// Where else the lines or circles that carry two pieces cross, given one crossing: the mirror image of that one in the
-/// axis of symmetry of the two.
+/// The second intersection of the lines or circles of two pieces, given one intersection. It is the mirror image in the
+/// common axis of symmetry.
 ///
-/// Unlike a general solution, which finds a double root only to the square root of rounding, this stays exact for pieces
-/// that join smoothly, where the two crossings fall into one.
+/// A general solution has a double root only to the square root of rounding. This one is exact for pieces with a common
+/// tangent, for which both intersections coincide.
 fn second_crossing(a: &Piece, b: &Piece, crossing: Point2) -> Option<Point2> {
     let (on_axis, along_axis) = match (a, b) {
         (Piece::Segment(_), Piece::Segment(_)) => return None,
@@ -80,7 +81,7 @@ fn second_crossing(a: &Piece, b: &Piece, crossing: Point2) -> Option<Point2> {
     Some(on_axis + 2.0 * along_axis * along_axis.dot(&from_axis) - from_axis)
 }
 
-/// Where the lines or circles that carry two pieces cross or come within a `tolerance` (m) of touching.
+/// The intersections of the lines or circles of two pieces, or the points at which they touch within a `tolerance` (m).
 pub(super) fn crossings(a: &Piece, b: &Piece, tolerance: f64) -> [Option<Point2>; 2] {
     match (a, b) {
         (Piece::Segment(a), Piece::Segment(b)) => [line_line(a, b), None],
@@ -157,7 +158,7 @@ mod tests {
     fn touching_is_meeting() {
         let corner_on_side = chain(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)]);
         assert!(met(Contour::closed(corner_on_side)).is_some());
-        // A circle's top, tangent to a line above it.
+        // The top of a circle, tangent to a line above it.
         let mut line_on_circle = chain(&[(-1.0, 1.0), (1.0, 1.0), (2.0, 0.0), (1.0, -1.0), (0.5, -1.0), (1.0, 0.0)]);
         line_on_circle.push(Piece::arc(Point2::origin(), 1.0, 0.0, PI));
         assert_eq!(met(Contour::open(line_on_circle)), Some((0, 5)));

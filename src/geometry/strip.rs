@@ -1,11 +1,12 @@
-//! Strips of an even width.
+//! Strips of constant width.
 
 use super::{Arc, Contour, ContourError, JOIN_TOLERANCE, Piece, SHORTEST_PIECE, Segment, Vector2, perpendicular};
 
-/// A strip of an even width along a line: its two sides, exactly parallel, with sharp corners where the line has corners.
+/// A strip of constant width along a line. Its two sides are exactly parallel, with sharp corners at the corners of the
+/// line.
 ///
-/// Piece by piece the sides go along the pieces of the line, in its direction: the pieces of one side are opposite to those of
-/// the other.
+/// The pieces of the sides correspond to the pieces of the line, in its direction. The pieces of one side are opposite
+/// to those of the other.
 #[derive(Clone, Debug)]
 pub struct Strip {
     left: Contour,
@@ -21,28 +22,28 @@ pub enum Side {
     Right,
 }
 
-/// Why there is no strip along a line. Pieces are counted from 0.
+/// The reason why there is no strip along a line. Pieces are counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StripError {
-    /// The strip is too wide for a piece: an arc is too tight, or a straight piece between two corners too short.
+    /// The strip is too wide for a piece: an arc is too tight, or a segment between two corners is too short.
     #[error("the strip is too wide for piece {piece} of its line: make it narrower, or the line less tight")]
     TooWide {
         /// The piece.
         piece: usize,
     },
-    /// A corner is not one of two straight pieces.
+    /// A corner is not between two straight pieces.
     #[error("the corner at the start of piece {piece} joins an arc: only straight pieces may meet at a corner")]
     Corner {
         /// The piece after the corner.
         piece: usize,
     },
-    /// A side, or the outline, is no contour.
+    /// A side or the outline is not a contour.
     #[error("the strip meets itself: {0}")]
     Contour(#[from] ContourError),
 }
 
 impl Side {
-    /// The other one.
+    /// The opposite side.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -53,7 +54,7 @@ impl Side {
 }
 
 impl Strip {
-    /// The strip of a `width` (m) with its middle on `line`.
+    /// The strip of a `width` (m) with the centre line `line`.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -71,7 +72,7 @@ impl Strip {
         Ok(Self { left: parallel(line, -0.5 * width)?, right: parallel(line, 0.5 * width)? })
     }
 
-    /// One of its sides, in the direction of the line.
+    /// One of the sides, in the direction of the line.
     #[must_use]
     pub fn side(&self, side: Side) -> &Contour {
         match side {
@@ -80,10 +81,10 @@ impl Strip {
         }
     }
 
-    /// The outline of the strip along an open line; that along a closed one has none, but two sides.
+    /// The outline of a strip along an open line. A strip along a closed line has two sides and no outline.
     ///
     /// # Errors
-    /// [`StripError::Contour`] when the line is closed, or the strip meets itself.
+    /// [`StripError::Contour`] if the line is closed, or if the strip intersects itself.
     pub fn outline(&self) -> Result<Contour, StripError> {
         let (from, to) = (self.right.pieces(), self.left.pieces());
         let cap = |from: &Piece, to: &Piece| Piece::segment(from.end(), to.start());
@@ -95,7 +96,7 @@ impl Strip {
     }
 }
 
-/// The line moved to its right by `distance` (m), its corners kept sharp.
+/// The line moved to its right by `distance` (m), with sharp corners.
 fn parallel(line: &Contour, distance: f64) -> Result<Contour, StripError> {
     let mut pieces = Vec::with_capacity(line.pieces().len());
     for (index, piece) in line.pieces().iter().enumerate() {
@@ -124,7 +125,7 @@ fn parallel(line: &Contour, distance: f64) -> Result<Contour, StripError> {
     Ok(if line.is_closed() { Contour::closed(pieces)? } else { Contour::open(pieces)? })
 }
 
-/// A piece moved to its right; `None` for an arc whose centre is nearer than that.
+/// A piece moved to its right. `None` for an arc whose centre is nearer than that.
 fn moved(piece: &Piece, distance: f64) -> Option<Piece> {
     match piece {
         Piece::Segment(Segment { start, end }) => {
@@ -138,13 +139,13 @@ fn moved(piece: &Piece, distance: f64) -> Option<Piece> {
     }
 }
 
-/// Where the corner between two straight pieces comes to when both are moved to their right.
+/// The corner between two straight pieces after both are moved to their right.
 fn corner(into: &Piece, out: &Piece, distance: f64) -> Option<super::Point2> {
     let normals =
         straight(into).zip(straight(out)).map(|(into, out)| (right_of(into.tangent()), right_of(out.tangent())));
     let (before, after) = normals?;
     let share = 1.0 + before.dot(&after);
-    // Two pieces that go back on each other have no corner that is anywhere near.
+    // Two pieces that reverse the direction have no corner nearby.
     (share > 1e-3).then(|| out.start() + (before + after) * (distance / share))
 }
 

@@ -1,4 +1,4 @@
-//! Outlines that meet as one.
+//! The union of outlines.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -7,59 +7,59 @@ use super::arrangement::{Arrangement, Loop, Near, outline};
 use super::simple::{MOST_PAIRS, grown};
 use super::{Contour, ContourError, Point2};
 
-/// Outlines that come this near to each other (m) touch.
+/// Outlines within this distance (m) touch.
 pub const TOUCHING: f64 = 1e-6;
 
-/// How far (m) a united outline may be from those that it is made of: both of two ends that touch may be moved.
+/// The largest distance (m) of a united outline from its members, because both of two touching ends may be moved.
 const TOLERANCE: f64 = 4.0 * TOUCHING;
 
-/// Closed outlines that keep apart, each with the first of those that it is made of.
+/// A closed outline of a union, with the first of its members.
 #[derive(Debug, Clone)]
 pub struct United {
     /// The outline.
     pub outline: Contour,
-    /// The index of the first outline that is a part of it.
+    /// The index of its first member.
     pub first: usize,
 }
 
-/// Why outlines cannot be united. They are counted from 0.
+/// The reason why outlines cannot be united. They are counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UnionError {
-    /// Together they enclose what is not inside of any of them.
+    /// Together they enclose an area that is inside of none of them.
     #[error("outlines {first} and {second} enclose a hole")]
     Hole {
-        /// The first of those that do.
+        /// The first of these outlines.
         first: usize,
         /// The next.
         second: usize,
-        /// A point of the hole's outline.
+        /// A point on the boundary of the hole.
         at: Point2,
     },
-    /// They cross or touch too often, or may do so.
+    /// They have too many intersections, or too many possible ones.
     #[error("outline {first} and others meet, or may meet, in more than {limit} places")]
     Crossings {
-        /// The first of those that do.
+        /// The first of these outlines.
         first: usize,
         /// The next.
         second: usize,
-        /// How many places there may be.
+        /// The largest number.
         limit: usize,
     },
-    /// They come so near to each other, in places that do not touch, that their union cannot be told.
+    /// They are so close to each other, without touching, that their union is ambiguous.
     #[error("outlines {first} and {second} meet too nearly to tell what they make together")]
     Unclear {
-        /// The first of those that do.
+        /// The first of these outlines.
         first: usize,
         /// The next.
         second: usize,
     },
 }
 
-/// The closed outlines of all that is inside of any of these closed ones, in the order of the first part of each.
+/// The closed outlines of the union of these closed outlines, in the order of their first members.
 ///
-/// What comes nearer to each other than [`TOUCHING`] becomes one outline, without the sides that both share. Its pieces are
-/// those of the outlines that it is made of, cut where these cross; only ends that touch without being the same are moved, by
-/// [`TOUCHING`] at most. Outlines that touch in points alone stay what they are, and so do all others that keep apart, to the last bit.
+/// Outlines within [`TOUCHING`] of each other become one, without common sides. Its pieces are those of its members,
+/// cut at intersections. Only ends that touch without coincidence are moved, by at most [`TOUCHING`]. Outlines that
+/// touch only at points, and separate outlines, are bit-identical afterwards.
 ///
 /// ```
 /// use vibrissa::geometry::{Point2, rounded_rectangle, unite};
@@ -88,7 +88,7 @@ pub fn unite(outlines: &[Contour]) -> Result<Vec<United>, UnionError> {
         for Loop { parts, members: of } in &loops {
             let [first, second] = [0, 1].map(|place| group[*of.get(place).unwrap_or(&of[0])]);
             let outline = match outline(parts, &members) {
-                // What comes back to a place where it was has gone round a hole.
+                // An outline that returns to a previous point encloses a hole.
                 Err(ContourError::SelfIntersection { at, .. }) => Err(UnionError::Hole { first, second, at }),
                 Ok(None) => Err(UnionError::Hole { first, second, at: parts[0].start() }),
                 Err(_) => Err(UnionError::Unclear { first, second }),
@@ -105,14 +105,14 @@ pub fn unite(outlines: &[Contour]) -> Result<Vec<United>, UnionError> {
     Ok(united)
 }
 
-/// The indices of outlines in groups of those that meet, or meet others that meet them; in order.
+/// The indices of outlines in groups of those that meet directly or through others, in order.
 fn groups(outlines: &[Contour]) -> Result<Vec<Vec<usize>>, UnionError> {
     let frames: Vec<AABB<[f64; 2]>> = outlines.iter().map(|outline| grown(&outline.bounding_box(), TOUCHING)).collect();
     let boxed = |(index, frame): (usize, &AABB<[f64; 2]>)| {
         GeomWithData::new(Rectangle::from_corners(frame.lower(), frame.upper()), index)
     };
     let tree = RTree::bulk_load(frames.iter().enumerate().map(boxed).collect());
-    // Each outline leads to an earlier one of its group, or to itself.
+    // Each outline refers to an earlier one of its group, or to itself.
     let (mut work, mut leads_to): (usize, Vec<usize>) = (0, (0..outlines.len()).collect());
     for (second, frame) in frames.iter().enumerate() {
         for near in tree.locate_in_envelope_intersecting(*frame) {
@@ -143,7 +143,7 @@ fn root(leads_to: &mut [usize], mut index: usize) -> usize {
     index
 }
 
-/// Whether what was found is the union: its outlines are on those of members and inside of none, and all members are in it.
+/// True if the result is the union: its outlines are on those of members and inside of none, and all members are in it.
 fn is_union(members: &[&Contour], found: &[United]) -> bool {
     const ALONG: [f64; 3] = [0.02, 0.5, 0.98];
     let points = |contour: &Contour| {

@@ -74,8 +74,8 @@ impl Score {
         (self.coverage / (1.0 - self.out_of_reach)).min(1.0)
     }
 
-    /// The figures of corners, if all sharp corners were traced. A corner without an estimate has no finite error, so
-    /// the maxima are unknown otherwise.
+    /// The figures of corners, if all sharp corners were traced. Otherwise `None`, because a corner that was not found
+    /// is worse than any other.
     fn all_corners(&self) -> Option<CornerFigures> {
         self.corners.filter(|corners| corners.traced == corners.count)
     }

@@ -6,7 +6,7 @@ use super::ShapeError;
 use super::error::{finite_point, positive};
 use crate::geometry::{Contour, Piece, Point2};
 
-/// A circle about `centre` (m) of a `radius` (m), starting at its rightmost point.
+/// A circle about `centre` (m) with this `radius` (m), starting at its rightmost point.
 ///
 /// ```
 /// use vibrissa::geometry::{Point2, circle};

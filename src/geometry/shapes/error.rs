@@ -1,14 +1,14 @@
-//! Why a shape cannot be made.
+//! Errors of shapes.
 
 use crate::geometry::{ContourError, SHORTEST_PIECE, StripError};
 
-/// Why a shape cannot be made.
+/// The reason why a shape cannot be created.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     /// A number is infinite or not a number.
     #[error("the {what} is {value}: it must be a finite number")]
     NotFinite {
-        /// Which number.
+        /// The name of the number.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -16,7 +16,7 @@ pub enum ShapeError {
     /// A length is zero or negative.
     #[error("the {what} is {value} m: it must be positive")]
     NotPositive {
-        /// Which length.
+        /// The name of the length.
         what: &'static str,
         /// Its value (m).
         value: f64,
@@ -24,28 +24,28 @@ pub enum ShapeError {
     /// A polygon has too few sides.
     #[error("a polygon needs at least 3 sides, not {sides}")]
     TooFewSides {
-        /// How many it has.
+        /// The number of its sides.
         sides: usize,
     },
-    /// Two consecutive points of a polygon are the same.
+    /// Two consecutive points of a polygon coincide.
     #[error(
         "points {from} and {to} of the polygon are the same: leave one out (the first point is not repeated at the end)"
     )]
     ZeroEdge {
-        /// The point before the edge, counted from 0.
+        /// The first of these points, counted from 0.
         from: usize,
-        /// The point after it.
+        /// The second.
         to: usize,
     },
-    /// The rounding of the corners does not fit into the sides.
+    /// The corner radius is too large for the sides.
     #[error("the corner radius is {radius} m: it must be between 0 and half the shorter side, {limit} m")]
     CornerRadius {
         /// The radius (m).
         radius: f64,
-        /// The largest that fits (m).
+        /// The largest possible radius (m).
         limit: f64,
     },
-    /// A path comes back nearly to its start.
+    /// A path ends near its start, but not at it.
     #[error(
         "the path ends {gap} m from its start, too far off to close it and too near for a side: give its lengths and \
          angles more digits, or leave out the last length"
@@ -54,7 +54,7 @@ pub enum ShapeError {
         /// The distance from its end to its start (m).
         gap: f64,
     },
-    /// A piece of a path has no length.
+    /// A step of a path has no length.
     #[error("step {step} of the path is {length} m long: leave it out, or make it longer than {SHORTEST_PIECE} m")]
     ShortStep {
         /// The straight or arc, counted from 0 among all straights and arcs.
@@ -62,37 +62,37 @@ pub enum ShapeError {
         /// Its length (m).
         length: f64,
     },
-    /// A curve has waves too small for arcs to follow it.
+    /// The waves of a curve are too small for an approximation by arcs.
     #[error("the waves of the curve are too fine: lower their orders")]
     TooFine,
     /// A tunnel bends too tightly for its width.
     #[error("the tunnel bends too tightly for its width: make it narrower, or its bends wider")]
     TooTight,
-    /// The opening of a round tunnel leaves no wall for its funnel.
+    /// The opening of a round tunnel and its funnel are longer than the wall.
     #[error(
         "the opening and its funnel do not fit into the wall: `from` must be below `to`, and the funnels need room beside it"
     )]
     Opening,
-    /// A wall does not stand its thickness.
+    /// A wall is too thick.
     #[error(transparent)]
     Strip(#[from] StripError),
-    /// The pieces do not make a contour.
+    /// The pieces are not a contour.
     #[error(transparent)]
     Contour(#[from] ContourError),
 }
 
-/// Refuses a number that is not finite.
+/// Rejects a number that is not finite.
 pub(super) fn finite(what: &'static str, value: f64) -> Result<(), ShapeError> {
     if value.is_finite() { Ok(()) } else { Err(ShapeError::NotFinite { what, value }) }
 }
 
-/// Refuses a length that is not finite and positive.
+/// Rejects a length that is not finite and positive.
 pub(super) fn positive(what: &'static str, value: f64) -> Result<(), ShapeError> {
     finite(what, value)?;
     if value > 0.0 { Ok(()) } else { Err(ShapeError::NotPositive { what, value }) }
 }
 
-/// Refuses a point whose coordinates are not finite.
+/// Rejects a point whose coordinates are not finite.
 pub(super) fn finite_point(what: &'static str, point: crate::geometry::Point2) -> Result<(), ShapeError> {
     finite(what, point.x)?;
     finite(what, point.y)

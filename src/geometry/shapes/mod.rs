@@ -1,4 +1,4 @@
-//! Makers of common contours.
+//! Constructors of common contours.
 
 mod circle;
 mod error;

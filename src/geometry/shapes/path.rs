@@ -1,4 +1,4 @@
-//! Contours told as a way of going.
+//! Contours as sequences of straights, turns and arcs.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,12 +6,12 @@ use super::ShapeError;
 use super::error::{finite, finite_point, positive};
 use crate::geometry::{Contour, JOIN_TOLERANCE, Piece, Pose, SHORTEST_PIECE, unit};
 
-/// A path that comes back to its start within this (m), but not within the tolerance of a joint, is taken for a path that
-/// was meant to close.
+/// The distance (m) from its start within which the end of a path counts as a mistake, unless it is within the
+/// tolerance of a vertex.
 const NEARLY_CLOSED: f64 = 1e-6;
 
-/// A path in the making: straights, turns on the spot and arcs, one after the other. What is wrong with it is told when it
-/// is ended by [`close`](Self::close) or [`open`](Self::open).
+/// A builder for a path of straights, turns on the spot and arcs. [`close`](Self::close) or [`open`](Self::open) return
+/// the first error.
 ///
 /// ```
 /// use std::f64::consts::{FRAC_PI_2, PI};
@@ -48,7 +48,7 @@ impl From<Pose> for Path {
 }
 
 impl Path {
-    /// Goes straight ahead for a `length` (m).
+    /// Appends a straight of this `length` (m).
     pub fn straight(mut self, length: f64) -> Self {
         let end = self.end.position + length * unit(self.end.heading);
         let segment = Piece::segment(self.end.position, end);
@@ -64,7 +64,7 @@ impl Path {
         self
     }
 
-    /// Goes along an arc of a `radius` (m) that turns the heading by `angle` (rad, positive to the left).
+    /// Appends an arc with this `radius` (m) that changes the heading by `angle` (rad, positive to the left).
     pub fn arc(mut self, radius: f64, angle: f64) -> Self {
         self.check(positive("radius of an arc", radius).and_then(|()| finite("angle of an arc", angle)));
         let side = angle.signum();
@@ -74,11 +74,11 @@ impl Path {
         self.push(arc, heading)
     }
 
-    /// Ends a closed contour, with a straight side back to the start if the path has not come back there.
+    /// Returns the closed contour. A path that does not end at its start gets a straight closing side.
     ///
     /// # Errors
-    /// If a number of a step is not finite, or not positive where it must be, the path ends very near its start but not at
-    /// it, or the steps make no contour: they cross or touch, or there is none.
+    /// If a number of a step is not finite, or not positive where it must be. If the path ends very near its start but
+    /// not at it. If the steps are not a contour, because they cross or touch, or because there are none.
     pub fn close(mut self) -> Result<Contour, ShapeError> {
         let gap = (self.start.position - self.end.position).norm();
         if gap > NEARLY_CLOSED {
@@ -92,11 +92,11 @@ impl Path {
         }
     }
 
-    /// Ends an open contour.
+    /// Returns the open contour.
     ///
     /// # Errors
-    /// If a number of a step is not finite, or not positive where it must be, or the steps make no open contour: they cross
-    /// or touch, come back to the start, or there is none.
+    /// If a number of a step is not finite, or not positive where it must be. If the steps are not an open contour,
+    /// because they cross or touch, return to the start, or because there are none.
     pub fn open(self) -> Result<Contour, ShapeError> {
         match self.error {
             Some(error) => Err(error),
@@ -113,7 +113,7 @@ impl Path {
         self
     }
 
-    /// Keeps the first thing that is wrong.
+    /// Stores the first error.
     fn check(&mut self, checked: Result<(), ShapeError>) {
         if self.error.is_none() {
             self.error = checked.err();

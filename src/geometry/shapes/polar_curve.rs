@@ -1,4 +1,4 @@
-//! Smooth closed curves round a centre.
+//! Smooth closed curves around a centre.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,13 @@ use super::error::{finite, finite_point, positive};
 use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
 use crate::geometry::{Contour, Point2, Vector2, perpendicular, unit};
 
-/// In how many places a wave is looked at to tell how many arcs it takes.
+/// The number of samples per wave for the bound on the number of arcs.
 pub(super) const PLACES_PER_WAVE: u32 = 32;
 
-/// A wave on a circle: `a cos(n θ + φ)` is added to its radius.
+/// A harmonic of a polar curve: `a cos(n θ + φ)` is added to the radius.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Harmonic {
-    /// How many waves `n` there are in a turn.
+    /// The number of waves `n` per turn.
     pub order: u32,
     /// The amplitude `a` (m).
     pub amplitude: f64,
@@ -21,8 +21,8 @@ pub struct Harmonic {
     pub phase: f64,
 }
 
-/// The closed curve `r = R + Σ a cos(n θ + φ)` round a centre (m), from its mean radius `R` (m) and its harmonics; fitted by arcs
-/// to a micrometre.
+/// The closed curve `r = R + Σ a cos(n θ + φ)` around a centre (m), with the mean radius `R` (m) and these harmonics.
+/// It is approximated by arcs within a micrometre.
 ///
 /// ```
 /// use vibrissa::geometry::{Harmonic, Point2, polar_curve};
@@ -42,7 +42,7 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
         finite("amplitude", harmonic.amplitude)?;
         finite("phase", harmonic.phase)?;
     }
-    // Where the radius is not positive the curve would go through its centre.
+    // With a radius that is not positive, the curve would pass through its centre.
     positive("least radius", radius - harmonics.iter().map(|harmonic| harmonic.amplitude.abs()).sum::<f64>())?;
     let curve = |angle: f64| {
         let (mut distance, mut growth) = (radius, 0.0);
@@ -58,7 +58,8 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
     Ok(Contour::closed(pieces)?)
 }
 
-/// At most how many pieces [`polar_curve`] makes, a few times too many. Where there is no such curve the number means nothing.
+/// An upper bound of the number of pieces of [`polar_curve`]. It is a few times too large. It is meaningless if the
+/// curve does not exist.
 #[must_use]
 pub fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
     let derivatives = |angle: f64| {
@@ -78,7 +79,7 @@ pub fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
     most_arcs(derivatives, 0.0, TAU, PLACES_PER_WAVE.saturating_mul(finest.max(1)))
 }
 
-/// Derivatives of a place by its angle, from the distance at that angle and the distance's own first three derivatives.
+/// The derivatives of a point with respect to its angle, from the radius at that angle and its first three derivatives.
 pub(super) fn polar_derivatives(angle: f64, [distance, first, second, third]: [f64; 4]) -> [Vector2; 3] {
     let (outward, across) = (unit(angle), perpendicular(unit(angle)));
     [

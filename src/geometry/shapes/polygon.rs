@@ -4,7 +4,7 @@ use super::ShapeError;
 use super::error::finite_point;
 use crate::geometry::{Contour, Piece, Point2, SHORTEST_PIECE};
 
-/// The polygon with these corners (m), in either direction; the first is not repeated at the end.
+/// The polygon with these corners (m), in either direction. The first corner is not repeated.
 ///
 /// ```
 /// use vibrissa::geometry::{Point2, ShapeError, polygon};

@@ -6,8 +6,8 @@ use super::error::{finite, finite_point, positive};
 use super::{ShapeError, polygon};
 use crate::geometry::{Contour, Point2, unit};
 
-/// A regular polygon: its centre (m), the distance from there to its corners (m), how many sides it has, and the direction
-/// from the centre to its first corner (rad).
+/// A regular polygon, from its centre (m), the distance of its corners from it (m), the number of its sides, and the
+/// direction from the centre to the first corner (rad).
 ///
 /// ```
 /// use vibrissa::geometry::{Point2, regular_polygon};

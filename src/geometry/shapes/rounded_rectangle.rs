@@ -6,8 +6,8 @@ use super::ShapeError;
 use super::error::{finite, finite_point, positive};
 use crate::geometry::{Contour, Piece, Point2, Pose, SHORTEST_PIECE, Vector2};
 
-/// A rectangle with rounded corners: its centre (m), its extent along its own x and y axes (m), the radius of its corners
-/// (m; 0 for sharp ones), and the heading of its x axis (rad).
+/// A rectangle with rounded corners, from its centre (m), its extents along its own x and y axes (m), the corner radius
+/// (m, 0 for sharp corners), and the heading of its x axis (rad).
 ///
 /// ```
 /// use std::f64::consts::PI;

@@ -8,81 +8,82 @@ use super::{ShapeError, TunnelAxis};
 use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
 use crate::geometry::{Contour, Piece, Point2, Pose, Side, Strip, Vector2, perpendicular, unit};
 
-/// At most how many more pieces a side of a round tunnel's outer wall has for its opening.
+/// An upper bound of the number of additional pieces per side of a round tunnel's outer wall, for its opening.
 const FUNNEL_PIECES: usize = 512;
 
-/// The line in the middle of a tunnel, in the tunnel's frame; and what the walls are at a distance from.
+/// The centre line of a tunnel, in the tunnel's frame, with the rule for the distance of its walls.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CentreLine {
     /// Straight runs from the frame's origin.
     Polyline {
         /// The length (m) and the heading (rad) of each run.
         runs: Vec<(f64, f64)>,
-        /// Where the walls' corners lie.
+        /// The positions of the walls' corners.
         corners: Corners,
     },
-    /// `y = a sin(k x)` for `x` from 0 to a length. The walls are at a distance square to the line.
+    /// `y = a sin(k x)` for `x` from 0 to a length. The distance of the walls is perpendicular to the line.
     Sine {
         /// The amplitude `a` (m).
         amplitude: f64,
         /// The wave number `k` (rad/m).
         wave_number: f64,
-        /// Where it ends along x (m).
+        /// The end along x (m).
         length: f64,
     },
-    /// All the way round the frame's origin, counter-clockwise: `r = R + a sin(n θ)`. The walls are at a distance along the
-    /// radius. The outer wall has an opening.
+    /// A closed line around the frame's origin, counter-clockwise: `r = R + a sin(n θ)`. The distance of the walls is
+    /// radial. The outer wall has an opening.
     Polar {
         /// The mean radius `R` (m).
         radius: f64,
         /// The amplitude `a` (m).
         amplitude: f64,
-        /// How many waves `n` there are in a turn.
+        /// The number of waves `n` per turn.
         waves: u32,
-        /// The way in and out.
+        /// The entrance and exit.
         opening: Opening,
     },
 }
 
-/// Where the corners of a tunnel's walls lie: always on the mean of the directions square to the two runs that meet.
+/// The positions of a tunnel's wall corners. They are always on the mean of the normals of both runs.
 #[derive(Copy, Clone, Debug, PartialEq, Eq)]
 pub enum Corners {
     /// At the distance of the walls, so that the tunnel is narrower between two corners than at its ends.
     AtDistance,
-    /// Where the parallels of the two runs meet, so that the tunnel is equally wide everywhere, square to its runs.
+    /// At the intersection of the parallels of both runs, so that the tunnel has the same width everywhere.
     Mitred,
 }
 
 /// An opening in the outer wall of a round tunnel.
 ///
-/// Places are shares of the length of the whole outer wall's middle, counted from θ = 0.
+/// Positions are shares of the length of the complete outer wall's centre line, counted from θ = 0.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// Where it begins.
+    /// The beginning.
     pub from: f64,
-    /// Where it ends.
+    /// The end.
     pub to: f64,
-    /// How much of the wall on either side is bent outwards.
+    /// The share of the wall on either side that is bent outwards.
     pub funnel_length: f64,
-    /// How far the two ends are bent outwards, along the radius (m).
+    /// The radial displacement of the two ends (m).
     pub funnel_depth: f64,
 }
 
-/// Two walls of an even thickness, and the line in the middle between them, in world coordinates.
+/// Two walls of constant thickness, and the axis between them, in world coordinates.
 #[derive(Clone, Debug)]
 pub struct Tunnel {
-    /// The line in the middle.
+    /// The axis.
     pub axis: TunnelAxis,
-    /// The wall on the left of it; closed in a round tunnel.
+    /// The wall on the left. It is closed in a round tunnel.
     pub left: Strip,
-    /// The wall on the right of it.
+    /// The wall on the right.
     pub right: Strip,
 }
 
 impl Tunnel {
-    /// A tunnel in the frame of `pose`, with the middles of its walls a `width` (m) apart and walls of a `thickness` (m).
+    /// A tunnel in the frame of `pose`. The centre lines of its walls are a `width` (m) apart, and its walls have a
+    /// `thickness` (m).
     ///
-    /// Curves are fitted by arcs to a micrometre; the sides of a wall are exactly parallel.
+    /// Curves are approximated by arcs within a micrometre. The sides of a wall are exactly parallel.
     ///
     /// ```
     /// use vibrissa::geometry::{CentreLine, Corners, Point2, Pose, Side, Tunnel};
@@ -105,7 +106,7 @@ impl Tunnel {
         };
         let drawn = line.aside(0.0, false)?.transformed(pose);
         let (left, right) = (wall(-0.5 * width, false)?, wall(0.5 * width, true)?);
-        // The axis goes on past an opening.
+        // The axis continues across an opening.
         let whole = if matches!(line, CentreLine::Polar { .. }) { wall(0.5 * width, false)? } else { right.clone() };
         let axis = TunnelAxis::new(drawn, left.side(Side::Right).clone(), whole.side(Side::Left).clone());
         Ok(Self { axis, left, right })
@@ -113,8 +114,8 @@ impl Tunnel {
 }
 
 impl CentreLine {
-    /// At most how many pieces the outlines of both walls have, a few times too many, if the middles of the walls are a `width` (m) apart.
-    /// Where there is no such tunnel the number means nothing.
+    /// An upper bound of the number of pieces of both walls' outlines, for a `width` (m) between their centre lines. It
+    /// is a few times too large, and meaningless if the tunnel does not exist.
     #[must_use]
     pub fn most_pieces(&self, width: f64) -> usize {
         // Two sides and two ends.
@@ -128,7 +129,8 @@ impl CentreLine {
                     let bend = Vector2::new(0.0, -slope * wave_number * sin);
                     [Vector2::new(1.0, slope * cos), bend, Vector2::new(0.0, -slope * wave_number * wave_number * cos)]
                 };
-                // A parallel of the line takes as many arcs as the line: its curvature changes less where it is longer.
+                // A parallel of the line needs as many arcs as the line, because its curvature changes less where it is
+                // longer.
                 let half_wave = 0.5 * TAU / wave_number.abs();
                 let least = 2 * LEAST_PARTS as usize;
                 let each = most_arcs(derivatives, 0.0, half_wave, PLACES_PER_WAVE) - least;
@@ -179,7 +181,7 @@ impl CentreLine {
                 for share in [from, to, funnel_length] {
                     finite("place of the opening", *share)?;
                 }
-                // What is left of the wall has room for both funnels.
+                // The remaining wall is long enough for both funnels.
                 let fits = 0.0 <= *from && from < to && *to <= 1.0 && *funnel_length > 0.0;
                 let room = from + 1.0 - to - 2.0 * funnel_length;
                 if fits && room > 0.0 { Ok(()) } else { Err(ShapeError::Opening) }
@@ -187,7 +189,7 @@ impl CentreLine {
         }
     }
 
-    /// The line at a distance (m) to the right of the centre line; with or without the opening that a round tunnel has.
+    /// The line at a distance (m) to the right of the centre line, with or without the opening of a round tunnel.
     fn aside(&self, aside: f64, opened: bool) -> Result<Contour, ShapeError> {
         match self {
             Self::Polyline { runs, corners } => polyline(runs, *corners, aside),
@@ -197,7 +199,7 @@ impl CentreLine {
                     let slope = amplitude * wave_number * cos;
                     let along = Vector2::new(1.0, slope);
                     let bend = -amplitude * wave_number * wave_number * sin / (1.0 + slope * slope).powf(1.5);
-                    // Beyond the centre of its curvature a parallel goes backwards.
+                    // Beyond the centre of its curvature, a parallel has the opposite direction.
                     let direction = along * (1.0 + aside * bend);
                     (Point2::new(x, amplitude * sin) - aside * perpendicular(along.normalize()), direction)
                 };
@@ -230,7 +232,7 @@ fn polyline(runs: &[(f64, f64)], corners: Corners, aside: f64) -> Result<Contour
         corner += length * unit(heading);
     }
     vertices.extend(runs.last().map(|&(_, heading)| corner + aside * right_of(heading)));
-    // A run between two corners may be used up.
+    // A run between two corners may have no length left.
     let forward =
         vertices.windows(2).zip(runs).all(|(ends, &(_, heading))| (ends[1] - ends[0]).dot(&unit(heading)) > 0.0);
     if !forward {
@@ -247,7 +249,7 @@ struct Ring {
 }
 
 impl Ring {
-    /// The radius at an angle, and how fast it grows with it.
+    /// The radius at an angle, and its derivative.
     fn at(&self, angle: f64) -> (f64, f64) {
         let (sin, cos) = (self.waves * angle).sin_cos();
         (self.radius + self.amplitude * sin, self.amplitude * self.waves * cos)
@@ -262,13 +264,13 @@ impl Ring {
         Ok(Contour::closed(pieces)?)
     }
 
-    /// The ring without what is open, its two ends bent outwards.
+    /// The ring without its opening, with both ends bent outwards.
     fn opened(&self, whole: &Contour, opening: &Opening) -> Result<Contour, ShapeError> {
         let angle = |share: f64| {
             let point = whole.point_at(share * whole.length());
             point.y.atan2(point.x).rem_euclid(TAU)
         };
-        // On from the end of the opening, all the way round to its beginning.
+        // From the end of the opening around to its beginning.
         let start = angle(opening.to);
         let beyond = |share: f64| start + (angle(share.rem_euclid(1.0)) - start).rem_euclid(TAU);
         let (straight, bends) =

@@ -1,14 +1,15 @@
-//! The line in the middle of a tunnel.
+//! The axis of a tunnel.
 
 use crate::geometry::{Contour, Point2, Vector2, perpendicular};
 
-/// Newton's steps towards the axis. Each squares what is left of the way, of millimetres at a decimetre from either wall.
+/// The number of Newton steps towards the axis. Convergence is quadratic, from an initial error of millimetres at a
+/// distance of a decimetre from either wall.
 const STEPS: usize = 6;
 
-/// The axis of a tunnel: the line as far from its left wall as from its right one (the thesis's section 5.3).
+/// The axis of a tunnel: the line with equal distances from its left and its right wall (section 5.3 of the baseline).
 ///
-/// Where both walls are parallels of the line that they are drawn along, it is that line; around the corners of straight runs
-/// it is a little nearer to the inner corner. Walls at a distance along a radius are not parallel.
+/// If both walls are parallels of their common line, the axis is that line, except around the corners of straight runs.
+/// There it is slightly nearer to the inner corner. Walls at a radial distance are not parallel.
 #[derive(Clone, Debug)]
 pub struct TunnelAxis {
     line: Contour,
@@ -17,33 +18,33 @@ pub struct TunnelAxis {
 }
 
 impl TunnelAxis {
-    /// The axis between the sides of two walls that face the tunnel. The `line` that they are drawn along tells where the
-    /// tunnel begins and ends.
+    /// Creates the axis between the inner sides of two walls. The common `line` of the walls defines the beginning and
+    /// the end of the tunnel.
     #[must_use]
     pub fn new(line: Contour, left: Contour, right: Contour) -> Self {
         Self { line, left, right }
     }
 
-    /// The line that the walls are drawn along; closed in a round tunnel.
+    /// The common line of the walls, closed in a round tunnel.
     #[must_use]
     pub fn line(&self) -> &Contour {
         &self.line
     }
 
-    /// The parallel of the line along which the left wall faces the tunnel, without openings.
+    /// The inner side of the left wall, a parallel of the line without openings.
     #[must_use]
     pub fn left(&self) -> &Contour {
         &self.left
     }
 
-    /// The same of the right wall.
+    /// The inner side of the right wall.
     #[must_use]
     pub fn right(&self) -> &Contour {
         &self.right
     }
 
-    /// The arc length (m) of the [line](Self::line) beside a point between the walls; `None` for a point beyond a wall, before the
-    /// beginning of the tunnel or beyond its end.
+    /// The arc length (m) of a point between the walls, projected on the [line](Self::line). `None` for a point beyond
+    /// a wall, before the beginning of the tunnel or beyond its end.
     ///
     /// ```
     /// use vibrissa::geometry::{Contour, Piece, Point2, TunnelAxis};
@@ -64,7 +65,8 @@ impl TunnelAxis {
         self.arc_length_beside(point).filter(|_| is_between)
     }
 
-    /// How far (m) a point is from the axis, never negative; `None` before the beginning of the tunnel and beyond its end.
+    /// The distance (m) of a point from the axis, never negative. `None` before the beginning of the tunnel and beyond
+    /// its end.
     ///
     /// ```
     /// use vibrissa::geometry::{Contour, Piece, Point2, TunnelAxis};
@@ -79,21 +81,23 @@ impl TunnelAxis {
         self.arc_length_beside(point).map(|_| (self.foot(point) - point).norm())
     }
 
-    /// The arc length (m) of the line beside a point; `None` before the beginning of the tunnel and beyond its end.
+    /// The arc length (m) of a point projected on the line. `None` before the beginning of the tunnel and beyond its
+    /// end.
     fn arc_length_beside(&self, point: Point2) -> Option<f64> {
         let along = self.line.nearest(point).arc_length;
         let is_inside = self.line.is_closed() || (along > 0.0 && along < self.line.length());
         is_inside.then_some(along)
     }
 
-    /// The point of the axis that the difference of the distances from both walls leads to: the nearest one, but for the bend
-    /// of the axis within the distance itself.
+    /// A point of the axis, found by the difference of the distances from both walls. It is the nearest one, except for
+    /// the curvature of the axis within the distance.
     fn foot(&self, point: Point2) -> Point2 {
         let mut foot = point;
         for _ in 0..STEPS {
             let (left, right) = (self.left.nearest(foot), self.right.nearest(foot));
             let apart = 0.5 * (left.distance - right.distance);
-            // Of a point on a wall the direction from that is not known, but opposite to the other.
+            // For a point on a wall, the direction from that wall is undefined. It is opposite to that from the other
+            // wall.
             let from = |wall: Point2| (foot - wall).try_normalize(0.0).unwrap_or_else(Vector2::zeros);
             let slope = 0.5 * (from(left.point) - from(right.point));
             if slope.norm_squared() < 1e-6 {
@@ -113,7 +117,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Equally far from a straight wall and from a round post is a parabola.
+        /// The points with equal distances from a straight wall and from a round post are a parabola.
         #[test]
         fn between_a_straight_wall_and_a_post_it_is_a_parabola(x in -0.1..0.1_f64, off in -0.02..0.02_f64) {
             let (height, radius) = (0.3, 0.1);

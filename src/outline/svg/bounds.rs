@@ -11,9 +11,9 @@ const MOST_ATTRIBUTES: usize = 256;
 /// The largest number of namespace declarations of a document. Drawings have a dozen, mostly in their first element.
 const MOST_NAMESPACES: usize = 1000;
 
-/// Checks that a document can be parsed in a time and with memory proportional to its text.
+/// Checks that a document can be parsed with time and memory proportional to its text.
 ///
-/// Neither a value of an attribute nor a name holds a `<`, so that each part between two of these has one element's tag at most.
+/// Attribute values and names contain no `<`. Therefore each part between two of these has at most one tag.
 pub(super) fn check(text: &str) -> Result<(), OutlineError> {
     if text.matches("xmlns").count() > MOST_NAMESPACES {
         return Err(OutlineFault::TooLarge { what: "declarations of namespaces", limit: MOST_NAMESPACES }.into());
