@@ -58,7 +58,11 @@ pub(super) struct Server<'l> {
 ///
 /// # Errors
 /// Reading or writing failed, because the editor has gone.
-pub(crate) fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
+pub(crate) fn serve(
+    input: impl BufRead + Send + 'static,
+    output: &mut dyn Write,
+    library: &Library<'_>,
+) -> io::Result<Ended> {
     let (phase, client) = (Phase::Uninitialized, Client::default());
     let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
     let mut queue = Queue::read_from(input)?;

@@ -44,8 +44,8 @@ impl World for Recorder {
         self.world.body_touches()
     }
 
-    fn springs(&self, whisker: usize) -> bool {
-        self.world.springs(whisker)
+    fn snapped_off(&self, whisker: usize) -> bool {
+        self.world.snapped_off(whisker)
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

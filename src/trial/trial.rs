@@ -103,7 +103,7 @@ impl Trial {
     pub fn run_with(&self, progress: impl FnMut(&Trace) -> ControlFlow<()>) -> Result<TrialResult, ExecuteError> {
         let before = Instant::now();
         let world = std::thread::scope(|scope| {
-            let prepare = || Perception::prepare(&self.assumed_rig, &self.program.tip_models);
+            let prepare = || Perception::prepare(&self.assumed_rig, &self.program.contact_estimators);
             // If the system starts no thread, perception is prepared when it is built.
             let _ = std::thread::Builder::new().spawn_scoped(scope, prepare);
             self.world()

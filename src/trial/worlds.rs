@@ -34,31 +34,8 @@ pub enum ExecuteError {
 /// Builds a world of a scene. `seed` fixes the sensor noise.
 ///
 /// # Errors
-/// [`ExecuteError`] when the run cannot begin. How it ends is in the [`Run`].
-pub fn execute(
-    scene: &Scene,
-    program: Arc<Program>,
-    world: impl Into<WorldSetup>,
-    seed: u64,
-    progress: impl FnMut(&Trace) -> ControlFlow<()>,
-) -> Result<Run, ExecuteError> {
-    let before = Instant::now();
-    let world = std::thread::scope(|scope| {
-        let prepare = || Perception::prepare(&scene.rig, &program.contact_estimators);
-        // A system that starts no more threads has it prepared when it is first asked for.
-        let _ = std::thread::Builder::new().spawn_scoped(scope, prepare);
-        build(scene, world.into(), seed)
-    });
-    let control = Control::new(&scene.rig, program)?;
-    let mut world = world?;
-    let period = 1.0 / scene.rig.sensing.control_rate;
-    let built = before.elapsed();
-    let mut run = drive(world.as_mut(), control, &scene.stop, period, progress).ok_or(ExecuteError::Interrupted)?;
-    run.start += built;
-    Ok(run)
-}
-
-pub(super) fn build(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
+/// [`ExecuteError`] if the world refuses the scene.
+pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
     let Scene { rig, physics, solids, start, .. } = scene;
     match world.kind {
         #[cfg(feature = "sim")]

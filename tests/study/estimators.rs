@@ -7,7 +7,7 @@ use vibrissa::policy::compile;
 use vibrissa::report::estimators_tables;
 use vibrissa::scenario;
 use vibrissa::scene::WorldKind;
-use vibrissa::study::estimators::{EstimatorRow, estimators_tables, judge_all};
+use vibrissa::study::estimators::{EstimatorRow, evaluate_all};
 use vibrissa_runtime::machine::ContactEstimatorKind;
 
 /// Goes up, and nearer to the wall on the right.

@@ -9,9 +9,7 @@ use vibrissa::report::{pareto_picture, pareto_table};
 use vibrissa::results::Ending;
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind};
-use vibrissa::study::Ending;
-use vibrissa::study::bench::{DEFAULT_POLICY, SCENARIOS};
-use vibrissa::study::pareto::{Change, Pareto, Setting, measure, pareto_picture, pareto_table};
+use vibrissa::study::pareto::{Change, Pareto, Setting, measure};
 use vibrissa_runtime::machine::{ContactEstimatorKind, Program};
 
 fn disk() -> Scene {

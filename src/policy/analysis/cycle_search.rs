@@ -48,8 +48,8 @@ pub(super) fn immediate_cycles<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
         while let Some((state, partial)) = open.pop() {
             let is_new = |target: usize| {
                 leads_back[target]
-                    && way.path.len() + 1 < MICROSTEP_LIMIT
-                    && way.path.iter().all(|&(passed, _)| passed != target)
+                    && partial.path.len() + 1 < MICROSTEP_LIMIT
+                    && partial.path.iter().all(|&(passed, _)| passed != target)
             };
             for &(edge, ref targets) in &graph.steps[state] {
                 if graph.work > STEP_LIMIT || found.len() >= CYCLE_LIMIT || search.is_exhausted() {

@@ -69,10 +69,12 @@ impl Domain {
             Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
             Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
-            Unknown::Travel(_) | Unknown::Away(_) => range(-PI, PI),
-            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, FAR),
+            Unknown::Tangent(_) | Unknown::Normal(_) => range(-PI, PI),
+            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
             Unknown::Whisker(_, WhiskerScalar::TipDeviation) => range(0.0, f64::INFINITY),
-            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => range(-FAR, FAR),
+            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => {
+                range(-DISTANCE_LIMIT, DISTANCE_LIMIT)
+            }
         }
     }
 

@@ -64,10 +64,10 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let declared = compiler.declare(file, &scope);
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
-    let failsafe = compiler.failsafe(&scope, None, &file.failsafes);
+    let fallback = compiler.failsafe(&scope, None, &file.failsafes);
     let states = compiler.states(file, &scope, declared, &mut timers);
     let initial = compiler.initial(file);
-    let tip_models = compiler.tip_models(file);
+    let contact_estimators = compiler.contact_estimators(file);
     compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
 
@@ -75,7 +75,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     Some(Program {
         name: file.name.text.clone(),
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
-        contact_estimators: tip_models,
+        contact_estimators,
         optional: file.optional.clone(),
         parameters,
         states,
@@ -85,9 +85,9 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         entry,
         body,
         always,
-        fallback: failsafe,
+        fallback,
         code: std::mem::take(&mut compiler.code.ops),
-        initial_registers: std::mem::take(&mut compiler.code.image),
+        initial_registers: std::mem::take(&mut compiler.code.initial),
         timers,
     })
 }
@@ -134,8 +134,8 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// The tip model of every whisker.
-    fn tip_models(&mut self, file: &'f File) -> Vec<machine::ContactEstimatorKind> {
+    /// The contact estimator of every whisker.
+    fn contact_estimators(&mut self, file: &'f File) -> Vec<machine::ContactEstimatorKind> {
         let mut kinds = Vec::with_capacity(file.whiskers.len());
         let mut faulty = None;
         for model in &file.tip_models {
@@ -146,7 +146,7 @@ impl<'f> Compiler<'f> {
                 && faulty != Some(name.span)
             {
                 faulty = Some(name.span);
-                let message = format!("there is no tip model `{}`", name.text);
+                let message = format!("there is no contact estimator `{}`", name.text);
                 let known = machine::ContactEstimatorKind::ALL.map(machine::ContactEstimatorKind::name);
                 let list = known.map(|name| format!("`{name}`")).join(", ");
                 let diagnostic = Diagnostic::error("P0414", message, name.span, "is none");
@@ -275,7 +275,7 @@ impl<'f> Compiler<'f> {
         self.memories.clear();
         self.state_body = &state.body;
         let transitions = self.transitions(scope, Some(index), &state.transitions, timers);
-        let failsafe = self.failsafe(scope, Some(index), &state.failsafes);
+        let fallback = self.failsafe(scope, Some(index), &state.failsafes);
         self.state_body = &[];
         let start = self.code.here();
         self.statements(scope, &state.body);
@@ -290,7 +290,7 @@ impl<'f> Compiler<'f> {
         self.commandless = None;
         self.check_size(state.name.span);
         let name = Arc::from(state.name.text.as_str());
-        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, fallback: failsafe }
+        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, fallback }
     }
 
     /// Lowers the entry of a state.

@@ -140,9 +140,9 @@ impl KnownValues {
         Some(same.operands.writes[0].first)
     }
 
-    /// Whether an operation would give again what it gave.
-    fn holds(&self, known: &Known) -> bool {
-        let written = |place: &RegisterSpan| self.written[place.registers()].iter();
+    /// True if an operation would give the same result again.
+    fn is_valid(&self, known: &Known) -> bool {
+        let written = |span: &RegisterSpan| self.written[span.registers()].iter();
         known.operands.writes.iter().flat_map(written).all(|&written| written == known.number)
             && known.operands.all_reads().iter().flat_map(written).all(|&written| written < known.number)
             && (known.op.effect() != Effect::Sensing || self.recorded < known.number)
@@ -154,8 +154,8 @@ impl KnownValues {
     }
 }
 
-/// An operation with its result in register 0; `None` for a copy, and for one that does more than to give a result.
-fn placeless(mut op: Op) -> Option<Op> {
+/// The operation with its result register set to 0. `None` for a copy, and for operations with side effects.
+fn canonical(mut op: Op) -> Option<Op> {
     if matches!(op, Op::Copy { .. } | Op::CopyVector { .. }) || op.effect() == Effect::SideEffect {
         return None;
     }

@@ -1,6 +1,6 @@
 //! The comparison of contact estimators as tables.
 
-use vibrissa_runtime::machine::TipModelKind;
+use vibrissa_runtime::machine::ContactEstimatorKind;
 
 use super::super::number::millimetres;
 use super::super::table::{NONE, Table};
@@ -22,7 +22,7 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
         0.0 => "none".to_owned(),
         factor => format!("{factor} ×"),
     };
-    let models = TipModelKind::ALL.map(TipModelKind::name);
+    let models = ContactEstimatorKind::ALL.map(ContactEstimatorKind::name);
     let lines = groups.iter().map(|group| {
         let cells = models
             .map(|model| rows.iter().find(|row| of(row) == *group && row.model == model).map_or(NONE.to_owned(), cell));

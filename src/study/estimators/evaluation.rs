@@ -27,13 +27,15 @@ pub fn evaluate_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> R
     scene.rig.sensing.forces = true;
     make_noisy(&mut scene.rig.sensing, 0.0);
     let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
-    let mut tape = Tape::record(&scene, &scene.rig, program, world)?;
+    let mut trial = Trial::new(scene.clone(), program);
+    trial.world = world.into();
+    let mut recording = trial.record()?;
     let mut rows = Vec::with_capacity(NOISES.len() * ContactEstimatorKind::ALL.len());
     for factor in NOISES {
         let mut rig = scene.rig.clone();
         make_noisy(&mut rig.sensing, factor);
-        let clean = std::mem::take(&mut tape.ticks);
-        tape.ticks = noisy(&clean, &rig, scene.seed);
+        let clean = std::mem::take(&mut recording.ticks);
+        recording.ticks = noisy(&clean, &rig, scene.seed);
         for kind in ContactEstimatorKind::ALL {
             let kinds = vec![kind; whiskers.len()];
             rows.push(evaluate(&scene, &rig, (&whiskers, &kinds), &recording, factor)?);
@@ -72,7 +74,7 @@ pub(in crate::study) fn evaluate(
     scene: &Scene,
     rig: &Rig,
     (whiskers, kinds): (&[Option<usize>], &[ContactEstimatorKind]),
-    tape: &Tape,
+    recording: &Recording,
     noise: f64,
 ) -> Result<EstimatorRow, ExecuteError> {
     let mut perception = Perception::new(rig, whiskers, kinds).map_err(BindError::from)?;

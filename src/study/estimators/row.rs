@@ -3,10 +3,6 @@
 use crate::results::Document;
 use serde::Serialize;
 
-use crate::report::{NONE, Table, millimetres};
-use crate::study::TipShares;
-use vibrissa_runtime::machine::ContactEstimatorKind;
-
 /// How one tip model did on the samples of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -37,68 +33,4 @@ pub struct EstimatorRow {
 
 impl Document for EstimatorRow {
     const FORMAT: &'static str = "estimators";
-}
-
-/// Two tables. The first has a row for every scene and noise, with the mean error (mm) of every tip model. The second has a row for every
-/// tip model and noise, with its figures over all scenes.
-#[must_use]
-pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
-    let of = |row: &EstimatorRow| (row.scenario.clone(), row.noise.to_bits());
-    let mut groups: Vec<(String, u64)> = Vec::new();
-    for row in rows {
-        if !groups.contains(&of(row)) {
-            groups.push(of(row));
-        }
-    }
-    let noise = |bits: u64| match f64::from_bits(bits) {
-        0.0 => "none".to_owned(),
-        factor => format!("{factor} ×"),
-    };
-    let models = ContactEstimatorKind::ALL.map(ContactEstimatorKind::name);
-    let lines = groups.iter().map(|group| {
-        let cells = models
-            .map(|model| rows.iter().find(|row| of(row) == *group && row.model == model).map_or(NONE.to_owned(), cell));
-        [vec![group.0.clone(), noise(group.1)], cells.to_vec()].concat()
-    });
-    let scenes = Table::new(2, ["scene", "noise"].into_iter().chain(models), lines)
-        .under("Mean error (mm) of every tip model; how many points each tells is in the second table");
-
-    let mut noises: Vec<u64> = Vec::new();
-    for (_, noise) in &groups {
-        if !noises.contains(noise) {
-            noises.push(*noise);
-        }
-    }
-    let lines =
-        models.iter().flat_map(|model| noises.iter().map(move |noise| (*model, *noise))).map(|(model, bits)| {
-            let mine: Vec<_> = rows.iter().filter(|row| row.model == model && row.noise.to_bits() == bits).collect();
-            let mean = |figure: &dyn Fn(&EstimatorRow) -> Option<f64>| {
-                let found: Vec<f64> = mine.iter().filter_map(|row| figure(row)).collect();
-                (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
-            };
-            let tips: TipShares =
-                mine.iter().map(|row| TipShares::of_run(row.tips, row.outliers, row.within_band)).sum();
-            let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
-            let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-            vec![
-                model.to_owned(),
-                noise(bits),
-                shown(mean(&|row| row.mean_mm), &millimetres),
-                shown(mean(&|row| row.p95_mm), &millimetres),
-                shown(tips.within_band_share(), &percent),
-                shown(tips.outlier_share(), &|share| format!("{:.2} %", 100.0 * share)),
-                shown(mean(&|row| Some(row.told)), &percent),
-                shown(mean(&|row| Some(row.on_shaft)), &percent),
-                shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
-            ]
-        });
-    let headings =
-        ["tip model", "noise", "mean mm", "p95 mm", "in 95 %", "outliers", "told", "on the shaft", "tick µs"];
-    let means = Table::new(2, headings, lines)
-        .under("Means over the scenes; shares within the 95 % interval and of outliers are of all tips together");
-    [scenes, means]
-}
-
-fn cell(row: &EstimatorRow) -> String {
-    row.mean_mm.map_or_else(|| NONE.to_owned(), millimetres)
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vibrissa_runtime::control::BindError;
-use vibrissa_runtime::machine::{Program, TipModelKind};
+use vibrissa_runtime::machine::{ContactEstimatorKind, Program};
 use vibrissa_runtime::percept::Perception;
 
 use super::row::{Front, ParetoRow};
@@ -124,7 +124,7 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
     if let Some(kind) = setting.tip_model() {
         return re_estimated(&trial, kind);
     }
-    Perception::prepare(&trial.assumed_rig, &program.tip_models);
+    Perception::prepare(&trial.assumed_rig, &program.contact_estimators);
     let start = processor_time();
     let result = trial.run()?;
     let seconds = processor_time() - start;
@@ -133,18 +133,17 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
 
 /// A run under the policy's own contact estimator, whose samples are given to an estimator of another `kind`. The time is that of the run
 /// with the other perception.
-fn re_estimated(trial: &Trial, kind: TipModelKind) -> Result<Measured, ExecuteError> {
+fn re_estimated(trial: &Trial, kind: ContactEstimatorKind) -> Result<Measured, ExecuteError> {
     let Trial { scene, assumed_rig, program, .. } = trial;
     let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
     let start = processor_time();
     let recording = trial.record()?;
     let seconds = processor_time() - start;
-    let kinds =
-        setting.tip_model().map_or_else(|| program.contact_estimators.clone(), |kind| vec![kind; whiskers.len()]);
-    let own = judge(scene, perceived, (&whiskers, &program.contact_estimators), &tape, 0.0)?;
-    let other = judge(scene, perceived, (&whiskers, &kinds), &tape, 0.0)?;
-    let more = 1e-6 * (other.tick_us - own.tick_us) * tape.run.trace.ticks.len() as f64;
-    let run = Measured::new(&tape.run, scene, seconds + more);
+    let kinds = vec![kind; whiskers.len()];
+    let own = evaluate(scene, assumed_rig, (&whiskers, &program.contact_estimators), &recording, 0.0)?;
+    let other = evaluate(scene, assumed_rig, (&whiskers, &kinds), &recording, 0.0)?;
+    let more = 1e-6 * (other.tick_us - own.tick_us) * recording.result.run.trace.ticks.len() as f64;
+    let run = Measured::new(&recording.result, seconds + more);
     Ok(Measured { error_mm: other.mean_mm, coverage: None, estimate: None, ..run })
 }
 
