@@ -111,7 +111,7 @@ impl Function {
             Self::Dot | Self::Cross => "two vectors",
             Self::LowPass => "a number and a frequency",
             Self::Pid => {
-                "the error, gains for the error, its integral and its derivative, and the limit of the output. Each gain \
+                "the error, gains for the error, its integral and its derivative, and the limit of the output, such that each gain \
              multiplied by its quantity has the dimension of the limit"
             }
         }

@@ -63,7 +63,7 @@ fn a_mark_is_no_name_and_takes_lost_or_found() {
     let index = index(MARKING);
     let at = |part: &str| MARKING.find(part).unwrap();
     assert_eq!(index.definition(at("mark lost") + 5), None);
-    assert!(index.hover(at("mark lost") + 5).unwrap().text.contains("the object's edge"));
+    assert!(index.hover(at("mark lost") + 5).unwrap().text.contains("at an edge"));
     assert_eq!(index.references(at("lost =")).len(), 3);
     assert!(matches!(index.rename(at("mark found") + 5, "x"), Err(RenameError::BuiltIn(_))));
 }
