@@ -3,18 +3,18 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::simple::{MOST_PAIRS, crossings, grown};
+use super::simple::{MAX_PAIRS, crossings, grown};
 use super::union::TOUCHING;
 use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment};
 
 /// The largest number of intersections.
-const MOST_CUTS: usize = 20_000;
+const MAX_CUTS: usize = 20_000;
 
 /// Two positions on a piece are equal within this distance (m).
 const SAME: f64 = 2.0 * TOUCHING;
 
 /// The largest distance (m) between the end of a part and the start of its successor.
-const JOINT: f64 = 4.0 * TOUCHING;
+const MAX_GAP: f64 = 4.0 * TOUCHING;
 
 /// A part of a piece between two cuts, by arc lengths (m) from the piece's start.
 #[derive(Copy, Clone, Debug)]
@@ -51,7 +51,7 @@ impl Arrangement {
             let first = parts.len();
             for (index, piece) in contour.pieces().iter().enumerate() {
                 let length = piece.length();
-                let mut ends = near.cuts(member, piece, MOST_CUTS - cuts, &mut work).ok_or(MOST_CUTS)?;
+                let mut ends = near.cuts(member, piece, MAX_CUTS - cuts, &mut work).ok_or(MAX_CUTS)?;
                 cuts += ends.len();
                 ends.retain(|&end| end > SAME && end < length - SAME);
                 ends.sort_by(f64::total_cmp);
@@ -66,7 +66,7 @@ impl Arrangement {
             next.extend(first + 1..parts.len());
             next.push(first);
         }
-        let is_outer = parts.iter().map(|part| near.is_outer(part, &mut work).ok_or(MOST_CUTS));
+        let is_outer = parts.iter().map(|part| near.is_outer(part, &mut work).ok_or(MAX_CUTS));
         let is_outer = is_outer.collect::<Result<_, _>>()?;
         Ok(Self { parts, is_outer, next })
     }
@@ -111,7 +111,7 @@ impl Arrangement {
             return Some(own);
         }
         let end = self.parts[part].end();
-        let near = starts.locate_within_distance(end.into(), JOINT * JOINT).map(|start| start.data);
+        let near = starts.locate_within_distance(end.into(), MAX_GAP * MAX_GAP).map(|start| start.data);
         let apart = |&next: &usize| (self.parts[next].start() - end).norm();
         near.filter(|&next| is_free(next)).min_by(|a, b| apart(a).total_cmp(&apart(b)))
     }
@@ -159,7 +159,7 @@ impl<'m> Near<'m> {
                 [Some(met.start()), Some(met.end())].into_iter().chain(crossings(piece, met, TOUCHING)).flatten();
             let is_met = |place: &Point2| piece.distance(*place) <= TOUCHING && met.distance(*place) <= TOUCHING;
             cuts.extend(places.filter(is_met).map(|place| piece.nearest(place)));
-            if cuts.len() > most || *work > MOST_PAIRS {
+            if cuts.len() > most || *work > MAX_PAIRS {
                 return None;
             }
         }
@@ -181,7 +181,7 @@ impl<'m> Near<'m> {
         let near = self.frames.locate_in_envelope_intersecting(AABB::from_point(place.into())).map(|frame| frame.data);
         for index in near.filter(|&other| other != part.member) {
             *work += 1;
-            if *work > MOST_PAIRS {
+            if *work > MAX_PAIRS {
                 return None;
             }
             let other = self.members[index];

@@ -11,7 +11,7 @@ use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, sim
 pub const JOIN_TOLERANCE: f64 = 1e-9;
 
 /// The smallest length (m) of a piece. A shorter piece cannot be distinguished from a gap.
-pub const SHORTEST_PIECE: f64 = 1e-8;
+pub const MIN_PIECE_LENGTH: f64 = 1e-8;
 
 /// A curve of contiguous segments and circular arcs. It neither crosses nor touches itself.
 ///
@@ -122,7 +122,7 @@ impl Contour {
 
     fn build(mut pieces: Vec<Piece>, closed: bool) -> Result<Self, ContourError> {
         check_pieces(&pieces)?;
-        check_joints(&pieces, closed)?;
+        check_vertices(&pieces, closed)?;
         let mut turns = turns(&pieces, closed)?;
         let mut tree = Leaf::tree(&pieces);
         simple::check(&pieces, closed, &tree)?;
@@ -171,14 +171,14 @@ fn check_pieces(pieces: &[Piece]) -> Result<(), ContourError> {
                 return Err(ContourError::Sweep { piece: index, sweep: arc.sweep });
             }
         }
-        if piece.length() < SHORTEST_PIECE {
+        if piece.length() < MIN_PIECE_LENGTH {
             return Err(ContourError::TooShort { piece: index, length: piece.length() });
         }
     }
     Ok(())
 }
 
-fn check_joints(pieces: &[Piece], closed: bool) -> Result<(), ContourError> {
+fn check_vertices(pieces: &[Piece], closed: bool) -> Result<(), ContourError> {
     let last = pieces.len() - 1;
     for index in 0..=last {
         let next = (index + 1) % pieces.len();

@@ -35,8 +35,8 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn corners(&self) -> Vec<Corner> {
-        let joints = self.pieces.iter().zip(&self.starts).zip(&self.turns);
-        joints
+        let vertices = self.pieces.iter().zip(&self.starts).zip(&self.turns);
+        vertices
             .filter(|(_, turn)| turn.abs() > SMOOTH_TOLERANCE)
             .map(|((piece, &arc_length), &turn)| Corner { arc_length, point: piece.start(), turn })
             .collect()
@@ -69,22 +69,22 @@ pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
 }
 
 /// True if rounding decides which of the two pieces at a cusp is nearest to a point. Both pieces are on opposite sides
-/// of the point. `to_joint` is the distance (m) from the nearest point to the vertex, `from_foot` the vector from the
+/// of the point. `to_vertex` is the distance (m) from the nearest point to the vertex, `from_nearest` the vector from the
 /// nearest point.
-pub(super) fn is_ambiguous_at_cusp(turn: f64, to_joint: f64, from_foot: Vector2) -> bool {
+pub(super) fn is_ambiguous_at_cusp(turn: f64, to_vertex: f64, from_nearest: Vector2) -> bool {
     // The distances to the two pieces differ by the square of this times their curvatures.
     const REACH: f64 = 1e-6;
     // Within a spike, points are much nearer to its sides than its sides are to its tip.
-    PI - turn.abs() <= CUSP_TOLERANCE && to_joint < REACH && from_foot.norm() > to_joint
+    PI - turn.abs() <= CUSP_TOLERANCE && to_vertex < REACH && from_nearest.norm() > to_vertex
 }
 
-/// The side of a vertex, +1 right or −1 left, on which the point at `from_joint` lies. The vertex must be its nearest
+/// The side of a vertex, +1 right or −1 left, on which the point at `from_vertex` lies. The vertex must be its nearest
 /// point.
-pub(super) fn side(turn: f64, incoming: Vector2, outgoing: Vector2, from_joint: Vector2) -> f64 {
+pub(super) fn side(turn: f64, incoming: Vector2, outgoing: Vector2, from_vertex: Vector2) -> f64 {
     // The points nearest to a vertex fill the wedge between its two normals, on the outside of the turn. The wedge of a
     // slight turn is thin, and rounding may place a point of either side in it. There, the tangent decides.
     const SLIGHT: f64 = 1e-3;
-    if turn.abs() > SLIGHT { turn.signum() } else { right_of(incoming + outgoing, from_joint) }
+    if turn.abs() > SLIGHT { turn.signum() } else { right_of(incoming + outgoing, from_vertex) }
 }
 
 /// +1 if `offset` points to the right of `direction` or along it, −1 if to its left.

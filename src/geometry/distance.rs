@@ -30,7 +30,7 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn nearest(&self, point: Point2) -> Nearest {
-        let (index, along) = self.foot(point);
+        let (index, along) = self.project(point);
         let piece = &self.pieces[index];
         let arc_length = self.starts[index] + along;
         Nearest {
@@ -67,7 +67,7 @@ impl Contour {
     /// ```
     #[must_use]
     pub fn signed_distance(&self, point: Point2) -> f64 {
-        let (index, along) = self.foot(point);
+        let (index, along) = self.project(point);
         let distance = self.pieces[index].distance(point);
         if distance > 0.0 { distance * self.side(index, along, point) } else { distance }
     }
@@ -79,7 +79,7 @@ impl Contour {
     }
 
     /// The piece nearest to a point, and the arc length of the nearest point on it.
-    fn foot(&self, point: Point2) -> (usize, f64) {
+    fn project(&self, point: Point2) -> (usize, f64) {
         // The tree's `nearest_neighbor` prunes by a bound that assumes exact boxes. It misses a nearest piece at a
         // corner of its box now and then. The iterator does not.
         let nearest = self.tree.nearest_neighbor_iter([point.x, point.y]).next();
@@ -91,23 +91,23 @@ impl Contour {
     /// The side of the contour, +1 right or −1 left, of a point whose nearest point is at `along` on the piece `index`.
     fn side(&self, index: usize, along: f64, point: Point2) -> f64 {
         let piece = &self.pieces[index];
-        let from_foot = point - piece.point_at(along);
+        let from_nearest = point - piece.point_at(along);
         let to_end = piece.length() - along;
-        let (to_joint, joint) = if along < to_end {
+        let (to_vertex, vertex) = if along < to_end {
             (along, self.before(index).map(|before| (before, index)))
         } else {
             (to_end, self.after(index).map(|after| (index, after)))
         };
-        match joint {
-            Some((_, after)) if corner::is_ambiguous_at_cusp(self.turns[after], to_joint, from_foot) => {
+        match vertex {
+            Some((_, after)) if corner::is_ambiguous_at_cusp(self.turns[after], to_vertex, from_nearest) => {
                 self.turns[after].signum()
             }
-            Some((before, after)) if to_joint <= 0.0 => {
+            Some((before, after)) if to_vertex <= 0.0 => {
                 let incoming = self.pieces[before].tangent_at(self.pieces[before].length());
                 let outgoing = self.pieces[after].tangent_at(0.0);
-                corner::side(self.turns[after], incoming, outgoing, from_foot)
+                corner::side(self.turns[after], incoming, outgoing, from_nearest)
             }
-            _ => corner::right_of(piece.tangent_at(along), from_foot),
+            _ => corner::right_of(piece.tangent_at(along), from_nearest),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Errors of contours.
 
-use super::{JOIN_TOLERANCE, Point2, SHORTEST_PIECE};
+use super::{JOIN_TOLERANCE, MIN_PIECE_LENGTH, Point2};
 
 /// The reason why pieces are not a contour. Pieces are counted from 0, in the given order.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -33,7 +33,7 @@ pub enum ContourError {
         sweep: f64,
     },
     /// A piece is too short.
-    #[error("piece {piece} is {length} m long: leave it out, or make it longer than {SHORTEST_PIECE} m")]
+    #[error("piece {piece} is {length} m long: leave it out, or make it longer than {MIN_PIECE_LENGTH} m")]
     TooShort {
         /// The piece.
         piece: usize,

@@ -6,27 +6,27 @@ use super::{Arc, Piece, Point2, Vector2, perpendicular};
 const TOLERANCE: f64 = 1e-6;
 
 /// The number of parts of a wave with a few turns before any fitting.
-pub(super) const LEAST_PARTS: u32 = 32;
+pub(super) const MIN_PARTS: u32 = 32;
 
 /// The largest number of bisections of a part. A smooth curve needs a fraction of it.
-const MOST_HALVINGS: u32 = 12;
+const MAX_HALVINGS: u32 = 12;
 
 /// The number of sampled points of a part at which its arcs are checked. Between them the error may be larger by a
 /// fiftieth.
 const CHECKS: u32 = 15;
 
 /// An arc of a larger radius (m) becomes a segment, because its distant centre has rounding errors.
-const LARGEST_RADIUS: f64 = 1e6;
+const MAX_RADIUS: f64 = 1e6;
 
 /// The point of a curve at a parameter, and its derivative, of any non-zero length.
-pub(super) type Place = (Point2, Vector2);
+pub(super) type CurvePoint = (Point2, Vector2);
 
 /// Approximates the smooth `curve` between the parameters `from` and `to` by arcs within a micrometre, without corners.
 /// Pairs of arcs (biarcs) share ends and directions with the curve. `None` if the curve is not smooth, or if its
 /// coordinates are not finite.
 ///
 /// The curve is first divided into `parts`. Features that occur twice in a part could escape its check.
-pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) -> Option<Vec<Piece>> {
+pub(super) fn fit(curve: impl Fn(f64) -> CurvePoint, from: f64, to: f64, parts: u32) -> Option<Vec<Piece>> {
     let mut pieces = Vec::new();
     // The parts that remain to be fitted, the next one last.
     let cut = |index: u32| from + (to - from) * (f64::from(index) / f64::from(parts));
@@ -40,7 +40,7 @@ pub(super) fn fit(curve: impl Fn(f64) -> Place, from: f64, to: f64, parts: u32) 
         };
         if !(1..=CHECKS).any(strays) {
             pieces.extend(arcs);
-        } else if halvings < MOST_HALVINGS {
+        } else if halvings < MAX_HALVINGS {
             let middle = 0.5 * (start + end);
             open.extend([(middle, end, halvings + 1), (start, middle, halvings + 1)]);
         } else {
@@ -76,11 +76,11 @@ pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to
         reason = "a positive count; a cast of more gives the greatest"
     )]
     let arcs = (2.0 * BETWEEN_PLACES * pairs).ceil() as usize;
-    arcs.saturating_add(2 * LEAST_PARTS as usize)
+    arcs.saturating_add(2 * MIN_PARTS as usize)
 }
 
 /// Two arcs from one point to another, with the given directions at both.
-fn biarc((start, out): Place, (end, into): Place) -> [Piece; 2] {
+fn biarc((start, out): CurvePoint, (end, into): CurvePoint) -> [Piece; 2] {
     let (out, into) = (out.normalize(), into.normalize());
     let chord = end - start;
     // The junction at which both arcs have tangents of equal length.
@@ -96,7 +96,7 @@ fn arc(start: Point2, out: Vector2, end: Point2) -> Piece {
     let chord = end - start;
     let half_sweep = out.perp(&chord).atan2(out.dot(&chord));
     let to_centre = chord.norm_squared() / (2.0 * perpendicular(out).dot(&chord));
-    if to_centre.is_nan() || to_centre.abs() > LARGEST_RADIUS {
+    if to_centre.is_nan() || to_centre.abs() > MAX_RADIUS {
         return Piece::segment(start, end);
     }
     let centre = start + to_centre * perpendicular(out);
@@ -116,7 +116,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Contour, unit};
 
-    fn wave(amplitude: f64, wave_number: f64) -> impl Fn(f64) -> Place {
+    fn wave(amplitude: f64, wave_number: f64) -> impl Fn(f64) -> CurvePoint {
         move |x| {
             let (sin, cos) = (wave_number * x).sin_cos();
             (Point2::new(x, amplitude * sin), Vector2::new(1.0, amplitude * wave_number * cos))
@@ -127,7 +127,7 @@ mod tests {
         #[test]
         fn arcs_lie_on_their_curve_and_join_smoothly(amplitude in 0.001..0.3_f64, wave_number in 0.5..12.0_f64) {
             let curve = wave(amplitude, wave_number);
-            let contour = Contour::open(fit(&curve, -0.2, 1.5, LEAST_PARTS).unwrap()).unwrap();
+            let contour = Contour::open(fit(&curve, -0.2, 1.5, MIN_PARTS).unwrap()).unwrap();
             for k in 0..4000 {
                 let (point, _) = curve(-0.2 + 1.7 * f64::from(k) / 3999.0);
                 prop_assert!(contour.nearest(point).distance <= 1.1 * TOLERANCE);
@@ -147,7 +147,7 @@ mod tests {
                 [Vector2::new(1.0, slope * cos), Vector2::new(0.0, -slope * wave_number * sin), Vector2::new(0.0, -slope * wave_number.powi(2) * cos)]
             };
             let told = most_arcs(derivatives, 0.0, to, 1000);
-            if let Some(arcs) = fit(wave(amplitude, wave_number), 0.0, to, LEAST_PARTS) {
+            if let Some(arcs) = fit(wave(amplitude, wave_number), 0.0, to, MIN_PARTS) {
                 prop_assert!(arcs.len() <= told && told <= 6 * arcs.len(), "{} of {told}", arcs.len());
             }
         }
@@ -155,15 +155,15 @@ mod tests {
 
     #[test]
     fn a_circle_is_fitted_by_its_own_arcs() {
-        let pieces = fit(|t| (Point2::from(0.3 * unit(t)), perpendicular(unit(t))), 0.0, 3.0, LEAST_PARTS).unwrap();
-        assert_eq!(pieces.len(), 2 * LEAST_PARTS as usize);
+        let pieces = fit(|t| (Point2::from(0.3 * unit(t)), perpendicular(unit(t))), 0.0, 3.0, MIN_PARTS).unwrap();
+        assert_eq!(pieces.len(), 2 * MIN_PARTS as usize);
         assert!(pieces.iter().all(|piece| (piece.curvature() - 1.0 / 0.3).abs() < 1e-9));
     }
 
     #[test]
     fn what_is_no_smooth_curve_has_no_arcs() {
         let corner = |t: f64| (Point2::new(t, t.abs()), Vector2::new(1.0, if t < 0.01 { -1.0 } else { 1.0 }));
-        assert_eq!(fit(corner, -1.0, 1.1, LEAST_PARTS), None);
-        assert_eq!(fit(|_| (Point2::new(f64::NAN, 0.0), Vector2::x()), 0.0, 1.0, LEAST_PARTS), None);
+        assert_eq!(fit(corner, -1.0, 1.1, MIN_PARTS), None);
+        assert_eq!(fit(|_| (Point2::new(f64::NAN, 0.0), Vector2::x()), 0.0, 1.0, MIN_PARTS), None);
     }
 }

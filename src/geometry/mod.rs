@@ -29,7 +29,7 @@ mod union;
 pub use arc::Arc;
 pub use bezier::Bezier;
 pub use bounding_box::BoundingBox;
-pub use contour::{Contour, JOIN_TOLERANCE, SHORTEST_PIECE};
+pub use contour::{Contour, JOIN_TOLERANCE, MIN_PIECE_LENGTH};
 pub use contour_set::ContourSet;
 pub use corner::Corner;
 pub use distance::Nearest;

@@ -6,7 +6,7 @@ use cavalier_contours::polyline::{
     PlineOffsetOptions, PlineSource, PlineSourceMut, PlineVertex, Polyline, TouchingLoopBehavior,
 };
 
-use super::{Arc, Contour, JOIN_TOLERANCE, Piece, Point2, SHORTEST_PIECE, Vector2, perpendicular, rotate};
+use super::{Arc, Contour, JOIN_TOLERANCE, MIN_PIECE_LENGTH, Piece, Point2, Vector2, perpendicular, rotate};
 
 /// The largest error (m) of a parallel contour. Its corners are intersections, which are less accurate than its pieces.
 const TOLERANCE: f64 = 2e-8;
@@ -163,8 +163,8 @@ fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
 /// separate parts there, with slivers between the intersections.
 fn stitched(found: Vec<Polyline>) -> Vec<Polyline> {
     let meet = |end: &Polyline, start: &Polyline| {
-        let joint = end.last().zip(start.get(0));
-        joint.is_some_and(|(end, start)| (end.pos() - start.pos()).length() <= TOLERANCE * PER_METRE)
+        let vertex = end.last().zip(start.get(0));
+        vertex.is_some_and(|(end, start)| (end.pos() - start.pos()).length() <= TOLERANCE * PER_METRE)
     };
     let long = found.into_iter().filter(|polyline| polyline.path_length() > TOLERANCE * PER_METRE);
     let (mut whole, mut parts): (Vec<_>, Vec<_>) = long.partition(PlineSource::is_closed);
@@ -190,7 +190,7 @@ fn stitched(found: Vec<Polyline>) -> Vec<Polyline> {
 }
 
 fn to_pieces(polyline: &Polyline, origin: Point2) -> Vec<Piece> {
-    let cleaned = polyline.remove_repeat_pos(SHORTEST_PIECE * PER_METRE);
+    let cleaned = polyline.remove_repeat_pos(MIN_PIECE_LENGTH * PER_METRE);
     let polyline = cleaned.as_ref().unwrap_or(polyline);
     let mut pieces: Vec<Piece> = Vec::with_capacity(polyline.vertex_count());
     for (from, to) in polyline.iter_segments() {

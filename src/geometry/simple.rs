@@ -7,7 +7,7 @@ use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segme
 
 /// The largest number of pairs of pieces with overlapping boxes, which take a second or two. Only many long diagonal
 /// pieces reach it.
-pub(super) const MOST_PAIRS: usize = 2_000_000;
+pub(super) const MAX_PAIRS: usize = 2_000_000;
 
 /// Checks that the pieces of a chain meet only at their vertices. Neighbours that retrace each other from a vertex are
 /// found by [`turn`](super::corner::turn).
@@ -16,15 +16,15 @@ pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Resul
     for (first, piece) in pieces.iter().enumerate() {
         for leaf in tree.locate_in_envelope_intersecting(grown(&piece.bounding_box(), JOIN_TOLERANCE)) {
             pairs += 1;
-            if pairs > MOST_PAIRS {
-                return Err(ContourError::Intricate { limit: MOST_PAIRS });
+            if pairs > MAX_PAIRS {
+                return Err(ContourError::Intricate { limit: MAX_PAIRS });
             }
             let second = leaf.index;
             if second <= first {
                 continue;
             }
-            let joints = shared_joints(pieces, closed, first, second);
-            if let Some(at) = meeting(piece, &pieces[second], &joints, JOIN_TOLERANCE) {
+            let vertices = shared_vertices(pieces, closed, first, second);
+            if let Some(at) = meeting(piece, &pieces[second], &vertices, JOIN_TOLERANCE) {
                 return Err(ContourError::SelfIntersection { first, second, at });
             }
         }
@@ -38,30 +38,30 @@ pub(super) fn grown(bounds: &BoundingBox, margin: f64) -> AABB<[f64; 2]> {
 }
 
 /// The vertices that two pieces of a chain share.
-fn shared_joints(pieces: &[Piece], closed: bool, first: usize, second: usize) -> Vec<Point2> {
-    let mut joints = Vec::new();
+fn shared_vertices(pieces: &[Piece], closed: bool, first: usize, second: usize) -> Vec<Point2> {
+    let mut vertices = Vec::new();
     if second == first + 1 {
-        joints.push(pieces[first].end());
+        vertices.push(pieces[first].end());
     }
     if closed && first == 0 && second + 1 == pieces.len() {
-        joints.push(pieces[second].end());
+        vertices.push(pieces[second].end());
     }
-    joints
+    vertices
 }
 
 /// A common point of two pieces within a `tolerance` (m), other than their shared vertices.
 ///
 /// Pieces that meet cross or touch, or an end of one is on the other. If they cover each other, an end of one is on the
 /// other.
-pub(super) fn meeting(a: &Piece, b: &Piece, joints: &[Point2], tolerance: f64) -> Option<Point2> {
+pub(super) fn meeting(a: &Piece, b: &Piece, vertices: &[Point2], tolerance: f64) -> Option<Point2> {
     let ends = [a.start(), a.end(), b.start(), b.end()];
-    let crossings = match joints.first() {
-        Some(&joint) => [second_crossing(a, b, joint), None],
+    let crossings = match vertices.first() {
+        Some(&vertex) => [second_crossing(a, b, vertex), None],
         None => crossings(a, b, tolerance),
     };
     let shared = |point: &Point2| a.distance(*point) <= tolerance && b.distance(*point) <= tolerance;
-    let at_joint = |point: &Point2| joints.iter().any(|joint| (point - joint).norm() <= 2.0 * tolerance);
-    ends.into_iter().chain(crossings.into_iter().flatten()).find(|point| shared(point) && !at_joint(point))
+    let at_vertex = |point: &Point2| vertices.iter().any(|vertex| (point - vertex).norm() <= 2.0 * tolerance);
+    ends.into_iter().chain(crossings.into_iter().flatten()).find(|point| shared(point) && !at_vertex(point))
 }
 
 /// The second intersection of the lines or circles of two pieces, given one intersection. It is the mirror image in the
@@ -101,13 +101,13 @@ fn line_line(a: &Segment, b: &Segment) -> Option<Point2> {
 
 fn line_circle(line: &Segment, circle: &Arc, tolerance: f64) -> [Option<Point2>; 2] {
     let along = line.tangent();
-    let foot = line.start + along * (circle.centre - line.start).dot(&along);
-    let distance = (foot - circle.centre).norm();
+    let projection = line.start + along * (circle.centre - line.start).dot(&along);
+    let distance = (projection - circle.centre).norm();
     if distance > circle.radius + tolerance {
         return [None; 2];
     }
     let half_chord = along * ((circle.radius - distance) * (circle.radius + distance)).max(0.0).sqrt();
-    [Some(foot - half_chord), Some(foot + half_chord)]
+    [Some(projection - half_chord), Some(projection + half_chord)]
 }
 
 fn circle_circle(a: &Arc, b: &Arc, tolerance: f64) -> [Option<Point2>; 2] {

@@ -1,6 +1,6 @@
 //! Strips of constant width.
 
-use super::{Arc, Contour, ContourError, JOIN_TOLERANCE, Piece, SHORTEST_PIECE, Segment, Vector2, perpendicular};
+use super::{Arc, Contour, ContourError, JOIN_TOLERANCE, MIN_PIECE_LENGTH, Piece, Segment, Vector2, perpendicular};
 
 /// A strip of constant width along a line. Its two sides are exactly parallel, with sharp corners at the corners of the
 /// line.
@@ -118,7 +118,7 @@ fn parallel(line: &Contour, distance: f64) -> Result<Contour, StripError> {
     }
     for (index, (piece, original)) in pieces.iter().zip(line.pieces()).enumerate() {
         let goes_back = straight(piece).is_some() && piece.tangent_at(0.0).dot(&original.tangent_at(0.0)) <= 0.0;
-        if goes_back || piece.length() < SHORTEST_PIECE {
+        if goes_back || piece.length() < MIN_PIECE_LENGTH {
             return Err(StripError::TooWide { piece: index });
         }
     }
@@ -134,7 +134,7 @@ fn moved(piece: &Piece, distance: f64) -> Option<Piece> {
         }
         Piece::Arc(arc) => {
             let radius = arc.radius + distance * arc.sweep.signum();
-            (radius > SHORTEST_PIECE).then_some(Piece::Arc(Arc { radius, ..*arc }))
+            (radius > MIN_PIECE_LENGTH).then_some(Piece::Arc(Arc { radius, ..*arc }))
         }
     }
 }

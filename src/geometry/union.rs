@@ -4,7 +4,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::arrangement::{Arrangement, Loop, Near, outline};
-use super::simple::{MOST_PAIRS, grown};
+use super::simple::{MAX_PAIRS, grown};
 use super::{Contour, ContourError, Point2};
 
 /// Outlines within this distance (m) touch.
@@ -121,8 +121,8 @@ fn groups(outlines: &[Contour]) -> Result<Vec<Vec<usize>>, UnionError> {
             if first >= second || one == other {
                 continue;
             }
-            let meets = outlines[first].meets(&outlines[second], TOUCHING, &mut work, MOST_PAIRS);
-            if meets.ok_or(UnionError::Crossings { first, second, limit: MOST_PAIRS })? {
+            let meets = outlines[first].meets(&outlines[second], TOUCHING, &mut work, MAX_PAIRS);
+            if meets.ok_or(UnionError::Crossings { first, second, limit: MAX_PAIRS })? {
                 leads_to[one.max(other)] = one.min(other);
             }
         }

@@ -304,7 +304,7 @@ fn write_start(xml: &mut String, rig: &Rig, physics: &Physics, start: Pose, scop
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::physics::LEAST_INERTIA;
+    use crate::physics::MIN_INERTIA;
 
     /// The values of an attribute, in the order of the model.
     fn values<'x>(xml: &'x str, attribute: &str) -> Vec<&'x str> {
@@ -358,7 +358,7 @@ mod tests {
             for inertias in values(&xml, "diaginertia") {
                 let moments: Vec<f64> = inertias.split(' ').map(|moment| moment.parse().unwrap()).collect();
                 let [x, y, z] = moments[..] else { panic!("three moments, found {inertias}") };
-                assert!(x.min(y).min(z) >= LEAST_INERTIA && x + y >= z && y + z >= x && z + x >= y, "{inertias}");
+                assert!(x.min(y).min(z) >= MIN_INERTIA && x + y >= z && y + z >= x && z + x >= y, "{inertias}");
             }
         }
     }

@@ -1,13 +1,13 @@
 //! Closing of chains of pieces.
 
-use crate::geometry::{JOIN_TOLERANCE, Piece, SHORTEST_PIECE};
+use crate::geometry::{JOIN_TOLERANCE, MIN_PIECE_LENGTH, Piece};
 
 use super::{OutlineFault, TOLERANCE};
 
 /// Returns the pieces as an exact closed chain. Ends within the tolerance of each other are moved together, and pieces
 /// that are too short are omitted.
 pub(super) fn close(pieces: Vec<Piece>) -> Result<Vec<Piece>, OutlineFault> {
-    let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| piece.length() >= 2.0 * SHORTEST_PIECE).collect();
+    let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| piece.length() >= 2.0 * MIN_PIECE_LENGTH).collect();
     // The required end of each piece.
     let starts = pieces.iter().cycle().skip(1).map(Piece::start);
     let mut closed = Vec::with_capacity(pieces.len());

@@ -7,7 +7,7 @@ use crate::geometry::{Piece, Point2};
 
 use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
-use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions};
+use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions};
 
 /// Reads a polygon with x and y in each line, with or without a header. The first corner may be repeated at the end.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
@@ -29,8 +29,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
             return Err(OutlineFault::Syntax { reason }.at(line));
         };
         let corner = transform.point(place).map_err(|fault| fault.at(line))?;
-        if corners.len() > MOST_PIECES {
-            return Err(OutlineFault::TooLarge { what: "corners", limit: MOST_PIECES }.at(line));
+        if corners.len() > MAX_PIECES {
+            return Err(OutlineFault::TooLarge { what: "corners", limit: MAX_PIECES }.at(line));
         }
         first_line = first_line.or(line);
         corners.push(corner);

@@ -17,7 +17,6 @@ mod error;
 mod format;
 #[cfg(feature = "outlines")]
 mod outline_list;
-mod read_options;
 #[cfg(feature = "outlines")]
 mod stl;
 #[cfg(feature = "outlines")]
@@ -27,7 +26,6 @@ mod transform;
 
 pub use error::{OutlineError, OutlineFault};
 pub use format::Format;
-pub use read_options::ReadOptions;
 
 use crate::geometry::Contour;
 
@@ -39,11 +37,22 @@ pub const SIZE_LIMIT: usize = 16 << 20;
 const TOLERANCE: f64 = 1e-6;
 
 /// The largest number of pieces of all outlines of a file, and of all objects of a scenario.
-pub const MOST_PIECES: usize = 10_000;
+pub const MAX_PIECES: usize = 10_000;
 
 /// The largest number of outlines of a file.
 #[cfg(feature = "outlines")]
-const MOST_OUTLINES: usize = 256;
+const MAX_OUTLINES: usize = 256;
+
+/// The options of a reader. They include properties that a file may lack.
+#[derive(Copy, Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions<'r> {
+    /// The length of a file unit (m). `None` if the file states it.
+    pub unit: Option<f64>,
+    /// The `id` of an SVG element or the name of a DXF layer, if only its content is read. `None` for the whole file.
+    pub element: Option<&'r str>,
+    /// The height (m) of the cutting plane above the z = 0 of an STL.
+    pub height: f64,
+}
 
 /// Reads the outlines of a file: closed contours, none within another. They may touch. Their frame is the file's, in
 /// metres, with the y axis up. The y axis of an SVG points down, so its content is mirrored.

@@ -3,7 +3,7 @@
 use crate::geometry::{Contour, ContourError, Piece};
 
 use super::chain::close;
-use super::{MOST_OUTLINES, MOST_PIECES, OutlineError, OutlineFault};
+use super::{MAX_OUTLINES, MAX_PIECES, OutlineError, OutlineFault};
 
 /// An outline with the line of its beginning in the file, if that is known.
 pub(super) struct Outline {
@@ -22,11 +22,11 @@ impl OutlineList {
     /// Adds the outline of consecutive `pieces`. Gaps within the tolerance are closed.
     pub(super) fn add(&mut self, pieces: Vec<Piece>, line: Option<usize>) -> Result<(), OutlineError> {
         self.pieces += pieces.len();
-        if self.pieces > MOST_PIECES {
-            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES }.at(line));
+        if self.pieces > MAX_PIECES {
+            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MAX_PIECES }.at(line));
         }
-        if self.outlines.len() >= MOST_OUTLINES {
-            return Err(OutlineFault::TooLarge { what: "outlines", limit: MOST_OUTLINES }.at(line));
+        if self.outlines.len() >= MAX_OUTLINES {
+            return Err(OutlineFault::TooLarge { what: "outlines", limit: MAX_OUTLINES }.at(line));
         }
         let contour = close(pieces).and_then(|pieces| Contour::closed(pieces).map_err(fault));
         self.outlines.push(Outline { contour: contour.map_err(|fault| fault.at(line))?, line });

@@ -9,14 +9,14 @@ use crate::geometry::{Piece, Point2};
 use super::assemble::{LoosePiece, assemble};
 use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
-use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
+use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
 
 /// The number of bytes before the triangles of a binary file, and of a triangle.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// The largest number of triangle sides in the plane, before collinear ones are merged.
-const MOST_SIDES: usize = 2 * MOST_PIECES;
+const MAX_SIDES: usize = 2 * MAX_PIECES;
 
 /// Reads the outlines in the plane of one height.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
@@ -33,8 +33,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
             extent = (extent.0.min(corner.above), extent.1.max(corner.above));
         }
         sides.extend(side(&corners).map(|side| (side, None)));
-        if sides.len() > MOST_SIDES {
-            return Err(OutlineFault::TooLarge { what: "triangles in the plane", limit: MOST_SIDES }.into());
+        if sides.len() > MAX_SIDES {
+            return Err(OutlineFault::TooLarge { what: "triangles in the plane", limit: MAX_SIDES }.into());
         }
     }
     if sides.is_empty() {

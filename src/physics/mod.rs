@@ -7,7 +7,7 @@ mod preset;
 mod shaft_model;
 mod solver;
 
-pub use inertia::{LEAST_INERTIA, link_inertia};
+pub use inertia::{MIN_INERTIA, link_inertia};
 pub use integrator::Integrator;
 pub use physics::Physics;
 pub use preset::Preset;

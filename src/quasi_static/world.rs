@@ -123,7 +123,9 @@ impl QuasiStaticWorld {
             let base = Pose { position, heading: body.heading + part.direction_body };
             whisker.follow(base, self.period, &self.surfaces, limit).map_err(|error| match error {
                 EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit },
-                EquilibriumError::NotConverged => Fault::Diverged { time, cause: "a whisker finds no rest; go slower" },
+                EquilibriumError::NotConverged => {
+                    Fault::Diverged { time, cause: "the equilibrium of a whisker did not converge; go slower" }
+                }
             })?;
             *snapped_off |= whisker.relative_motion() > SNAP_OFF_SPEED * self.period;
         }

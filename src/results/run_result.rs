@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::{CornerFigures, CornerSpread, RetrievalFigures, Score, Spread, StateShare, TipDistance};
+use crate::score::{CornerFigures, CornerStatistics, Moments, RetrievalFigures, Score, StateShare, TipDistance};
 
 /// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
 ///
@@ -352,15 +352,15 @@ impl Corners {
 }
 
 impl MeanStdMax {
-    fn new(figure: Option<CornerSpread>, units: f64) -> Self {
-        let MeanStd { mean, std } = MeanStd::new(figure.map(|figure| figure.spread), units);
+    fn new(figure: Option<CornerStatistics>, units: f64) -> Self {
+        let MeanStd { mean, std } = MeanStd::new(figure.map(|figure| figure.moments), units);
         Self { mean, std, max: figure.map(|figure| figure.max * units) }
     }
 }
 
 impl MeanStd {
     /// A spread (SI) in a unit of which there are `units` in the SI's.
-    fn new(spread: Option<Spread>, units: f64) -> Self {
+    fn new(spread: Option<Moments>, units: f64) -> Self {
         Self {
             mean: spread.map(|spread| spread.mean * units),
             std: spread.and_then(|spread| spread.std).map(|std| std * units),

@@ -1,9 +1,9 @@
 //! Limits for all objects of a scenario together.
 
-use crate::outline::{MOST_PIECES, SIZE_LIMIT};
+use crate::outline::{MAX_PIECES, SIZE_LIMIT};
 
 /// The largest total size of a scenario's outline files (bytes).
-const MOST_BYTES: usize = 4 * SIZE_LIMIT;
+const MAX_BYTES: usize = 4 * SIZE_LIMIT;
 
 /// The resources of a scenario's objects so far.
 #[derive(Debug, Default)]
@@ -21,7 +21,7 @@ impl Budget {
             return Err(None);
         }
         self.pieces = self.pieces.saturating_add(pieces);
-        self.is_exceeded = self.pieces > MOST_PIECES;
+        self.is_exceeded = self.pieces > MAX_PIECES;
         if self.is_exceeded { Err(Some(self.pieces)) } else { Ok(()) }
     }
 
@@ -35,8 +35,8 @@ impl Budget {
         if self.is_exceeded {
             return Err("there are too many lines and arcs already".to_owned());
         }
-        let limit = MOST_BYTES >> 20;
-        if self.bytes > MOST_BYTES {
+        let limit = MAX_BYTES >> 20;
+        if self.bytes > MAX_BYTES {
             Err(format!("the files before it have more than {limit} MiB together"))
         } else {
             Ok(())

@@ -10,7 +10,7 @@ use crate::scene::{Expectation, Metric, Outcome};
 pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
 
 /// The largest permitted bound of collisions.
-const MOST_COLLISIONS: u32 = 1_000_000;
+const MAX_COLLISIONS: u32 = 1_000_000;
 
 /// Reads `expect`.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {
@@ -26,7 +26,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
         if metric == Metric::Collisions {
             let count = fields
                 .entry(metric.name())
-                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MOST_COLLISIONS, 0));
+                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MAX_COLLISIONS, 0));
             expectations.extend(count.map(|count| Expectation::Bound { metric, bound: count.into() }));
             continue;
         }

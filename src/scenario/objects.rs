@@ -13,9 +13,9 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::units::{Dimension, format_si};
 
 /// The largest total number of parts of all solids. MuJoCo needs some 70 µs to build each.
-const MOST_PARTS: usize = 8192;
+const MAX_PARTS: usize = 8192;
 /// The largest sum of squared corner counts of all parts, equal to that of eight of the largest prisms.
-const MOST_CORNERS: usize = 8 * 2048 * 2048;
+const MAX_CORNERS: usize = 8 * 2048 * 2048;
 
 /// The solids of a scenario with the spans of their objects, and the reference. No solid overlaps another.
 pub(super) struct Objects {
@@ -116,10 +116,10 @@ impl Work {
     fn add(&mut self, reader: &mut Reader<'_>, solid: &Solid, place: Span) -> Option<()> {
         self.parts += solid.parts().len();
         self.corners += solid.parts().iter().map(|part| part.corners().pow(2)).sum::<usize>();
-        let (count, limit, what) = if self.parts > MOST_PARTS {
-            (self.parts, MOST_PARTS, "parts")
-        } else if self.corners > MOST_CORNERS {
-            (self.corners, MOST_CORNERS, "corners, those of each part squared")
+        let (count, limit, what) = if self.parts > MAX_PARTS {
+            (self.parts, MAX_PARTS, "parts")
+        } else if self.corners > MAX_CORNERS {
+            (self.corners, MAX_CORNERS, "corners, those of each part squared")
         } else {
             return Some(());
         };

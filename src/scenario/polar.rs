@@ -17,7 +17,7 @@ const PHASE: Key = Key::new("phase", Dimension::ANGLE, (-TAU, TAU), "30 deg");
 const HARMONICS: &str = "[{order: 3, amplitude: 20 mm, phase: 30 deg}]";
 
 /// The largest number of harmonics, one per possible order.
-const MOST_HARMONICS: usize = 100;
+const MAX_HARMONICS: usize = 100;
 
 /// Reads a curve in polar coordinates.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
@@ -28,9 +28,9 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
     fields.finish(reader);
     let harmonics = harmonics?;
     let items = reader.items(&harmonics.value, "a list of harmonics", HARMONICS)?;
-    if items.len() > MOST_HARMONICS {
+    if items.len() > MAX_HARMONICS {
         let message = format!("a polar curve cannot have {} harmonics", items.len());
-        let label = format!("must be at most {MOST_HARMONICS}");
+        let label = format!("must be at most {MAX_HARMONICS}");
         let fault = Diagnostic::error(fault::RANGE, message, harmonics.key.span, label);
         reader.report(fault.hint("join those of the same order"));
         return None;

@@ -5,7 +5,7 @@ use super::fault;
 use super::fields::list;
 use super::node::{Entry, Node, Placed};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
-use crate::outline::MOST_PIECES;
+use crate::outline::MAX_PIECES;
 use crate::scenario::Files;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -40,7 +40,7 @@ impl<'s> Reader<'s> {
             Ok(()) => Some(()),
             Err(Some(count)) => {
                 let message = "the objects have too many lines and arcs";
-                let label = format!("with those before it up to {count}, must be at most {MOST_PIECES}");
+                let label = format!("with those before it up to {count}, must be at most {MAX_PIECES}");
                 let fault = Diagnostic::error(fault::TOO_LARGE, message, place, label);
                 self.report(
                     fault.hint("leave out objects, or make them with fewer sides, shorter lines or longer waves"),

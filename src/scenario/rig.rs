@@ -47,7 +47,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<(Rig, Physi
     if let Some(entry) = fields.entry("whiskers") {
         rig.whiskers = whisker::read_all(reader, entry, &rig.whiskers).unwrap_or_default();
     }
-    let mut places = timing::Places::default();
+    let mut places = timing::TimingSpans::default();
     if let Some(entry) = fields.entry("physics") {
         places.step = read_physics(reader, entry, &mut physics);
     }

@@ -17,7 +17,7 @@ const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "
 const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 
 /// The largest number of control ticks of a run, because the trace contains every tick: ninety hours at 30 Hz.
-const MOST_TICKS: f64 = 1e7;
+const MAX_TICKS: f64 = 1e7;
 
 /// Reads `stop`, with the span of its time.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
@@ -81,14 +81,14 @@ fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Op
 /// Checks that a run at `control_rate` (Hz) does not exceed the largest number of ticks.
 pub(super) fn check(reader: &mut Reader<'_>, stop: &Placed<Stop>, control_rate: f64) {
     let ticks = stop.value.time * control_rate;
-    if ticks <= MOST_TICKS {
+    if ticks <= MAX_TICKS {
         return;
     }
     let number = |count| format_si(count, Dimension::NUMBER);
     let rate = format_si(control_rate, Dimension::FREQUENCY);
     let label = format!("{} ticks at the control rate of {rate}", number(ticks));
-    let message = format!("a run has at most {} ticks", number(MOST_TICKS));
-    let longest = format_si(MOST_TICKS / control_rate, Dimension::TIME);
+    let message = format!("a run has at most {} ticks", number(MAX_TICKS));
+    let longest = format_si(MAX_TICKS / control_rate, Dimension::TIME);
     let fault = Diagnostic::error(fault::TIMING, message, stop.span, label);
     reader.report(fault.hint(format!("for example `time: {longest}`, or a slower `control_rate`")));
 }

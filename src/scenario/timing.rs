@@ -27,7 +27,7 @@ const ROUNDED: f64 = 2e-3;
 
 /// The spans of the keys that must be consistent, as far as they are given.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Places {
+pub(super) struct TimingSpans {
     pub(super) step: Option<Span>,
     pub(super) sample_rate: Option<Span>,
     pub(super) control_rate: Option<Span>,
@@ -35,7 +35,7 @@ pub(super) struct Places {
 }
 
 /// Reads `sensing`, and stores the spans of its rates.
-pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing, places: &mut Places) {
+pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut Sensing, places: &mut TimingSpans) {
     let Some(mut fields) = Fields::of(reader, &entry.value, "the sensing", entry.key.span) else { return };
     places.sample_rate = fields.set(reader, &SAMPLE_RATE, &mut sensing.sample_rate);
     places.control_rate = fields.set(reader, &CONTROL_RATE, &mut sensing.control_rate);
@@ -55,7 +55,7 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
 
 /// Checks that a tick is a whole number of samples, and adjusts the step to the sample period. Values without a key are
 /// those of the reference rig and need no check.
-pub(super) fn check(reader: &mut Reader<'_>, rig: &Rig, physics: &mut Physics, places: Places) {
+pub(super) fn check(reader: &mut Reader<'_>, rig: &Rig, physics: &mut Physics, places: TimingSpans) {
     if let Some(place) = places.control_rate.or(places.sample_rate) {
         check_rates(reader, &rig.sensing, place);
     }

@@ -7,7 +7,7 @@ use super::key::Key;
 use super::node::{Entry, Node};
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, NotUtf8, Span, utf8};
-use crate::physics::{LEAST_INERTIA, link_inertia};
+use crate::physics::{MIN_INERTIA, link_inertia};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 use vibrissa_runtime::calibration::Calibration;
@@ -166,15 +166,12 @@ fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
 /// large enough as well, because no link is longer than 250 mm.
 fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
     let inertia = link_inertia(shaft, shaft.links - 1);
-    if inertia >= LEAST_INERTIA {
+    if inertia >= MIN_INERTIA {
         return;
     }
     let kilogram_metres = |moment| format_si(moment, Dimension::INERTIA);
-    let label = format!(
-        "a link has {} about its middle, and needs {}",
-        kilogram_metres(inertia),
-        kilogram_metres(LEAST_INERTIA)
-    );
+    let label =
+        format!("a link has {} about its middle, and needs {}", kilogram_metres(inertia), kilogram_metres(MIN_INERTIA));
     let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated", place, label);
     reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
 }

@@ -2,20 +2,16 @@
 
 mod clearance;
 mod expectation;
-mod file_reference;
 mod gap;
 mod jitter;
 mod scene;
 mod stop;
-mod truth;
 mod world_kind;
 
 pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
-pub use file_reference::FileReference;
 pub(crate) use gap::gap;
 pub use jitter::Jitter;
-pub use scene::Scene;
+pub use scene::{FileReference, Scene, Truth};
 pub use stop::{LoopClosed, Reached, Stalled, Stop};
-pub use truth::Truth;
 pub use world_kind::{WorldKind, WorldSetup};

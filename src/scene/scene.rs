@@ -1,8 +1,11 @@
 //! A scene.
 
+use std::path::PathBuf;
+
 use super::clearance::overlap;
-use super::{Expectation, FileReference, Stop, Truth, WorldKind};
-use crate::geometry::Pose;
+use super::{Expectation, Stop, WorldKind};
+use crate::diagnostic::Span;
+use crate::geometry::{Contour, ContourSet, Pose, TunnelAxis};
 use crate::physics::Physics;
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
@@ -41,5 +44,36 @@ impl Scene {
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {
         self.solids.iter().all(|solid| overlap(&self.rig, start, solid.outline()).is_none())
+    }
+}
+
+/// A file to which a scenario or a sweep refers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileReference {
+    /// The path, relative to the referring file.
+    pub path: PathBuf,
+    /// The name of the file without its extension.
+    pub name: String,
+    /// The position of the reference in the text.
+    pub span: Span,
+}
+
+/// The exact geometry against which a run is scored (world frame).
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// The outlines of all solids. The error of an estimate is its distance from the nearest.
+    pub surfaces: ContourSet,
+    /// The reference for coverage and Hausdorff distance: the outline of a plain object, or the inner sides of a
+    /// tunnel.
+    pub reference: ContourSet,
+    /// The centre lines of tunnels, for the baseline's axis error (section 5.3).
+    pub axes: Vec<TunnelAxis>,
+}
+
+impl From<Contour> for Truth {
+    /// The geometry of a single plain object.
+    fn from(outline: Contour) -> Self {
+        let surfaces = ContourSet::from(outline);
+        Self { reference: surfaces.clone(), surfaces, axes: Vec::new() }
     }
 }

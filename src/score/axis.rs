@@ -4,7 +4,7 @@ use crate::geometry::{Point2, TunnelAxis, Vector2};
 use crate::run::{TickRecord, Trace};
 
 use super::tip::is_finite;
-use super::{Spread, Statistics};
+use super::{Moments, Statistics};
 
 /// The distance of the estimated midpoints from the axis of the tunnel (m): the baseline's axis error (section 5.3).
 ///
@@ -15,10 +15,10 @@ use super::{Spread, Statistics};
 ///
 /// Returns `None` without midpoints.
 #[must_use]
-pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Spread> {
+pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Moments> {
     let nearest = |midpoint| axes.iter().filter_map(|axis| axis.distance(midpoint)).min_by(f64::total_cmp);
     let errors = trace.ticks.iter().filter_map(midpoint).filter_map(nearest);
-    Statistics::of(errors.collect()).map(|errors| Spread { mean: errors.mean(), std: errors.std() })
+    Statistics::of(errors.collect()).map(|errors| Moments { mean: errors.mean(), std: errors.std() })
 }
 
 /// The midpoint of the tips that a tick recorded on both sides of the body (m, world frame).

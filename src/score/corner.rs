@@ -6,7 +6,7 @@ use crate::geometry::{Contour, ContourSet, Corner, Point2, Vector2, perpendicula
 use crate::run::Trace;
 
 use super::tip::{valid_tips, whiskers};
-use super::{Spread, Statistics, excursions};
+use super::{Moments, Statistics, excursions};
 
 /// The smallest change of direction (rad) of a sharp corner, 20°.
 pub const SHARP: f64 = PI / 9.0;
@@ -19,17 +19,17 @@ pub const SIDE: (f64, f64) = (0.005, 0.03);
 const SHORT_SIDE: f64 = 0.2;
 
 /// The smallest number of tips on a side. They must also cover at least this share of the side.
-const LEAST_TIPS: usize = 3;
-const LEAST_REACH: f64 = 0.3;
+const MIN_TIPS: usize = 3;
+const MIN_REACH: f64 = 0.3;
 
 /// The largest number of tips that are used for a side, because the work grows quadratically.
-const MOST_TIPS: usize = 300;
+const MAX_TIPS: usize = 300;
 
 /// Tolerance for the rounding of distances (m).
 const ROUNDING: f64 = 1e-9;
 
 /// The smallest angle (rad) at which two lines have a well-defined intersection.
-const LEAST_ANGLE: f64 = 0.1;
+const MIN_ANGLE: f64 = 0.1;
 
 /// The largest distance from a corner (m) at which a lost contact is attributed to it.
 const CLAIM: f64 = 0.03;
@@ -140,7 +140,7 @@ fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[F
     let after = Line::fitted(outline, sharp, corner, felt, outgoing, 1.0)?;
     let turn = before.direction.perp(&after.direction).atan2(before.direction.dot(&after.direction));
     let sine = turn.sin();
-    if sine.abs() < LEAST_ANGLE.sin() {
+    if sine.abs() < MIN_ANGLE.sin() {
         return None;
     }
     let along = (after.point - before.point).perp(&after.direction) / sine;
@@ -186,7 +186,7 @@ impl Line {
             }
         }
         let (least, most) = along.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &s| (a.min(s), b.max(s)));
-        if along.len() < LEAST_TIPS || most - least < LEAST_REACH * (farthest - nearest) {
+        if along.len() < MIN_TIPS || most - least < MIN_REACH * (farthest - nearest) {
             return None;
         }
         let (offset, slope) = line(&along, &off)?;
@@ -199,7 +199,7 @@ impl Line {
 /// slope of all pairs and the median intercept. It is robust to a few outliers, which the error metrics already show.
 /// `None` without two different `x`.
 fn line(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
-    let stride = x.len() / MOST_TIPS + 1;
+    let stride = x.len() / MAX_TIPS + 1;
     let points: Vec<_> = x.iter().zip(y).step_by(stride).collect();
     let slope = |(index, (x, y)): (usize, &(&f64, &f64))| {
         let slopes = points[..index].iter().map(|(other_x, other_y)| (*y - *other_y) / (*x - *other_x));
@@ -218,22 +218,22 @@ pub struct CornerFigures {
     /// The number of sharp corners that were traced on both sides.
     pub traced: usize,
     /// Distances of the estimated corners from the exact ones (m).
-    pub place: Option<CornerSpread>,
+    pub place: Option<CornerStatistics>,
     /// Absolute differences of the corner angles (rad).
-    pub turn: Option<CornerSpread>,
+    pub turn: Option<CornerStatistics>,
     /// Distances of the edge points from their corners (m), for corners at which the contact was lost.
-    pub edge: Option<CornerSpread>,
+    pub edge: Option<CornerStatistics>,
     /// Times of the corners (s).
-    pub time: Option<CornerSpread>,
+    pub time: Option<CornerStatistics>,
     /// Paths of the platform at the corners (m).
-    pub path: Option<CornerSpread>,
+    pub path: Option<CornerStatistics>,
 }
 
 /// A figure over all corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CornerSpread {
+pub struct CornerStatistics {
     /// Mean and standard deviation.
-    pub spread: Spread,
+    pub moments: Moments,
     /// The largest value.
     pub max: f64,
 }
@@ -245,8 +245,8 @@ impl CornerFigures {
         let (traced, count) = traced_corners(trace, outlines);
         let figure = |of: fn(&TracedCorner) -> Option<f64>| {
             let statistics = Statistics::of(traced.iter().filter_map(of).collect())?;
-            let spread = Spread { mean: statistics.mean(), std: statistics.std() };
-            Some(CornerSpread { spread, max: statistics.max() })
+            let moments = Moments { mean: statistics.mean(), std: statistics.std() };
+            Some(CornerStatistics { moments, max: statistics.max() })
         };
         (count > 0).then(|| Self {
             count,

@@ -56,7 +56,7 @@ impl ErrorFigures {
             std: statistics.std(),
             p95: statistics.percentile(95.0),
             max: statistics.max(),
-            interval_coverage: share(&|tip| tip.error <= INTERVAL_DEVIATIONS * tip.spread),
+            interval_coverage: share(&|tip| tip.error <= INTERVAL_DEVIATIONS * tip.standard_deviation),
             outliers: share(&Tip::is_outlier),
             along: distance(|offset| offset.along),
             across: distance(|offset| offset.across),

@@ -12,17 +12,17 @@ use crate::run::Trace;
 ///
 /// A whisker near the contact threshold misses single ticks without loss of contact. Therefore two ticks may be
 /// missing. This is a tenth of a second at 30 Hz, after which the baseline considers a whisker detached.
-pub const LONGEST_BREAK: usize = 3;
+pub const MAX_BREAK: usize = 3;
 
 /// The largest distance (m) between consecutive tips of a stroke.
 ///
 /// At 50 mm/s and 30 Hz, a tip moves by 1.7 mm per tick, and by 5 mm over the longest break. A distance of more than
 /// twice that is an outlier or another contact. Nothing was traced between its ends.
-pub const LONGEST_STEP: f64 = 0.01;
+pub const MAX_STEP: f64 = 0.01;
 
 /// The estimated contour: the recorded tips of each whisker, in order, joined into strokes.
 ///
-/// A stroke ends if the next tip is later than [`LONGEST_BREAK`] or farther than [`LONGEST_STEP`]. Tips of different
+/// A stroke ends if the next tip is later than [`MAX_BREAK`] or farther than [`MAX_STEP`]. Tips of different
 /// whiskers are never joined. A single tip is a stroke of its own.
 #[derive(Debug, Clone)]
 pub struct Estimate {
@@ -65,9 +65,8 @@ fn strokes(tips: impl Iterator<Item = (usize, Point2)>) -> Vec<Vec<Point2>> {
     let mut strokes: Vec<Vec<Point2>> = Vec::new();
     let mut before: Option<(usize, Point2)> = None;
     for (tick, tip) in tips {
-        let goes_on = before.is_some_and(|(last_tick, last_tip)| {
-            tick - last_tick <= LONGEST_BREAK && (tip - last_tip).norm() <= LONGEST_STEP
-        });
+        let goes_on = before
+            .is_some_and(|(last_tick, last_tip)| tick - last_tick <= MAX_BREAK && (tip - last_tip).norm() <= MAX_STEP);
         match strokes.last_mut() {
             Some(stroke) if goes_on => stroke.push(tip),
             _ => strokes.push(vec![tip]),

@@ -4,9 +4,9 @@ use crate::geometry::Point2;
 use crate::run::Trace;
 use vibrissa_runtime::machine::Mark;
 
-use super::estimate::LONGEST_BREAK;
+use super::estimate::MAX_BREAK;
 use super::tip::{valid_tips, whiskers};
-use super::{body_path, mark_places};
+use super::{body_path, mark_positions};
 
 /// An interval without contact: from the last tip of a whisker before it lost the contour to the first tip after it
 /// found the contour again.
@@ -24,7 +24,7 @@ pub struct Excursion {
 
 /// The excursions of a run, ordered by time. Without recovery of the contour there is no excursion.
 ///
-/// Every break of more than [`LONGEST_BREAK`] ticks in a whisker's tips is an excursion. The marks of a policy extend
+/// Every break of more than [`MAX_BREAK`] ticks in a whisker's tips is an excursion. The marks of a policy extend
 /// it: from the tip before `lost` to the first tip at or after the following `found`. It therefore includes manoeuvres
 /// between detection and following, as long as no tip is recorded. Overlapping excursions are merged.
 #[must_use]
@@ -61,14 +61,14 @@ fn breaks(trace: &Trace, whisker: usize) -> Vec<Span> {
     let mut before: Option<(usize, Point2)> = None;
     let span = |(tick, tip)| {
         let (from, edge) = before.replace((tick, tip))?;
-        (tick - from > LONGEST_BREAK).then_some((from, tick, whisker, edge))
+        (tick - from > MAX_BREAK).then_some((from, tick, whisker, edge))
     };
     valid_tips(trace, whisker).filter_map(span).collect()
 }
 
 fn marked(trace: &Trace, whisker: usize) -> Vec<Span> {
     let (mut spans, mut lost) = (Vec::new(), None);
-    for place in mark_places(trace).into_iter().filter(|place| place.whisker == whisker) {
+    for place in mark_positions(trace).into_iter().filter(|place| place.whisker == whisker) {
         match (place.mark, lost) {
             (Mark::Lost, None) => lost = Some(place),
             (Mark::Found, Some(edge)) => {

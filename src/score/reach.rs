@@ -26,7 +26,7 @@ const DETOUR: f64 = 1.0824;
 /// The distance (m) up to which two lines intersect, because of rounding.
 const ROUNDING: f64 = 1e-9;
 /// The largest number of queries of an outline in a search, which take some seconds.
-const MOST_QUERIES: usize = 2_500_000;
+const MAX_QUERIES: usize = 2_500_000;
 /// The distance (m) of the sampled points from the outline, on the outside.
 const OFF: f64 = 1e-5;
 
@@ -115,7 +115,7 @@ impl<'s> Search<'s> {
     /// True if a tip may touch a point of an outline from the side of `outwards`.
     fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
         let from = at + outwards;
-        if self.queries.get() > MOST_QUERIES {
+        if self.queries.get() > MAX_QUERIES {
             return true;
         }
         // Nearly all reachable points have a pose directly in front of them. The search would take a thousand times as
@@ -146,14 +146,14 @@ impl<'s> Search<'s> {
             let length = (place(node) - point).norm();
             if length <= 2.0 * CELL && self.is_free(node) && self.is_open(point, place(node)) {
                 nearest.insert(node, length);
-                open.push(Way { length, node });
+                open.push(SearchPath { length, node });
             }
         }
-        while let Some(Way { length, node }) = open.pop() {
+        while let Some(SearchPath { length, node }) = open.pop() {
             if length > most {
                 return false;
             }
-            if self.queries.get() > MOST_QUERIES {
+            if self.queries.get() > MAX_QUERIES {
                 return true;
             }
             if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
@@ -168,7 +168,7 @@ impl<'s> Search<'s> {
                 let is_shorter = nearest.get(&next).is_none_or(|&known| length < known);
                 if is_shorter && self.is_free(next) && self.is_open(place(node), place(next)) {
                     nearest.insert(next, length);
-                    open.push(Way { length, node: next });
+                    open.push(SearchPath { length, node: next });
                 }
             }
         }
@@ -278,20 +278,20 @@ fn node_at(point: Point2) -> Node {
 
 /// A path to a node. The order is reversed for a priority queue of the shortest paths.
 #[derive(PartialEq)]
-struct Way {
+struct SearchPath {
     length: f64,
     node: Node,
 }
 
-impl Eq for Way {}
+impl Eq for SearchPath {}
 
-impl Ord for Way {
+impl Ord for SearchPath {
     fn cmp(&self, other: &Self) -> Ordering {
         other.length.total_cmp(&self.length)
     }
 }
 
-impl PartialOrd for Way {
+impl PartialOrd for SearchPath {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }

@@ -29,7 +29,7 @@ pub struct Retrieval {
 
 /// Mean and sample standard deviation of a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spread {
+pub struct Moments {
     /// Mean.
     pub mean: f64,
     /// Sample standard deviation. `None` for a single value.
@@ -42,16 +42,16 @@ pub struct RetrievalFigures {
     /// The number of retrievals.
     pub count: usize,
     /// Retrieval radii (m).
-    pub radius: Option<Spread>,
+    pub radius: Option<Moments>,
     /// Retrieval distances (m).
-    pub distance: Option<Spread>,
+    pub distance: Option<Moments>,
     /// Retrieval times (s).
-    pub time: Option<Spread>,
+    pub time: Option<Moments>,
 }
 
 /// The position and time of a mark.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MarkPlace {
+pub struct MarkPosition {
     /// The mark.
     pub mark: Mark,
     /// Index of the whisker in the trace.
@@ -68,7 +68,7 @@ pub struct MarkPlace {
 /// therefore refers to the last recorded tip, or to the current tip if none was recorded. Marks whose position is not
 /// finite are ignored.
 #[must_use]
-pub fn mark_places(trace: &Trace) -> Vec<MarkPlace> {
+pub fn mark_positions(trace: &Trace) -> Vec<MarkPosition> {
     // The last tip of every whisker before the current tick, and its tick.
     let mut last: [Option<(usize, Point2)>; MAX_WHISKERS] = [None; MAX_WHISKERS];
     let mut ticks = trace.ticks.iter().enumerate().peekable();
@@ -80,7 +80,12 @@ pub fn mark_places(trace: &Trace) -> Vec<MarkPlace> {
         }
         let edge = last.get(whisker)?.filter(|_| mark == Mark::Lost);
         let (tick, point_world) = edge.unwrap_or((tick, tip_world));
-        (is_finite(&point_world) && tick < trace.ticks.len()).then_some(MarkPlace { mark, whisker, tick, point_world })
+        (is_finite(&point_world) && tick < trace.ticks.len()).then_some(MarkPosition {
+            mark,
+            whisker,
+            tick,
+            point_world,
+        })
     };
     trace.marks.iter().filter_map(place).collect()
 }
@@ -90,8 +95,8 @@ pub fn mark_places(trace: &Trace) -> Vec<MarkPlace> {
 #[must_use]
 pub fn retrievals(trace: &Trace) -> Vec<Retrieval> {
     let mut retrievals = Vec::new();
-    let mut lost: Vec<MarkPlace> = Vec::new();
-    for place in mark_places(trace) {
+    let mut lost: Vec<MarkPosition> = Vec::new();
+    for place in mark_positions(trace) {
         let before = lost.iter().position(|edge| edge.whisker == place.whisker);
         match (place.mark, before) {
             (Mark::Lost, None) => lost.push(place),
@@ -102,7 +107,7 @@ pub fn retrievals(trace: &Trace) -> Vec<Retrieval> {
     retrievals
 }
 
-fn retrieval(trace: &Trace, edge: &MarkPlace, found: &MarkPlace) -> Retrieval {
+fn retrieval(trace: &Trace, edge: &MarkPosition, found: &MarkPosition) -> Retrieval {
     Retrieval {
         whisker: edge.whisker,
         edge_world: edge.point_world,
@@ -118,15 +123,15 @@ impl RetrievalFigures {
     #[must_use]
     pub fn new(trace: &Trace) -> Option<Self> {
         let retrievals = retrievals(trace);
-        let spread = |figure: fn(&Retrieval) -> f64| {
+        let moments = |figure: fn(&Retrieval) -> f64| {
             let statistics = Statistics::of(retrievals.iter().map(figure).collect())?;
-            Some(Spread { mean: statistics.mean(), std: statistics.std() })
+            Some(Moments { mean: statistics.mean(), std: statistics.std() })
         };
         (!trace.marks.is_empty()).then(|| Self {
             count: retrievals.len(),
-            radius: spread(|retrieval| retrieval.radius),
-            distance: spread(|retrieval| retrieval.distance),
-            time: spread(|retrieval| retrieval.time),
+            radius: moments(|retrieval| retrieval.radius),
+            distance: moments(|retrieval| retrieval.distance),
+            time: moments(|retrieval| retrieval.time),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! All metrics of a run.
 
 use super::{
-    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Passage, RetrievalFigures, Spread, StateShare,
+    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Moments, Passage, RetrievalFigures, StateShare,
     axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach, state_shares, tips,
 };
 use crate::run::Run;
@@ -27,7 +27,7 @@ pub struct Score {
     /// Retrievals. `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
     /// [Distance of the estimated midpoints from the tunnel's axis](axis_error). `None` without a tunnel.
-    pub axis: Option<Spread>,
+    pub axis: Option<Moments>,
     /// Corners. `None` if the reference has no sharp corner.
     pub corners: Option<CornerFigures>,
     /// The time shares of the states.

@@ -17,7 +17,7 @@ pub struct Tip {
     /// The distance from the nearest surface (m), never negative: the baseline's absolute error (section 5.1).
     pub error: f64,
     /// The reported standard deviation (m).
-    pub spread: f64,
+    pub standard_deviation: f64,
     /// The offset from the true tip. `None` if the simulator did not report the true tip.
     pub offset: Option<TipOffset>,
 }
@@ -43,7 +43,7 @@ impl Tip {
     /// True if the error exceeds the threshold of an outlier.
     #[must_use]
     pub fn is_outlier(&self) -> bool {
-        let is_explained = self.error <= OUTLIER_ERROR + OUTLIER_DEVIATIONS * self.spread;
+        let is_explained = self.error <= OUTLIER_ERROR + OUTLIER_DEVIATIONS * self.standard_deviation;
         // An error or a standard deviation that is not a number makes an outlier.
         !is_explained
     }
@@ -59,9 +59,9 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
         .flat_map(|whisker| valid_tips(trace, whisker).map(move |(tick, tip_world)| (tick, whisker, tip_world)))
         .map(|(tick, whisker, tip_world)| {
             let record = &trace.ticks[tick];
-            let (error, spread) = (surfaces.distance(tip_world), record.tip_spreads[whisker]);
+            let (error, standard_deviation) = (surfaces.distance(tip_world), record.tip_spreads[whisker]);
             let offset = record.tip_ends[whisker].and_then(|end| offset(tip_world, end, radii[whisker], surfaces));
-            Tip { tick, whisker, tip_world, error, spread, offset }
+            Tip { tick, whisker, tip_world, error, standard_deviation, offset }
         })
         .collect()
 }

@@ -13,7 +13,7 @@ const SAGITTA: f64 = 1e-6;
 const CHORDS_PER_TURN: f64 = 1024.0;
 /// The largest number of corners of an outline. MuJoCo's time for building it grows quadratically, to a second or two
 /// at this limit.
-const MOST_CORNERS: usize = 2048;
+const MAX_CORNERS: usize = 2048;
 
 /// A convex part of a solid in MuJoCo.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,8 +93,8 @@ impl Part {
 /// [`SolidError::Corners`] if there are too many.
 pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, SolidError> {
     let count = contour.pieces().iter().map(|piece| chord_count(piece, sagitta)).sum();
-    if count > MOST_CORNERS {
-        return Err(SolidError::Corners { count, limit: MOST_CORNERS });
+    if count > MAX_CORNERS {
+        return Err(SolidError::Corners { count, limit: MAX_CORNERS });
     }
     Ok(contour.pieces().iter().flat_map(|piece| chords(piece, sagitta)).collect())
 }
@@ -146,8 +146,8 @@ mod tests {
     #[test]
     fn a_polygon_of_too_many_corners_is_refused_with_the_limit() {
         let polygon = |sides| regular_polygon(Point2::origin(), 0.3, sides, 0.0).unwrap();
-        assert_eq!(prism(&polygon(MOST_CORNERS)).len(), MOST_CORNERS);
-        let error = Part::inside(&polygon(MOST_CORNERS + 1)).unwrap_err();
-        assert_eq!(error, SolidError::Corners { count: MOST_CORNERS + 1, limit: MOST_CORNERS });
+        assert_eq!(prism(&polygon(MAX_CORNERS)).len(), MAX_CORNERS);
+        let error = Part::inside(&polygon(MAX_CORNERS + 1)).unwrap_err();
+        assert_eq!(error, SolidError::Corners { count: MAX_CORNERS + 1, limit: MAX_CORNERS });
     }
 }

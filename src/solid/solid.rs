@@ -6,7 +6,7 @@ use super::part::Part;
 use super::{decompose, wall};
 
 /// The largest number of parts of a solid. MuJoCo needs some 70 µs to build each.
-const MOST_PARTS: usize = 4096;
+const MAX_PARTS: usize = 4096;
 
 /// A solid: its exact outline, and its convex parts for MuJoCo.
 #[derive(Debug, Clone)]
@@ -73,8 +73,8 @@ impl Solid {
         let side = wall.side(face);
         let outline = if side.is_closed() { side.clone() } else { wall.outline()? };
         let parts = wall::parts(wall, face);
-        if parts.len() > MOST_PARTS {
-            return Err(SolidError::Parts { count: parts.len(), limit: MOST_PARTS });
+        if parts.len() > MAX_PARTS {
+            return Err(SolidError::Parts { count: parts.len(), limit: MAX_PARTS });
         }
         Ok(Self { outline, parts })
     }

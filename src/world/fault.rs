@@ -19,7 +19,7 @@ pub enum Fault {
     },
     /// A whisker penetrates an object too deeply.
     #[error(
-        "a whisker sank {:.3} mm into the object at {time:.3} s, beyond the limit of {:.3} mm; make `physics.step` and \
+        "a whisker penetrated the object by {:.3} mm at {time:.3} s, beyond the limit of {:.3} mm; make `physics.step` and \
          `physics.contact_time` smaller, as `physics: {{step: 0.5556 ms, contact_time: 1.25 ms}}`, or go slower", depth * 1e3, limit * 1e3
     )]
     Penetration {

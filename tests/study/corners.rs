@@ -151,7 +151,7 @@ fn a_break_in_the_tips_at_a_corner_is_what_the_corner_costs() {
     let edge = trace.ticks[last].tips[0].unwrap();
     assert!((costly[0].edge.unwrap() - (0.2 - edge.x)).abs() < 1e-12);
     let figures = CornerFigures::new(&trace, &square().into()).unwrap();
-    assert!((figures.time.unwrap().spread.mean - 0.5).abs() < 1e-9 && (figures.time.unwrap().max - 2.0).abs() < 1e-9);
+    assert!((figures.time.unwrap().moments.mean - 0.5).abs() < 1e-9 && (figures.time.unwrap().max - 2.0).abs() < 1e-9);
     assert_eq!(excursions(&broken(2).0), []);
 }
 

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, unit};
 use vibrissa::run::{MarkRecord, Trace, drive};
 use vibrissa::scene::Stop;
-use vibrissa::score::{RetrievalFigures, mark_places, retrievals};
+use vibrissa::score::{RetrievalFigures, mark_positions, retrievals};
 use vibrissa::world::{Fault, World};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Mark;
@@ -122,7 +122,7 @@ fn a_mark_without_a_place_counts_as_not_made_and_a_pose_that_is_none_is_passed_o
         (Mark::Found, 1, 9, nowhere),
     ];
     let mut trace = marked(trace(20, 0.1, 0.01, |_| None), &marks);
-    assert_eq!(mark_places(&trace).len(), 2);
+    assert_eq!(mark_positions(&trace).len(), 2);
     assert_eq!(retrievals(&trace), []);
     trace.marks.push(MarkRecord { mark: Mark::Found, whisker: 1, tick: 15, tip_world: EDGE });
     trace.ticks[8].body = Pose::UNKNOWN;

@@ -6,7 +6,7 @@ use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
 use vibrissa::scene::{Metric, Truth};
-use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, LONGEST_STEP, Score};
+use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score};
 use vibrissa_runtime::rig::Rig;
 
 /// How far tips go in a tick at 50 mm/s and 30 Hz (m).
@@ -174,11 +174,11 @@ fn a_stroke_bridges_two_missing_ticks_but_not_three() {
 
 #[test]
 fn a_stroke_ends_where_the_tip_jumps() {
-    let tips = [0.0, 0.001, 0.002 + LONGEST_STEP, 0.003 + LONGEST_STEP].map(|x| Some(Point2::new(x, 0.0)));
+    let tips = [0.0, 0.001, 0.002 + MAX_STEP, 0.003 + MAX_STEP].map(|x| Some(Point2::new(x, 0.0)));
     let estimate = Estimate::new(&run_with(&[tips.to_vec()]).trace);
     assert_eq!(estimate.strokes().iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
-    let middle = Point2::new(0.0015 + 0.5 * LONGEST_STEP, 0.0);
-    assert!((estimate.distance(middle).unwrap() - 0.5 * (LONGEST_STEP + 0.001)).abs() < 1e-15);
+    let middle = Point2::new(0.0015 + 0.5 * MAX_STEP, 0.0);
+    assert!((estimate.distance(middle).unwrap() - 0.5 * (MAX_STEP + 0.001)).abs() < 1e-15);
 }
 
 #[test]

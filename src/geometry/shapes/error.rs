@@ -1,6 +1,6 @@
 //! Errors of shapes.
 
-use crate::geometry::{ContourError, SHORTEST_PIECE, StripError};
+use crate::geometry::{ContourError, MIN_PIECE_LENGTH, StripError};
 
 /// The reason why a shape cannot be created.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,7 +55,7 @@ pub enum ShapeError {
         gap: f64,
     },
     /// A step of a path has no length.
-    #[error("step {step} of the path is {length} m long: leave it out, or make it longer than {SHORTEST_PIECE} m")]
+    #[error("step {step} of the path is {length} m long: leave it out, or make it longer than {MIN_PIECE_LENGTH} m")]
     ShortStep {
         /// The straight or arc, counted from 0 among all straights and arcs.
         step: usize,

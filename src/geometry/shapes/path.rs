@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
-use crate::geometry::{Contour, JOIN_TOLERANCE, Piece, Pose, SHORTEST_PIECE, unit};
+use crate::geometry::{Contour, JOIN_TOLERANCE, MIN_PIECE_LENGTH, Piece, Pose, unit};
 
 /// The distance (m) from its start within which the end of a path counts as a mistake, unless it is within the
 /// tolerance of a vertex.
@@ -105,7 +105,7 @@ impl Path {
     }
 
     fn push(mut self, piece: Piece, heading: f64) -> Self {
-        if piece.length() < SHORTEST_PIECE {
+        if piece.length() < MIN_PIECE_LENGTH {
             self.check(Err(ShapeError::ShortStep { step: self.pieces.len(), length: piece.length() }));
         }
         self.end = Pose { position: piece.end(), heading };

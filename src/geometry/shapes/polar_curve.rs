@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
-use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
+use crate::geometry::fit::{MIN_PARTS, fit, most_arcs};
 use crate::geometry::{Contour, Point2, Vector2, perpendicular, unit};
 
 /// The number of samples per wave for the bound on the number of arcs.
@@ -54,7 +54,7 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
         let outward = unit(angle);
         (centre + distance * outward, growth * outward + distance * perpendicular(outward))
     };
-    let pieces = fit(curve, 0.0, TAU, LEAST_PARTS).ok_or(ShapeError::TooFine)?;
+    let pieces = fit(curve, 0.0, TAU, MIN_PARTS).ok_or(ShapeError::TooFine)?;
     Ok(Contour::closed(pieces)?)
 }
 

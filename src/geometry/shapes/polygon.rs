@@ -2,7 +2,7 @@
 
 use super::ShapeError;
 use super::error::finite_point;
-use crate::geometry::{Contour, Piece, Point2, SHORTEST_PIECE};
+use crate::geometry::{Contour, MIN_PIECE_LENGTH, Piece, Point2};
 
 /// The polygon with these corners (m), in either direction. The first corner is not repeated.
 ///
@@ -29,7 +29,7 @@ pub fn polygon(corners: &[Point2]) -> Result<Contour, ShapeError> {
     let mut pieces = Vec::with_capacity(sides);
     for from in 0..sides {
         let to = (from + 1) % sides;
-        if (corners[to] - corners[from]).norm() < SHORTEST_PIECE {
+        if (corners[to] - corners[from]).norm() < MIN_PIECE_LENGTH {
             return Err(ShapeError::ZeroEdge { from, to });
         }
         pieces.push(Piece::segment(corners[from], corners[to]));

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
-use crate::geometry::{Contour, Piece, Point2, Pose, SHORTEST_PIECE, Vector2};
+use crate::geometry::{Contour, MIN_PIECE_LENGTH, Piece, Point2, Pose, Vector2};
 
 /// A rectangle with rounded corners, from its centre (m), its extents along its own x and y axes (m), the corner radius
 /// (m, 0 for sharp corners), and the heading of its x axis (rad).
@@ -48,7 +48,7 @@ pub fn rounded_rectangle(
         pieces.push(Piece::segment(centres[from] + inset, centres[to] + inset));
         pieces.push(Piece::arc(centres[to], corner_radius, f64::from(side) * FRAC_PI_2, FRAC_PI_2));
     }
-    let pieces = pieces.iter().filter(|piece| piece.length() >= SHORTEST_PIECE).map(|piece| piece.transformed(&pose));
+    let pieces = pieces.iter().filter(|piece| piece.length() >= MIN_PIECE_LENGTH).map(|piece| piece.transformed(&pose));
     Ok(Contour::closed(pieces.collect())?)
 }
 

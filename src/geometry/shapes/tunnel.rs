@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::error::{finite, positive};
 use super::polar_curve::{PLACES_PER_WAVE, polar_derivatives};
 use super::{ShapeError, TunnelAxis};
-use crate::geometry::fit::{LEAST_PARTS, fit, most_arcs};
+use crate::geometry::fit::{MIN_PARTS, fit, most_arcs};
 use crate::geometry::{Contour, Piece, Point2, Pose, Side, Strip, Vector2, perpendicular, unit};
 
 /// An upper bound of the number of additional pieces per side of a round tunnel's outer wall, for its opening.
@@ -132,7 +132,7 @@ impl CentreLine {
                 // A parallel of the line needs as many arcs as the line, because its curvature changes less where it is
                 // longer.
                 let half_wave = 0.5 * TAU / wave_number.abs();
-                let least = 2 * LEAST_PARTS as usize;
+                let least = 2 * MIN_PARTS as usize;
                 let each = most_arcs(derivatives, 0.0, half_wave, PLACES_PER_WAVE) - least;
                 #[expect(
                     clippy::cast_possible_truncation,
@@ -204,7 +204,7 @@ impl CentreLine {
                     (Point2::new(x, amplitude * sin) - aside * perpendicular(along.normalize()), direction)
                 };
                 let forward = (0..=1000).all(|k| curve(length * f64::from(k) / 1000.0).1.x > 0.0);
-                let pieces = fit(curve, 0.0, *length, LEAST_PARTS).filter(|_| forward).ok_or(ShapeError::TooTight)?;
+                let pieces = fit(curve, 0.0, *length, MIN_PARTS).filter(|_| forward).ok_or(ShapeError::TooTight)?;
                 Ok(Contour::open(pieces)?)
             }
             Self::Polar { radius, amplitude, waves, opening } => {
@@ -260,7 +260,7 @@ impl Ring {
             return Err(ShapeError::TooTight);
         }
         let curve = |angle| place(angle, self.at(angle));
-        let pieces = fit(curve, 0.0, TAU, LEAST_PARTS).ok_or(ShapeError::TooTight)?;
+        let pieces = fit(curve, 0.0, TAU, MIN_PARTS).ok_or(ShapeError::TooTight)?;
         Ok(Contour::closed(pieces)?)
     }
 
@@ -289,7 +289,7 @@ impl Ring {
         };
         let mut pieces = Vec::new();
         for (from, to) in [(start, straight), (straight, bends), (bends, end)] {
-            pieces.extend(fit(curve, from, to, LEAST_PARTS).ok_or(ShapeError::TooTight)?);
+            pieces.extend(fit(curve, from, to, MIN_PARTS).ok_or(ShapeError::TooTight)?);
         }
         Ok(Contour::open(pieces)?)
     }

@@ -78,7 +78,7 @@ impl TunnelAxis {
     /// ```
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
-        self.arc_length_beside(point).map(|_| (self.foot(point) - point).norm())
+        self.arc_length_beside(point).map(|_| (self.project(point) - point).norm())
     }
 
     /// The arc length (m) of a point projected on the line. `None` before the beginning of the tunnel and beyond its
@@ -91,21 +91,21 @@ impl TunnelAxis {
 
     /// A point of the axis, found by the difference of the distances from both walls. It is the nearest one, except for
     /// the curvature of the axis within the distance.
-    fn foot(&self, point: Point2) -> Point2 {
-        let mut foot = point;
+    fn project(&self, point: Point2) -> Point2 {
+        let mut projection = point;
         for _ in 0..STEPS {
-            let (left, right) = (self.left.nearest(foot), self.right.nearest(foot));
+            let (left, right) = (self.left.nearest(projection), self.right.nearest(projection));
             let apart = 0.5 * (left.distance - right.distance);
             // For a point on a wall, the direction from that wall is undefined. It is opposite to that from the other
             // wall.
-            let from = |wall: Point2| (foot - wall).try_normalize(0.0).unwrap_or_else(Vector2::zeros);
+            let from = |wall: Point2| (projection - wall).try_normalize(0.0).unwrap_or_else(Vector2::zeros);
             let slope = 0.5 * (from(left.point) - from(right.point));
             if slope.norm_squared() < 1e-6 {
                 break;
             }
-            foot -= slope * (apart / slope.norm_squared());
+            projection -= slope * (apart / slope.norm_squared());
         }
-        foot
+        projection
     }
 }
 

@@ -119,7 +119,7 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
             verdict: Verdict::Setting,
             subject: "`rigid_in_air`: whiskers that hang at rest in the air do not bend".to_owned(),
             saves: Some(format!("{joints} of {all} degrees of freedom at the start")),
-            why: "they read less than a hundredth of the contact threshold; but the last digits of the platform's way change, and \
+            why: "they read less than a hundredth of the contact threshold; but the last digits of the platform's path change, and \
                   policies make more of that where they decide"
                 .to_owned(),
         });
@@ -150,7 +150,7 @@ fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {
         decisions.push(Decision {
             verdict: Verdict::LeftOut,
             subject: format!("perception of `{}`", whisker.name),
-            saves: Some("its filter, its tip model and its contour, in every tick".to_owned()),
+            saves: Some("its filter, its contact estimator and its contour, in every tick".to_owned()),
             why: "the policy does not bind it".to_owned(),
         });
         decisions.push(Decision {

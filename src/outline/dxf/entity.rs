@@ -9,7 +9,7 @@ use super::super::{OutlineError, OutlineFault, TOLERANCE};
 use super::record::Record;
 
 /// The largest radius (m) of an arc, because of rounding.
-const LARGEST_RADIUS: f64 = 1e6;
+const MAX_RADIUS: f64 = 1e6;
 
 /// Entities that are not outlines: texts, dimensions, hatches, points, images, views, construction aids, and the end of
 /// a polyline's vertex list.
@@ -173,7 +173,7 @@ fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<Dr
         }
         let length = (end - start).norm();
         let (bend, size) = (0.5 * length * bulge.abs(), bulge.abs().max(bulge.abs().recip()));
-        if length * size <= LARGEST_RADIUS {
+        if length * size <= MAX_RADIUS {
             pieces.push(Piece::arc_between(start, end, 4.0 * (hand * bulge).atan()));
         } else if bend <= TOLERANCE {
             pieces.push(Piece::segment(start, end));

@@ -10,7 +10,7 @@ use vibrissa_runtime::units::suggest;
 use super::assemble::assemble;
 use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
-use super::{MOST_PIECES, OutlineError, OutlineFault, ReadOptions};
+use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions};
 use drawing::Drawing;
 use entity::{Drawn, drawn};
 use record::Record;
@@ -36,8 +36,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
             Drawn::Whole(pieces) => outlines.add(pieces, Some(entity.line))?,
             Drawn::Loose(pieces) => loose.extend(pieces.into_iter().map(|piece| (piece, Some(entity.line)))),
         }
-        if loose.len() > MOST_PIECES {
-            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES }.at(Some(entity.line)));
+        if loose.len() > MAX_PIECES {
+            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MAX_PIECES }.at(Some(entity.line)));
         }
     }
     for (pieces, line) in assemble(&loose)? {

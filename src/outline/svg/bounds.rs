@@ -6,17 +6,17 @@
 use super::super::{OutlineError, OutlineFault, SIZE_LIMIT};
 
 /// The largest number of attributes of an element. Drawings have a few dozen.
-const MOST_ATTRIBUTES: usize = 256;
+const MAX_ATTRIBUTES: usize = 256;
 
 /// The largest number of namespace declarations of a document. Drawings have a dozen, mostly in their first element.
-const MOST_NAMESPACES: usize = 1000;
+const MAX_NAMESPACES: usize = 1000;
 
 /// Checks that a document can be parsed with time and memory proportional to its text.
 ///
 /// Attribute values and names contain no `<`. Therefore each part between two of these has at most one tag.
 pub(super) fn check(text: &str) -> Result<(), OutlineError> {
-    if text.matches("xmlns").count() > MOST_NAMESPACES {
-        return Err(OutlineFault::TooLarge { what: "declarations of namespaces", limit: MOST_NAMESPACES }.into());
+    if text.matches("xmlns").count() > MAX_NAMESPACES {
+        return Err(OutlineFault::TooLarge { what: "declarations of namespaces", limit: MAX_NAMESPACES }.into());
     }
     let (mut line, mut declared) = (1, 0_usize);
     for part in text.split('<') {
@@ -27,9 +27,9 @@ pub(super) fn check(text: &str) -> Result<(), OutlineError> {
                 let advice = "write its text where it is referred to, and take it out";
                 return Err(OutlineFault::Unsupported { what, advice }.at(Some(line)));
             }
-        } else if !part.starts_with(['!', '?']) && Tag::of(part).attributes > MOST_ATTRIBUTES {
+        } else if !part.starts_with(['!', '?']) && Tag::of(part).attributes > MAX_ATTRIBUTES {
             return Err(
-                OutlineFault::TooLarge { what: "attributes of an element", limit: MOST_ATTRIBUTES }.at(Some(line))
+                OutlineFault::TooLarge { what: "attributes of an element", limit: MAX_ATTRIBUTES }.at(Some(line))
             );
         }
         line += part.matches('\n').count();

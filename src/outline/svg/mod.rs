@@ -20,14 +20,14 @@ use super::{OutlineError, OutlineFault, ReadOptions};
 use walk::Walk;
 
 /// The largest number of elements, attributes and texts of a document.
-const MOST_NODES: u32 = 500_000;
+const MAX_NODES: u32 = 500_000;
 
 /// Reads the outlines of all shapes, or of the shapes in one element.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let text = utf8(bytes).map_err(OutlineFault::NotUtf8)?;
     bounds::check(text)?;
     // Drawing programs write a document type.
-    let parsing = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let parsing = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, parsing).map_err(|error| {
         // The parser reports 1:1 if the position is unknown.
         let line = usize::try_from(error.pos().row).ok().filter(|&row| row > 1 || error.pos().col > 1);

@@ -6,7 +6,7 @@ use svgtypes::{PathParser, PathSegment};
 use crate::geometry::{Bezier, EllipticArc, Piece, Vector2};
 
 use super::super::transform::Transform;
-use super::super::{MOST_PIECES, OutlineFault};
+use super::super::{MAX_PIECES, OutlineFault};
 use super::arc::Given;
 use super::attribute::unreadable;
 
@@ -16,8 +16,8 @@ pub(super) fn read(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Vec<
     let mut pen = Pen::new(transform);
     for segment in PathParser::from(text) {
         pen.draw(segment.map_err(|_| unreadable(node, "d", text))?)?;
-        if pen.count > MOST_PIECES {
-            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MOST_PIECES });
+        if pen.count > MAX_PIECES {
+            return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MAX_PIECES });
         }
     }
     pen.lift();

@@ -8,7 +8,7 @@ use svgtypes::NumberListParser;
 use crate::geometry::{EllipticArc, Piece, Point2};
 
 use super::super::transform::Transform;
-use super::super::{MOST_PIECES, OutlineFault};
+use super::super::{MAX_PIECES, OutlineFault};
 use super::attribute::{length, length_or_zero, unreadable};
 
 /// The outlines of a shape, each as pieces. Empty for a shape without size, which is not drawn.
@@ -103,7 +103,7 @@ fn radii(node: Node<'_, '_>) -> Result<(f64, f64), OutlineFault> {
 
 fn points(node: Node<'_, '_>, transform: &Transform) -> Result<Vec<Point2>, OutlineFault> {
     let text = node.attribute("points").unwrap_or_default();
-    let numbers = NumberListParser::from(text).take(2 * MOST_PIECES + 4).collect::<Result<Vec<f64>, _>>();
+    let numbers = NumberListParser::from(text).take(2 * MAX_PIECES + 4).collect::<Result<Vec<f64>, _>>();
     let numbers = numbers.map_err(|_| unreadable(node, "points", text))?;
     let (pairs, rest) = numbers.as_chunks();
     if !rest.is_empty() {

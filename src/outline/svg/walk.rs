@@ -17,7 +17,7 @@ const DEEPEST: usize = 100;
 
 /// The largest number of steps. A node counts one step, plus a share for the bytes of its attributes. Content repeated
 /// by `use` counts each time. A file without `use` never reaches the limit.
-const MOST_STEPS: usize = 1_000_000;
+const MAX_STEPS: usize = 1_000_000;
 const BYTES_PER_STEP: usize = 64;
 
 /// A traversal of a document with its results.
@@ -49,9 +49,9 @@ impl<'d> Walk<'d> {
         if depth > DEEPEST {
             return Err(self.at(node, OutlineFault::TooLarge { what: "elements in each other", limit: DEEPEST }));
         }
-        if self.steps > MOST_STEPS {
+        if self.steps > MAX_STEPS {
             let what = "elements and numbers, with what `use` repeats";
-            return Err(self.at(node, OutlineFault::TooLarge { what, limit: MOST_STEPS }));
+            return Err(self.at(node, OutlineFault::TooLarge { what, limit: MAX_STEPS }));
         }
         if is_intricate(node) {
             let what = "a comment or a backslash in a `style`".to_owned();

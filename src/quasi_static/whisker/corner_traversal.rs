@@ -17,7 +17,7 @@ const NEAR: f64 = 13e-3;
 
 /// An obstacle with a corner, or a small obstacle, at the origin.
 #[derive(Debug, Clone, Copy)]
-enum Thing {
+enum Obstacle {
     /// A wedge with this interior angle (rad).
     Wedge(f64),
     /// A blade of this thickness (m).
@@ -28,7 +28,7 @@ enum Thing {
     InnerCorner(f64),
 }
 
-impl Thing {
+impl Obstacle {
     /// The corners of the outline, empty for a circle.
     fn corners(self) -> Vec<Point2> {
         let at = |radius: f64, angle: f64| Point2::from(radius * unit(angle));
@@ -66,18 +66,18 @@ impl Thing {
     }
 }
 
-fn things() -> impl Strategy<Value = Thing> {
+fn obstacles() -> impl Strategy<Value = Obstacle> {
     prop_oneof![
-        5 => (0.1..3.0_f64).prop_map(Thing::Wedge),
-        2 => (2e-3..10e-3_f64).prop_map(Thing::Blade),
-        1 => (0.5e-3..10e-3_f64).prop_map(Thing::Pin),
-        1 => (0.3..2.6_f64).prop_map(Thing::InnerCorner),
+        5 => (0.1..3.0_f64).prop_map(Obstacle::Wedge),
+        2 => (2e-3..10e-3_f64).prop_map(Obstacle::Blade),
+        1 => (0.5e-3..10e-3_f64).prop_map(Obstacle::Pin),
+        1 => (0.3..2.6_f64).prop_map(Obstacle::InnerCorner),
     ]
 }
 
 /// The path of a base with constant velocity and yaw rate.
 #[derive(Debug, Clone)]
-struct Way {
+struct BasePath {
     /// The heading at time 0 (rad).
     heading: f64,
     /// The position (m) of the undeflected tip at time 0, near the origin.
@@ -86,7 +86,7 @@ struct Way {
     yaw_rate: f64,
 }
 
-impl Way {
+impl BasePath {
     /// The pose of the base at a time (s), for a whisker of this length (m).
     fn at(&self, time: f64, length: f64) -> Pose {
         let position = Point2::from(self.tip - length * unit(self.heading) + time * self.velocity);
@@ -94,9 +94,9 @@ impl Way {
     }
 }
 
-fn ways() -> impl Strategy<Value = Way> {
+fn paths() -> impl Strategy<Value = BasePath> {
     (0.0..TAU, (0.0..4e-3_f64, 0.0..TAU), (0.02..0.1_f64, 0.0..TAU), -2.5..2.5_f64).prop_map(
-        |(heading, (off, side), (speed, course), yaw_rate)| Way {
+        |(heading, (off, side), (speed, course), yaw_rate)| BasePath {
             heading,
             tip: off * unit(side),
             velocity: speed * unit(course),
@@ -128,29 +128,29 @@ fn depth(chain: &QuasiStaticWhisker, surfaces: &Surfaces) -> f64 {
 
 /// The last sample, at most one second before time 0, at which the undeflected whisker is clear of the obstacle. `None`
 /// if there is none, or if the base later comes too near.
-fn beginning(way: &Way, whisker: &Whisker, surfaces: &Surfaces) -> Option<i32> {
+fn beginning(path: &BasePath, whisker: &Whisker, surfaces: &Surfaces) -> Option<i32> {
     let is_clear = |&sample: &i32| {
-        let chain = QuasiStaticWhisker::new(whisker, way.at(f64::from(sample) * PERIOD, whisker.shaft.length));
+        let chain = QuasiStaticWhisker::new(whisker, path.at(f64::from(sample) * PERIOD, whisker.shaft.length));
         depth(&chain, surfaces) < -2e-3
     };
     let first = (-300..=0).rev().find(is_clear)?;
-    let base = |sample: i32| way.at(f64::from(sample) * PERIOD, whisker.shaft.length).position;
+    let base = |sample: i32| path.at(f64::from(sample) * PERIOD, whisker.shaft.length).position;
     (first..=0).all(|sample| surfaces.depth(base(sample)) < -NEAR).then_some(first)
 }
 
 /// An obstacle, a path, and the sample at which the path begins.
-fn passes() -> impl Strategy<Value = (Thing, Way, i32)> {
-    (things(), ways()).prop_filter_map("does not begin clear of the thing", |(thing, way)| {
-        let beginning = beginning(&way, &whisker(), &thing.surfaces())?;
-        Some((thing, way, beginning))
+fn passes() -> impl Strategy<Value = (Obstacle, BasePath, i32)> {
+    (obstacles(), paths()).prop_filter_map("does not begin clear of the obstacle", |(obstacle, path)| {
+        let beginning = beginning(&path, &whisker(), &obstacle.surfaces())?;
+        Some((obstacle, path, beginning))
     })
 }
 
 /// Moves a whisker along a path. Returns true if it touched the obstacle. The path ends before the base comes nearer
 /// than two links, because the whisker cannot bend there.
-fn pass(thing: Thing, way: &Way, beginning: i32) -> Result<bool, String> {
-    let (whisker, surfaces) = (whisker(), thing.surfaces());
-    let place = |sample: i32| way.at(f64::from(sample) * PERIOD, whisker.shaft.length);
+fn pass(obstacle: Obstacle, path: &BasePath, beginning: i32) -> Result<bool, String> {
+    let (whisker, surfaces) = (whisker(), obstacle.surfaces());
+    let place = |sample: i32| path.at(f64::from(sample) * PERIOD, whisker.shaft.length);
     let mut chain = QuasiStaticWhisker::new(&whisker, place(beginning));
     let mut touched = false;
     for base in (beginning..200).map(place).take_while(|base| surfaces.depth(base.position) < -NEAR) {
@@ -161,7 +161,7 @@ fn pass(thing: Thing, way: &Way, beginning: i32) -> Result<bool, String> {
         let (depth, is_at_rest) = (depth(&chain, &surfaces), chain.unsettled_samples == 0);
         // Between two equilibria, the whisker may penetrate by about its thickness.
         let most = if is_at_rest { -0.9 * whisker.shaft.radius } else { 3e-4 };
-        if depth > most || is_at_rest && thing.is_crossed(&chain) {
+        if depth > most || is_at_rest && obstacle.is_crossed(&chain) {
             return Err(format!("{depth} m inside at {base:?}"));
         }
     }
@@ -172,8 +172,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1_000))]
 
     #[test]
-    fn no_whisker_passes_through_a_thing((thing, way, beginning) in passes()) {
-        let passed = pass(thing, &way, beginning);
+    fn no_whisker_passes_through_a_thing((obstacle, path, beginning) in passes()) {
+        let passed = pass(obstacle, &path, beginning);
         prop_assert!(passed.is_ok(), "{}", passed.unwrap_err());
     }
 }
@@ -181,27 +181,27 @@ proptest! {
 /// Paths that proptest found. Each failed before a part of the contact state was kept.
 #[test]
 fn nor_does_one_that_did() {
-    let way = |heading, tip: [f64; 2], velocity: [f64; 2], yaw_rate| Way {
+    let path = |heading, tip: [f64; 2], velocity: [f64; 2], yaw_rate| BasePath {
         heading,
         tip: tip.into(),
         velocity: velocity.into(),
         yaw_rate,
     };
-    let ways = [
+    let paths = [
         // The side of a corner after the end has moved from a facet over it.
-        (Thing::Wedge(1.738), way(0.7568, [0.1327e-3, 1.107e-3], [0.083_54, 0.046_80], -2.144), -4),
-        (Thing::Blade(2e-3), way(5.693, [0.9993e-3, 0.2149e-3], [0.074_55, -0.059_94], -2.425), -5),
+        (Obstacle::Wedge(1.738), path(0.7568, [0.1327e-3, 1.107e-3], [0.083_54, 0.046_80], -2.144), -4),
+        (Obstacle::Blade(2e-3), path(5.693, [0.9993e-3, 0.2149e-3], [0.074_55, -0.059_94], -2.425), -5),
         // The same, kept through the broad phase.
-        (Thing::Wedge(2.914), way(0.5542, [-0.2956e-3, 0.1887e-3], [0.057_12, 0.032_85], 1.206), -5),
+        (Obstacle::Wedge(2.914), path(0.5542, [-0.2956e-3, 0.1887e-3], [0.057_12, 0.032_85], 1.206), -5),
         // The side of a facet on which an end is before it faces the facet.
-        (Thing::Wedge(2.904), way(2.286, [0.12e-3, 0.0], [0.011_74, 0.016_19], -2.202), -4),
+        (Obstacle::Wedge(2.904), path(2.286, [0.12e-3, 0.0], [0.011_74, 0.016_19], -2.202), -4),
         // The facet on which an end exerts a force.
-        (Thing::InnerCorner(0.405_107_8), way(4.343_851, [2.894_060e-3, 0.0], [0.02, 0.0], -1.592_759), -280),
+        (Obstacle::InnerCorner(0.405_107_8), path(4.343_851, [2.894_060e-3, 0.0], [0.02, 0.0], -1.592_759), -280),
         // The next corner, sharp or blunt.
-        (Thing::Wedge(0.1), way(2.85, [0.039_35e-3, 0.0], [-0.016_64, 0.057_24], -0.6925), -5),
-        (Thing::Wedge(2.959_426), way(1.508_286, [0.1049e-3, 0.1840e-3], [0.046_74, 0.076_66], -2.479_81), -6),
+        (Obstacle::Wedge(0.1), path(2.85, [0.039_35e-3, 0.0], [-0.016_64, 0.057_24], -0.6925), -5),
+        (Obstacle::Wedge(2.959_426), path(1.508_286, [0.1049e-3, 0.1840e-3], [0.046_74, 0.076_66], -2.479_81), -6),
     ];
-    for (thing, way, beginning) in ways {
-        assert_eq!(pass(thing, &way, beginning), Ok(true), "{thing:?} {way:?}");
+    for (obstacle, path, beginning) in paths {
+        assert_eq!(pass(obstacle, &path, beginning), Ok(true), "{obstacle:?} {path:?}");
     }
 }

@@ -15,7 +15,7 @@ use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
-use crate::score::{Tip, mark_places};
+use crate::score::{Tip, mark_positions};
 use vibrissa_runtime::machine::Mark;
 use vibrissa_runtime::rig::Rig;
 
@@ -96,7 +96,7 @@ impl Map {
         inside = solids().fold(inside, |inside, solid| inside.add(solid.stroked(style::INK, OUTLINE)));
         for mark in Mark::ALL {
             let mut diamonds = Outline::default();
-            let places = mark_places(trace).into_iter().filter(|place| place.mark == mark);
+            let places = mark_positions(trace).into_iter().filter(|place| place.mark == mark);
             let places = places.map(|place| self.place(place.point_world));
             places.filter(|place| self.shows(*place)).for_each(|place| diamonds.diamond(place, MARK));
             inside = inside.add(mark_style(diamonds, mark));
