@@ -11,7 +11,7 @@ use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Poin
 const MAX_CUTS: usize = 20_000;
 
 /// Two positions on a piece are equal within this distance (m).
-const SAME: f64 = 2.0 * TOUCHING;
+const CUT_TOLERANCE: f64 = 2.0 * TOUCHING;
 
 /// The largest distance (m) between the end of a part and the start of its successor.
 const MAX_GAP: f64 = 4.0 * TOUCHING;
@@ -53,9 +53,9 @@ impl Arrangement {
                 let length = piece.length();
                 let mut ends = near.cuts(member, piece, MAX_CUTS - cuts, &mut work).ok_or(MAX_CUTS)?;
                 cuts += ends.len();
-                ends.retain(|&end| end > SAME && end < length - SAME);
+                ends.retain(|&end| end > CUT_TOLERANCE && end < length - CUT_TOLERANCE);
                 ends.sort_by(f64::total_cmp);
-                ends.dedup_by(|later, earlier| *later - *earlier < SAME);
+                ends.dedup_by(|later, earlier| *later - *earlier < CUT_TOLERANCE);
                 ends.push(length);
                 let mut from = 0.0;
                 for to in ends {

@@ -93,7 +93,7 @@ mod tests {
     }
 
     /// The largest distance of the curve from its pieces.
-    fn strays(curve: &Bezier, pieces: &[Piece]) -> f64 {
+    fn max_deviation(curve: &Bezier, pieces: &[Piece]) -> f64 {
         let places = (0..=2000).map(|k| curve.point(f64::from(k) / 2000.0));
         let off = |place| pieces.iter().map(|piece| piece.distance(place)).fold(f64::INFINITY, f64::min);
         places.map(off).fold(0.0, f64::max)
@@ -104,7 +104,7 @@ mod tests {
         fn the_pieces_lie_on_the_curve_and_follow_each_other(control in [point(), point(), point(), point()]) {
             let curve = Bezier { control };
             let pieces = curve.pieces().unwrap();
-            prop_assert!(strays(&curve, &pieces) <= 1.1e-6);
+            prop_assert!(max_deviation(&curve, &pieces) <= 1.1e-6);
             prop_assert!(pieces.windows(2).all(|pair| (pair[1].start() - pair[0].end()).norm() < 1e-9));
             let turn = |pair: &[Piece]| pair[0].tangent_at(pair[0].length()).angle(&pair[1].tangent_at(0.0));
             prop_assert!(pieces.windows(2).all(|pair| turn(pair) < 1e-3));
@@ -126,7 +126,7 @@ mod tests {
         let straight = Bezier { control: [at(0.0, 0.0), at(0.1, 0.1), at(0.1, 0.1), at(0.3, 0.3)] };
         assert_eq!(straight.pieces(), Some(vec![Piece::segment(at(0.0, 0.0), at(0.3, 0.3))]));
         let cusp = Bezier { control: [at(0.0, 0.0), at(0.1, 0.1), at(0.0, 0.1), at(0.1, 0.0)] };
-        assert!(strays(&cusp, &cusp.pieces().unwrap()) <= 1.1e-6);
+        assert!(max_deviation(&cusp, &cusp.pieces().unwrap()) <= 1.1e-6);
         assert_eq!(Bezier { control: [at(0.1, 0.0); 4] }.pieces(), Some(Vec::new()));
         assert_eq!(Bezier { control: [at(0.0, 0.0), at(f64::NAN, 0.0), at(1.0, 0.0), at(1.0, 1.0)] }.pieces(), None);
     }

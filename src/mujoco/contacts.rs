@@ -31,7 +31,7 @@ impl Contacts {
     /// Selects the declaration for this number of parts. Pairs are used for pruned models, for models with friction,
     /// and for a single part. Friction is accurate only with pairs.
     pub(super) fn with(parts: usize, physics: &Physics, scope: &Scope) -> Self {
-        if parts <= 1 || physics.friction > 0.0 || scope.room().is_some() { Self::Pairs } else { Self::Masks }
+        if parts <= 1 || physics.friction > 0.0 || scope.capacity().is_some() { Self::Pairs } else { Self::Masks }
     }
 
     /// The attributes of a part of a solid.
@@ -83,7 +83,7 @@ impl Contacts {
         writeln!(xml, r"  <contact>")?;
         let geoms = links.chain(["platform/body".to_owned()]);
         let pairs = geoms.flat_map(|geom| parts.iter().map(move |(part, _)| (part, geom.clone())));
-        for (part, geom) in pairs.take(scope.room().unwrap_or(usize::MAX)) {
+        for (part, geom) in pairs.take(scope.capacity().unwrap_or(usize::MAX)) {
             writeln!(xml, r#"    <pair geom1="{part}" geom2="{geom}" {contact}/>"#)?;
         }
         writeln!(xml, r"  </contact>")
@@ -91,7 +91,7 @@ impl Contacts {
 }
 
 /// Returns the option attribute for stiffer friction, empty without friction.
-pub(super) fn hold(physics: &Physics) -> String {
+pub(super) fn friction_stiffness(physics: &Physics) -> String {
     if physics.friction > 0.0 { format!(r#" impratio="{SLIDING}""#) } else { String::new() }
 }
 

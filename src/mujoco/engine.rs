@@ -63,7 +63,7 @@ pub(super) struct Engine {
     part_geoms: Vec<i32>,
     platform_geom: i32,
     /// The capacity of the model's pair list.
-    room: usize,
+    capacity: usize,
 }
 
 impl Engine {
@@ -101,7 +101,7 @@ impl Engine {
             (position, velocity) = (positions.end, velocities.end);
             joints[index] = Some(Joints { positions, velocities });
         }
-        let room = model.pair_margin().len();
+        let capacity = model.pair_margin().len();
         let mut data = MjData::try_new(model).map_err(|error| refused(&error))?;
         data.reset_keyframe(0).map_err(|error| refused(&error))?;
         let kept = State {
@@ -109,7 +109,7 @@ impl Engine {
             velocities: data.qvel().to_vec(),
             accelerations: data.qacc_warmstart().to_vec(),
         };
-        Ok(Self { data, kept, scope, joints, shafts, first_links, part_geoms, platform_geom, room })
+        Ok(Self { data, kept, scope, joints, shafts, first_links, part_geoms, platform_geom, capacity })
     }
 
     /// Copies the state of another engine. A whisker that was rigid there becomes straight and at rest. A whisker that
@@ -137,14 +137,14 @@ impl Engine {
     }
 
     /// Sets the pairs that the engine tests, ascending by member. Their number must not exceed the
-    /// [capacity](Scope::room).
+    /// [capacity](Scope::capacity).
     pub(super) fn set_pairs(&mut self, pairs: &[Pair]) {
         // A part that is not in the model is outside of the window, so it is out of reach until the model is replaced.
         // Rigid whiskers have no geoms.
         let geoms = pairs.iter().filter_map(|pair| Some((self.part_geom(pair.part)?, self.geom(pair.of)?)));
         let geoms: Vec<_> = geoms.collect();
-        debug_assert!(geoms.len() <= self.room, "{} pairs, but room for {}", geoms.len(), self.room);
-        let geoms = geoms.into_iter().take(self.room).collect::<Vec<_>>();
+        debug_assert!(geoms.len() <= self.capacity, "{} pairs, but a capacity of {}", geoms.len(), self.capacity);
+        let geoms = geoms.into_iter().take(self.capacity).collect::<Vec<_>>();
         #[expect(unsafe_code, reason = "pairs are a table that the engine takes for its own")]
         #[expect(
             clippy::cast_possible_wrap,
@@ -152,7 +152,7 @@ impl Engine {
         )]
         // SAFETY: `model_mut` requires that no size changes, and `npair` changes. It is sound for these reasons:
         // - No array of the data depends on the number of pairs. Its buffers and its arena keep their sizes.
-        // - The arrays of pairs in the model keep their addresses and lengths. `npair` never exceeds `room`, the
+        // - The arrays of pairs in the model keep their addresses and lengths. `npair` never exceeds `capacity`, the
         //   compiled number. All pairs have equal properties except geoms and signatures, so the other arrays of a slot
         //   hold for any pair.
         // - A model with a changed `npair` must not be copied, saved, swapped, or compared by its layout. This model is
@@ -368,7 +368,7 @@ mod tests {
         let outlines = [circle(Point2::new(0.3, 0.15), 0.1), polygon(&corners)];
         let solids = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap());
         let rig = Rig::default();
-        let scope = Scope::whole(&rig, &solids).with_room(1000);
+        let scope = Scope::whole(&rig, &solids).with_capacity(1000);
         let parts = scope.part_count();
         let mut engine = Engine::new(&rig, &Physics::default(), &solids, Pose::default(), scope).unwrap();
         let mut compiled = pairs(&engine);

@@ -25,7 +25,7 @@ pub struct LibraryError {
 
 /// The functions of the loaded library. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
-    let failed = |cause: libloading::Error| LibraryError { cause: told(&cause) };
+    let failed = |cause: libloading::Error| LibraryError { cause: loader_message(&cause) };
     open(file_name()).and_then(|library| Functions::of(&library)).map_err(failed)
 });
 
@@ -46,7 +46,7 @@ pub(super) fn open(name: impl AsRef<std::ffi::OsStr>) -> Result<std::mem::Manual
 }
 
 /// The message of the loader, with the name of the file.
-pub(super) fn told(cause: &libloading::Error) -> String {
+pub(super) fn loader_message(cause: &libloading::Error) -> String {
     cause.source().map_or_else(|| cause.to_string(), ToString::to_string)
 }
 

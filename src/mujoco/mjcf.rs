@@ -15,7 +15,7 @@ use crate::geometry::{Point2, Pose, Vector2};
 use crate::physics::{Physics, ShaftModel, Solver, link_inertia};
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 
-use super::contacts::{Contacts, hold};
+use super::contacts::{Contacts, friction_stiffness};
 use super::prune::Scope;
 use crate::solid::{Part, Solid};
 
@@ -94,7 +94,7 @@ fn write_model(
         physics.step,
         physics.integrator.name(),
         physics.solver.name(),
-        hold(physics),
+        friction_stiffness(physics),
         tolerance(physics)
     )?;
     // One tree of bodies is one island. The search for islands would take a quarter of the time.

@@ -22,7 +22,7 @@ const TRAVEL: (f64, f64) = (0.5, 1e-3);
 pub(super) struct ModelSelector {
     /// The initial capacity for pairs of a pruned model. `None` for a complete model, in which only rigid whiskers are
     /// selected.
-    room: Option<usize>,
+    capacity: Option<usize>,
     reach: Reach,
     solids: Vec<Solid>,
     physics: Physics,
@@ -34,9 +34,9 @@ pub(super) struct ModelSelector {
 }
 
 impl ModelSelector {
-    pub(super) fn new(rig: &Rig, physics: &Physics, solids: &[Solid], room: Option<usize>) -> Self {
+    pub(super) fn new(rig: &Rig, physics: &Physics, solids: &[Solid], capacity: Option<usize>) -> Self {
         Self {
-            room,
+            capacity,
             reach: Reach::new(rig, solids),
             solids: solids.to_vec(),
             physics: physics.clone(),
@@ -54,8 +54,8 @@ impl ModelSelector {
                 self.physics.rigid_in_air && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
             scope = scope.with_rigid(index, is_rigid);
         }
-        if let Some(room) = self.room {
-            scope = scope.with_room(room);
+        if let Some(capacity) = self.capacity {
+            scope = scope.with_capacity(capacity);
             if self.reach.is_windowed() {
                 scope = scope.with_parts(self.reach.parts_about(start.position));
                 self.window = Some(start.position);
@@ -98,13 +98,13 @@ impl ModelSelector {
 
     /// Updates the pairs that the engine tests for contact at the current state.
     pub(super) fn update_pairs(&mut self, rig: &Rig, engine: &mut Engine) -> Result<(), MujocoError> {
-        let Some(room) = engine.scope.room() else { return Ok(()) };
+        let Some(capacity) = engine.scope.capacity() else { return Ok(()) };
         let Some(pairs) = self.broad_phase.changed_pairs(rig, &self.reach, engine) else { return Ok(()) };
-        if pairs.len() <= room {
+        if pairs.len() <= capacity {
             engine.set_pairs(pairs);
             return Ok(());
         }
-        let scope = engine.scope.clone().with_room(2 * pairs.len());
+        let scope = engine.scope.clone().with_capacity(2 * pairs.len());
         self.replace(rig, engine, scope)?;
         self.update_pairs(rig, engine)
     }

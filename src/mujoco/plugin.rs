@@ -4,7 +4,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::library::{open, told};
+use super::library::{loader_message, open};
 
 /// The directory of the library that the program was linked with. `None` for a system-wide MuJoCo.
 const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
@@ -49,7 +49,7 @@ pub enum PluginError {
 pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
     static LOADED: OnceLock<Result<(), String>> = OnceLock::new();
     let path = plugin_in(DIRECTORY)?;
-    let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| told(&cause)));
+    let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| loader_message(&cause)));
     loaded.clone().map_err(|cause| PluginError::Damaged { cause })
 }
 
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plugin_that_is_not_there_is_told_with_what_to_do() {
+    fn a_plugin_that_is_not_there_is_reported_with_what_to_do() {
         let error = plugin_in(Some("/nowhere")).map_err(|error| error.to_string());
         assert!(error.is_err_and(|text| text.contains("/nowhere/") && text.contains("cargo x setup")));
     }

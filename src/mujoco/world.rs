@@ -15,7 +15,7 @@ use super::model_selector::ModelSelector;
 use super::plugin::{PluginError, load_cable_plugin};
 
 /// The initial capacity for pairs of a pruned model.
-const ROOM: usize = 64;
+const INITIAL_CAPACITY: usize = 64;
 
 /// The reason why a MuJoCo simulation cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -66,7 +66,7 @@ impl MujocoWorld {
     /// # Errors
     /// [`MujocoError`] if MuJoCo rejects the model.
     pub fn pruned(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
-        Self::with(rig, physics, solids, start, seed, Some(ROOM))
+        Self::with(rig, physics, solids, start, seed, Some(INITIAL_CAPACITY))
     }
 
     fn with(
@@ -75,13 +75,13 @@ impl MujocoWorld {
         solids: &[Solid],
         start: Pose,
         seed: u64,
-        room: Option<usize>,
+        capacity: Option<usize>,
     ) -> Result<Self, MujocoError> {
         prepare_engine()?;
         if physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }
-        let mut model_selector = ModelSelector::new(rig, physics, solids, room);
+        let mut model_selector = ModelSelector::new(rig, physics, solids, capacity);
         let engine = model_selector.initial_model(rig, start)?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);
@@ -281,8 +281,8 @@ mod tests {
         let physics = Physics { penetration_limit: 5e-3, ..Physics::default() };
         for forces in [false, true] {
             rig.sensing.forces = forces;
-            let run = |room| {
-                let mut world = MujocoWorld::with(&rig, &physics, &solids, start, 0, room).unwrap();
+            let run = |capacity| {
+                let mut world = MujocoWorld::with(&rig, &physics, &solids, start, 0, capacity).unwrap();
                 let mut readings = Vec::new();
                 for (ticks, speed) in [(120, 0.12), (60, -0.12)] {
                     let command = Command { velocity_world: Vector2::new(0.0, speed), yaw_rate: 0.0 };
@@ -296,11 +296,11 @@ mod tests {
                         }
                     }
                 }
-                (readings.into_iter().map(f64::to_bits).collect::<Vec<_>>(), world.engine.scope.room())
+                (readings.into_iter().map(f64::to_bits).collect::<Vec<_>>(), world.engine.scope.capacity())
             };
             let (whole, _) = run(None);
-            let (grown, room) = run(Some(1));
-            assert!(room > Some(2), "there were never more pairs than room: {room:?}");
+            let (grown, capacity) = run(Some(1));
+            assert!(capacity > Some(2), "the capacity was never exceeded: {capacity:?}");
             let first = whole.iter().zip(&grown).position(|(a, b)| a != b);
             assert!(first.is_none(), "forces: {forces}; number {first:?} of {}", whole.len());
         }

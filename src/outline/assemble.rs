@@ -24,7 +24,7 @@ pub(super) type LoosePiece = (Piece, Option<usize>);
 pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError> {
     let nodes = Nodes::of(pieces)?;
     let mut is_used: Vec<bool> =
-        pieces.iter().zip(&nodes.ends).map(|((piece, _), &ends)| is_dot(piece, ends)).collect();
+        pieces.iter().zip(&nodes.ends).map(|((piece, _), &ends)| is_degenerate(piece, ends)).collect();
     let mut outlines = Vec::new();
     for (index, &(first, line)) in pieces.iter().enumerate() {
         if is_used[index] {
@@ -46,7 +46,7 @@ pub(super) fn assemble(pieces: &[LoosePiece]) -> Result<Vec<Loop>, OutlineError>
 }
 
 /// True if a piece is so short that both ends are one node. It can be omitted without loss.
-fn is_dot(piece: &Piece, [start, end]: [usize; 2]) -> bool {
+fn is_degenerate(piece: &Piece, [start, end]: [usize; 2]) -> bool {
     start == end && piece.length() <= 2.0 * TOLERANCE
 }
 
@@ -66,7 +66,7 @@ impl Nodes {
         for (index, ((piece, line), ends)) in pieces.iter().zip(ends).enumerate() {
             let ends = ends.map(|end| same[end]);
             nodes.ends.push(ends);
-            if is_dot(piece, ends) {
+            if is_degenerate(piece, ends) {
                 continue;
             }
             for (end, at) in ends.into_iter().zip([piece.start(), piece.end()]) {

@@ -24,7 +24,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     let mut sides: Vec<LoosePiece> = Vec::new();
     let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
     let cut = Cut { plane: Transform::scaled(unit), unit, height: options.height };
-    let mut bytes = Cursor::new(prepared(bytes));
+    let mut bytes = Cursor::new(with_type_marker(bytes));
     for triangle in create_stl_reader(&mut bytes).map_err(|error| refusal(&error))? {
         let corners = triangle.map_err(|error| refusal(&error))?.vertices.map(|vertex| cut.place(vertex));
         let [a, b, c] = corners;
@@ -59,7 +59,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
 
 /// Returns the bytes in a form in which the reader recognises the file type, by `solid ` at the beginning. A text file
 /// may lack the blank, and a binary file may begin in this way too. The length of the file decides.
-fn prepared(bytes: &[u8]) -> Vec<u8> {
+fn with_type_marker(bytes: &[u8]) -> Vec<u8> {
     let count = bytes.first_chunk::<HEADER>().map(|&[.., a, b, c, d]| u32::from_le_bytes([a, b, c, d]));
     let length = count.and_then(|count| usize::try_from(count).ok()?.checked_mul(TRIANGLE)?.checked_add(HEADER));
     let is_binary = length == Some(bytes.len());

@@ -2,6 +2,7 @@
 
 mod inertia;
 mod integrator;
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod physics;
 mod preset;
 mod shaft_model;

@@ -52,7 +52,7 @@ impl Objects {
                 all.solids.push(Placed { value, span });
             }
         }
-        all.walls_are_apart(reader, &walls).then_some(all)
+        all.check_walls(reader, &walls).then_some(all)
     }
 
     /// The exact geometry for scores. `None` without objects.
@@ -88,7 +88,7 @@ impl Objects {
     }
 
     /// Checks that no wall of a tunnel overlaps another solid, and reports the first overlap.
-    fn walls_are_apart(&self, reader: &mut Reader<'_>, walls: &[usize]) -> bool {
+    fn check_walls(&self, reader: &mut Reader<'_>, walls: &[usize]) -> bool {
         let mut pairs = walls.iter().flat_map(|&wall| {
             let others = self.solids.iter().enumerate().filter(move |&(index, _)| index != wall);
             others.map(move |(_, other)| (&self.solids[wall], other))

@@ -4,6 +4,7 @@ mod clearance;
 mod expectation;
 mod gap;
 mod jitter;
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod scene;
 mod stop;
 mod world_kind;

@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-9;
 const MIN_ANGLE: f64 = 0.1;
 
 /// The largest distance from a corner (m) at which a lost contact is attributed to it.
-const CLAIM: f64 = 0.03;
+const MAX_CLAIM: f64 = 0.03;
 
 /// A sharp corner of the exact outline that was traced on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +74,7 @@ pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner
     if count == 0 {
         return (Vec::new(), 0);
     }
-    let felt = felt(trace, &outlines, &sharp);
+    let felt = tips_by_outline(trace, &outlines, &sharp);
     let all =
         sharp.iter().enumerate().flat_map(|(outline, corners)| corners.iter().map(move |corner| (outline, *corner)));
     let all: Vec<(usize, Corner)> = all.collect();
@@ -100,7 +100,7 @@ fn costs(trace: &Trace, corners: &[(usize, Corner)]) -> Vec<Cost> {
     for excursion in excursions(trace) {
         let from_edge = |(_, corner): &(usize, Corner)| (corner.point - excursion.edge_world).norm();
         let nearest = corners.iter().map(from_edge).enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
-        if let Some((index, distance)) = nearest.filter(|&(_, distance)| distance <= CLAIM) {
+        if let Some((index, distance)) = nearest.filter(|&(_, distance)| distance <= MAX_CLAIM) {
             let cost = &mut costs[index];
             cost.edge = cost.edge.or(Some(distance));
             cost.time = cost.time.max(excursion.time);
@@ -115,10 +115,10 @@ fn sharp(outline: &Contour) -> Vec<Corner> {
 }
 
 /// A tip relative to its nearest outline: arc length (m), and offset to the right (m).
-type Felt = (f64, f64);
+type OutlineTip = (f64, f64);
 
 /// The tips of a run that may belong to a side of a `sharp` corner, grouped by their nearest outline.
-fn felt(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<Felt>> {
+fn tips_by_outline(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<OutlineTip>> {
     let mut felt = vec![Vec::new(); outlines.len()];
     for (_, tip) in whiskers(trace).flat_map(|whisker| valid_tips(trace, whisker)) {
         let distances = outlines.iter().map(|outline| outline.distance(tip)).enumerate();
@@ -133,7 +133,7 @@ fn felt(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<
 }
 
 /// The position of the estimated corner and its excess angle. `None` if it was not traced on both sides.
-fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[Felt]) -> Option<(Point2, f64)> {
+fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[OutlineTip]) -> Option<(Point2, f64)> {
     let outgoing = outline.tangent_at(corner.arc_length);
     let incoming = rotate(outgoing, -corner.turn);
     let before = Line::fitted(outline, sharp, corner, felt, incoming, -1.0)?;
@@ -162,7 +162,7 @@ impl Line {
         outline: &Contour,
         sharp: &[Corner],
         corner: &Corner,
-        felt: &[Felt],
+        felt: &[OutlineTip],
         tangent: Vector2,
         way: f64,
     ) -> Option<Self> {

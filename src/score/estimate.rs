@@ -47,7 +47,7 @@ impl Estimate {
 
     /// The mean distance (m) of the tips from another estimate's strokes. `None` if either has none.
     #[must_use]
-    pub fn apart(&self, other: &Self) -> Option<f64> {
+    pub fn mean_distance(&self, other: &Self) -> Option<f64> {
         let distances: Option<Vec<f64>> = self.strokes.iter().flatten().map(|&tip| other.distance(tip)).collect();
         Some(Statistics::of(distances?)?.mean())
     }

@@ -16,7 +16,7 @@ mod lipschitz;
 mod passage;
 mod reach;
 mod retrieval;
-#[expect(clippy::module_inception, reason = "one noun a file, and this one is the room's name")]
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod score;
 mod state_share;
 mod statistics;

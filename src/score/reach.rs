@@ -13,7 +13,7 @@ use crate::scene::{Truth, gap};
 use vibrissa_runtime::rig::Rig;
 
 /// Cell size (m) of the grid on which the base of a whisker and its shaft are searched. Narrower gaps count as closed.
-const CELL: f64 = 2.5e-3;
+const CELL_SIZE: f64 = 2.5e-3;
 /// The number of sampled headings of the platform.
 const HEADINGS: u32 = 240;
 /// Lengths of a straight whisker, as shares of the longest one, that are tested before any search.
@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-9;
 /// The largest number of queries of an outline in a search, which take some seconds.
 const MAX_QUERIES: usize = 2_500_000;
 /// The distance (m) of the sampled points from the outline, on the outside.
-const OFF: f64 = 1e-5;
+const OUTSIDE_OFFSET: f64 = 1e-5;
 
 /// The length (m) of the untraced reference that no tip of the rig can touch from any pose.
 ///
@@ -84,7 +84,7 @@ impl<'s> Search<'s> {
             let from_base = corners_body.map(|corner| corner - whisker.base_body);
             let arm = from_base.iter().map(Vector2::norm).fold(0.0, f64::max);
             // Half of a cell's diagonal, and half of the rotation between two headings.
-            let margin = CELL * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
+            let margin = CELL_SIZE * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
             shrunk(from_base, margin)
         });
         Self {
@@ -105,7 +105,7 @@ impl<'s> Search<'s> {
         let unreached = (0..pieces as usize).filter(|&index| {
             let s = stretch.start + (index as f64 + 0.5) / pieces * width;
             // The outside is on the right. An open contour may be touched from either side.
-            let outwards = -OFF * perpendicular(contour.tangent_at(s));
+            let outwards = -OUTSIDE_OFFSET * perpendicular(contour.tangent_at(s));
             let at = contour.point_at(s);
             !self.can_touch(at, outwards) && (contour.is_closed() || !self.can_touch(at, -outwards))
         });
@@ -138,13 +138,13 @@ impl<'s> Search<'s> {
     /// True if the shortest path through free space from a point to a base of a whisker is no longer than the longest
     /// whisker.
     fn reaches(&mut self, point: Point2) -> bool {
-        let most = DETOUR * self.length + 2.0 * CELL;
+        let most = DETOUR * self.length + 2.0 * CELL_SIZE;
         let mut open = BinaryHeap::new();
         let mut nearest: HashMap<Node, f64> = HashMap::new();
         let (column, row) = node_at(point);
         for node in (-1..=2).flat_map(|x| (-1..=2).map(move |y| (column + x, row + y))) {
             let length = (place(node) - point).norm();
-            if length <= 2.0 * CELL && self.is_free(node) && self.is_open(point, place(node)) {
+            if length <= 2.0 * CELL_SIZE && self.is_free(node) && self.is_open(point, place(node)) {
                 nearest.insert(node, length);
                 open.push(SearchPath { length, node });
             }
@@ -268,12 +268,12 @@ fn shrunk(corners: [Vector2; 4], margin: f64) -> [Vector2; 4] {
 }
 
 fn place((column, row): Node) -> Point2 {
-    Point2::new(column as f64 * CELL, row as f64 * CELL)
+    Point2::new(column as f64 * CELL_SIZE, row as f64 * CELL_SIZE)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a scene is some metres wide")]
 fn node_at(point: Point2) -> Node {
-    ((point.x / CELL).floor() as i64, (point.y / CELL).floor() as i64)
+    ((point.x / CELL_SIZE).floor() as i64, (point.y / CELL_SIZE).floor() as i64)
 }
 
 /// A path to a node. The order is reversed for a priority queue of the shortest paths.

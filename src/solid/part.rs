@@ -54,7 +54,7 @@ impl Part {
 
     /// True if a line separates the part from the convex hull of these points (m, world frame) by more than `reach`
     /// (m).
-    pub(crate) fn is_apart(&self, points: &[Point2], reach: f64) -> bool {
+    pub(crate) fn is_farther_than(&self, points: &[Point2], reach: f64) -> bool {
         let beyond =
             |place: &Point2, outwards: Vector2| points.iter().all(|point| (point - place).dot(&outwards) > reach);
         match self {

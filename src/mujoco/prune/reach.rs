@@ -137,7 +137,7 @@ impl Reach {
     /// The parts within `reach` (m) of the convex hull of these points, ascending. The result may contain more parts.
     fn parts_near<const N: usize>(&self, points: [Point2; N], reach: f64) -> Vec<usize> {
         let mut parts = self.boxes_near(points, reach);
-        parts.retain(|part| self.parts.get(*part).is_none_or(|part| !part.is_apart(&points, reach)));
+        parts.retain(|part| self.parts.get(*part).is_none_or(|part| !part.is_farther_than(&points, reach)));
         parts
     }
 

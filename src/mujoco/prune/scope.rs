@@ -11,7 +11,7 @@ pub struct Scope {
     /// For every whisker of the rig, true if it is a rigid part of the platform.
     rigid: Vec<bool>,
     /// The capacity for pairs that change during the run. `None` if all pairs are declared.
-    room: Option<usize>,
+    capacity: Option<usize>,
 }
 
 impl Scope {
@@ -19,7 +19,7 @@ impl Scope {
     #[must_use]
     pub fn whole(rig: &Rig, solids: &[Solid]) -> Self {
         let count = solids.iter().flat_map(Solid::parts).count();
-        Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()], room: None }
+        Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()], capacity: None }
     }
 
     /// Replaces the parts, given by their indices, ascending.
@@ -37,14 +37,14 @@ impl Scope {
 
     /// Sets the capacity for pairs.
     #[must_use]
-    pub fn with_room(self, pairs: usize) -> Self {
-        Self { room: Some(pairs), ..self }
+    pub fn with_capacity(self, pairs: usize) -> Self {
+        Self { capacity: Some(pairs), ..self }
     }
 
     /// The capacity for pairs; `None` if all pairs are declared.
     #[must_use]
-    pub fn room(&self) -> Option<usize> {
-        self.room
+    pub fn capacity(&self) -> Option<usize> {
+        self.capacity
     }
 
     /// The number of parts.
@@ -68,7 +68,7 @@ impl Scope {
     /// True if both scopes differ only in their rigid whiskers.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
-        self.parts == other.parts && self.room == other.room
+        self.parts == other.parts && self.capacity == other.capacity
     }
 
     /// True if a whisker, by its index in the rig, is rigid.

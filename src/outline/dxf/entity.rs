@@ -48,7 +48,7 @@ const ANNOTATIONS: [&str; 31] = [
 ];
 
 /// The geometry of an entity.
-pub(super) enum Drawn {
+pub(super) enum EntityGeometry {
     Nothing,
     /// A complete outline.
     Whole(Vec<Piece>),
@@ -59,11 +59,11 @@ pub(super) enum Drawn {
 /// A vertex of a polyline: its position, and the bulge of the following side.
 type Vertex = ([f64; 2], f64);
 
-pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn, OutlineError> {
+pub(super) fn geometry(entity: &Record<'_>, transform: &Transform) -> Result<EntityGeometry, OutlineError> {
     let drawn = match entity.kind {
         "LINE" => {
             let end = |code| -> Result<_, OutlineError> { Ok(transform.point(entity.place(code)?)?) };
-            return Ok(Drawn::Loose(vec![Piece::segment(end(10)?, end(11)?)]));
+            return Ok(EntityGeometry::Loose(vec![Piece::segment(end(10)?, end(11)?)]));
         }
         "CIRCLE" | "ARC" => {
             let radius = entity.number(40, 0.0)?;
@@ -75,7 +75,7 @@ pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn,
                 _ => [0.0, TAU],
             };
             let radii = [Vector2::new(radius, 0.0), Vector2::new(0.0, radius)];
-            elliptic(&own(entity, transform)?, entity.place(10)?, radii, angles)
+            elliptic(&object_transform(entity, transform)?, entity.place(10)?, radii, angles)
         }
         "ELLIPSE" => {
             let ratio = entity.number(40, 1.0)?;
@@ -83,17 +83,21 @@ pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn,
                 return Err(OutlineFault::AxisRatio { ratio }.into());
             }
             // The centre and the axis are in world coordinates, regardless of the direction of view.
-            let hand = own(entity, transform)?.x_axis.dot(&transform.x_axis).signum();
+            let hand = object_transform(entity, transform)?.x_axis.dot(&transform.x_axis).signum();
             let major = Vector2::from(entity.place(11)?);
             let minor = perpendicular(major) * (hand * ratio);
             let angles = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
             elliptic(transform, entity.place(10)?, [major, minor], angles)
         }
-        "LWPOLYLINE" => polyline(&light(entity)?, entity.integer(70)?, &own(entity, transform)?),
-        "POLYLINE" => polyline(&heavy(entity)?, entity.integer(70)?, &own(entity, transform)?),
+        "LWPOLYLINE" => {
+            polyline(&lightweight_vertices(entity)?, entity.integer(70)?, &object_transform(entity, transform)?)
+        }
+        "POLYLINE" => {
+            polyline(&following_vertices(entity)?, entity.integer(70)?, &object_transform(entity, transform)?)
+        }
         "SPLINE" => Err(unsupported("SPLINE", "turn it into a polyline with arcs, or save the drawing as SVG")),
         "INSERT" => Err(unsupported("INSERT", "explode the block")),
-        kind if ANNOTATIONS.contains(&kind) => Ok(Drawn::Nothing),
+        kind if ANNOTATIONS.contains(&kind) => Ok(EntityGeometry::Nothing),
         kind => {
             let kind: String = kind.chars().filter(|letter| !letter.is_control()).take(40).collect();
             Err(unsupported(&kind, "explode it into lines and arcs, or take it out"))
@@ -103,7 +107,7 @@ pub(super) fn drawn(entity: &Record<'_>, transform: &Transform) -> Result<Drawn,
 }
 
 /// The transform of an entity's own coordinates. The x axis of an entity that is seen from below is reversed.
-fn own(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
+fn object_transform(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
     let [x, y, z] = [entity.number(210, 0.0)?, entity.number(220, 0.0)?, entity.number(230, 1.0)?];
     let is_level = z != 0.0 && x.abs() + y.abs() <= 1e-9 * z.abs();
     if !is_level {
@@ -117,7 +121,7 @@ fn elliptic(
     centre: [f64; 2],
     radii: [Vector2; 2],
     [from, to]: [f64; 2],
-) -> Result<Drawn, OutlineFault> {
+) -> Result<EntityGeometry, OutlineFault> {
     for radius in radii {
         transform.point([centre[0] + radius.x, centre[1] + radius.y])?;
     }
@@ -131,11 +135,11 @@ fn elliptic(
     let radii = radii.map(|radius| transform.direction(radius.into()));
     let arc = EllipticArc { centre: transform.point(centre)?, radii, start_angle: from, sweep };
     let pieces = arc.pieces().ok_or(OutlineFault::Curve)?;
-    Ok(if is_whole { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
+    Ok(if is_whole { EntityGeometry::Whole(pieces) } else { EntityGeometry::Loose(pieces) })
 }
 
 /// The vertices of a lightweight polyline, within the entity.
-fn light(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
+fn lightweight_vertices(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     let mut vertices: Vec<Vertex> = Vec::new();
     for pair in &entity.pairs {
         match (pair.code, vertices.last_mut()) {
@@ -149,7 +153,7 @@ fn light(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
 }
 
 /// The vertices of a polyline in following entities.
-fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
+fn following_vertices(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
     const CLOSED_OR_FITTED_BY_ARCS: i32 = 1 | 2;
     const CONTINUOUS_PATTERN: i32 = 128;
     if entity.integer(70)? & !(CLOSED_OR_FITTED_BY_ARCS | CONTINUOUS_PATTERN) != 0 {
@@ -161,7 +165,7 @@ fn heavy(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
 }
 
 /// A polyline with arcs as sides. The bulge is the tangent of a quarter of the angle, positive to the left.
-fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<Drawn, OutlineFault> {
+fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<EntityGeometry, OutlineFault> {
     let hand = transform.x_axis.perp(&transform.y_axis).signum();
     let is_closed = flags & 1 != 0;
     let count = if is_closed { vertices.len() } else { vertices.len().saturating_sub(1) };
@@ -181,7 +185,7 @@ fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<Dr
             return Err(OutlineFault::Curve);
         }
     }
-    Ok(if is_closed { Drawn::Whole(pieces) } else { Drawn::Loose(pieces) })
+    Ok(if is_closed { EntityGeometry::Whole(pieces) } else { EntityGeometry::Loose(pieces) })
 }
 
 fn unsupported(what: &str, advice: &'static str) -> OutlineFault {

@@ -12,7 +12,7 @@ use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
 use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions};
 use drawing::Drawing;
-use entity::{Drawn, drawn};
+use entity::{EntityGeometry, geometry};
 use record::Record;
 
 /// The beginning of a binary DXF.
@@ -31,10 +31,10 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     let mut outlines = OutlineList::default();
     let mut loose = Vec::new();
     for entity in chosen(&drawing, options.element)? {
-        match drawn(entity, &transform).map_err(|error| error.or_at(entity.line))? {
-            Drawn::Nothing => {}
-            Drawn::Whole(pieces) => outlines.add(pieces, Some(entity.line))?,
-            Drawn::Loose(pieces) => loose.extend(pieces.into_iter().map(|piece| (piece, Some(entity.line)))),
+        match geometry(entity, &transform).map_err(|error| error.or_at(entity.line))? {
+            EntityGeometry::Nothing => {}
+            EntityGeometry::Whole(pieces) => outlines.add(pieces, Some(entity.line))?,
+            EntityGeometry::Loose(pieces) => loose.extend(pieces.into_iter().map(|piece| (piece, Some(entity.line)))),
         }
         if loose.len() > MAX_PIECES {
             return Err(OutlineFault::TooLarge { what: "lines and arcs", limit: MAX_PIECES }.at(Some(entity.line)));

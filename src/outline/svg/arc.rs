@@ -3,7 +3,7 @@
 use crate::geometry::Vector2;
 
 /// An elliptic arc, in user units.
-pub(super) struct Centred {
+pub(super) struct CentreArc {
     pub(super) centre: Vector2,
     /// The semi-axes.
     pub(super) radii: [Vector2; 2],
@@ -12,7 +12,7 @@ pub(super) struct Centred {
 }
 
 /// An arc with the parameters of `A`.
-pub(super) struct Given {
+pub(super) struct EndpointArc {
     pub(super) start: Vector2,
     pub(super) end: Vector2,
     pub(super) radii: [f64; 2],
@@ -23,10 +23,10 @@ pub(super) struct Given {
     pub(super) is_positive: bool,
 }
 
-impl Given {
+impl EndpointArc {
     /// Returns the arc with its centre, by the conversion of SVG 2, B.2.4. Radii that are too small for the end points
     /// are enlarged. `None` if a radius is 0, because the arc is then a straight line.
-    pub(super) fn centred(&self) -> Option<Centred> {
+    pub(super) fn to_centre_arc(&self) -> Option<CentreArc> {
         let [rx, ry] = self.radii.map(f64::abs);
         let (sin, cos) = self.rotation.sin_cos();
         let axes = [Vector2::new(cos, sin), Vector2::new(-sin, cos)];
@@ -47,7 +47,7 @@ impl Given {
         let turn = from.perp(&to).atan2(from.dot(&to));
         let tau = std::f64::consts::TAU;
         let sweep = if self.is_positive { turn.rem_euclid(tau) } else { -(-turn).rem_euclid(tau) };
-        Some(Centred {
+        Some(CentreArc {
             centre: 0.5 * (self.start + self.end) + axes[0] * (rx * centre.x) + axes[1] * (ry * centre.y),
             radii: [axes[0] * rx, axes[1] * ry],
             start_angle: from.y.atan2(from.x),
@@ -76,8 +76,8 @@ mod tests {
             let centre = Vector2::new(0.3, -0.2);
             let at = |t: f64| centre + rx * t.cos() * Vector2::new(cos, sin) + ry * t.sin() * Vector2::new(-sin, cos);
             let (is_large, is_positive) = (sweep.abs() > PI, sweep > 0.0);
-            let given = Given { start: at(from), end: at(from + sweep), radii: [rx, ry], rotation, is_large, is_positive };
-            let found = given.centred().unwrap();
+            let given = EndpointArc { start: at(from), end: at(from + sweep), radii: [rx, ry], rotation, is_large, is_positive };
+            let found = given.to_centre_arc().unwrap();
             prop_assert!((found.centre - centre).norm() < 1e-9 && (found.sweep - sweep).abs() < 1e-9);
             prop_assert!((found.start_angle - from).rem_euclid(TAU).min((from - found.start_angle).rem_euclid(TAU)) < 1e-9);
         }
@@ -86,10 +86,10 @@ mod tests {
     #[test]
     fn radii_that_are_too_small_grow_to_reach_both_ends() {
         let (start, end) = (Vector2::new(-1.0, 0.0), Vector2::new(1.0, 0.0));
-        let given = Given { start, end, radii: [0.5, 0.25], rotation: 0.0, is_large: false, is_positive: true };
-        let found = given.centred().unwrap();
+        let given = EndpointArc { start, end, radii: [0.5, 0.25], rotation: 0.0, is_large: false, is_positive: true };
+        let found = given.to_centre_arc().unwrap();
         assert!(found.centre.norm() < 1e-15 && (found.radii[1].y - 0.5).abs() < 1e-15);
         assert!((found.sweep - PI).abs() < 1e-15);
-        assert!(Given { radii: [0.0, 1.0], ..given }.centred().is_none());
+        assert!(EndpointArc { radii: [0.0, 1.0], ..given }.to_centre_arc().is_none());
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     let mut walk = Walk { named, source: Source::new("", text), outlines: OutlineList::default(), steps: 0 };
     walk.check(document.root())?;
     let Some(element) = options.element else {
-        walk.all(root, &transform, 0, true)?;
+        walk.read_visible(root, &transform, 0, true)?;
         return walk.outlines.into_outlines();
     };
     let Some(&node) = walk.named.get(element) else {
@@ -54,7 +54,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
         let meant = suggest(element, ids).map(str::to_owned);
         return Err(OutlineFault::NoElement { element: element.to_owned(), meant }.into());
     };
-    walk.one(node, &transform)?;
+    walk.read_element(node, &transform)?;
     walk.outlines.into_outlines()
 }
 

@@ -32,18 +32,18 @@ pub(super) struct Walk<'d> {
 
 impl<'d> Walk<'d> {
     /// Reads one element with the transforms of its ancestors, regardless of its visibility.
-    pub(super) fn one(&mut self, node: Node<'d, 'd>, root: &Transform) -> Result<(), OutlineError> {
+    pub(super) fn read_element(&mut self, node: Node<'d, 'd>, root: &Transform) -> Result<(), OutlineError> {
         let mut transform = *root;
         let above: Vec<_> = node.ancestors().skip(1).filter(Node::is_element).collect();
         for outer in above.into_iter().rev() {
-            transform = self.within(outer, &transform)?;
+            transform = self.inner_transform(outer, &transform)?;
         }
-        self.step(node, 0)?;
+        self.count_step(node, 0)?;
         self.draw(node, &transform, 0, true)
     }
 
     /// Counts the cost of a node before it is read.
-    fn step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
+    fn count_step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.name().len() + attribute.value().len()).sum();
         self.steps += 1 + bytes / BYTES_PER_STEP;
         if depth > DEEPEST {
@@ -72,14 +72,14 @@ impl<'d> Walk<'d> {
     }
 
     /// Reads the visible content of an element. `is_visible` is the inherited visibility.
-    pub(super) fn all(
+    pub(super) fn read_visible(
         &mut self,
         node: Node<'d, 'd>,
         transform: &Transform,
         depth: usize,
         is_visible: bool,
     ) -> Result<(), OutlineError> {
-        self.step(node, depth)?;
+        self.count_step(node, depth)?;
         let is_hidden = property(node, "display").is_some_and(|value| value.eq_ignore_ascii_case("none"));
         // A symbol is drawn only by `use`.
         if is_hidden || is(node, "symbol") {
@@ -97,13 +97,13 @@ impl<'d> Walk<'d> {
     ) -> Result<(), OutlineError> {
         match node.tag_name().name() {
             "svg" | "g" | "a" | "symbol" => {
-                let transform = self.within(node, transform)?;
+                let transform = self.inner_transform(node, transform)?;
                 // Texts and comments also count as steps.
                 for child in node.children() {
-                    self.all(child, &transform, depth + 1, is_visible)?;
+                    self.read_visible(child, &transform, depth + 1, is_visible)?;
                 }
             }
-            "use" => self.repeat(node, transform, depth, is_visible)?,
+            "use" => self.draw_use(node, transform, depth, is_visible)?,
             "switch" => {
                 let what = "`switch`, which shows one of several things,".to_owned();
                 let advice = "put what it is to show in its place";
@@ -111,7 +111,7 @@ impl<'d> Walk<'d> {
             }
             // Parts of a hidden group may be visible, but a hidden shape is not.
             "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" if is_visible => {
-                let transform = self.within(node, transform)?;
+                let transform = self.inner_transform(node, transform)?;
                 let drawn = if is(node, "path") { path::read(node, &transform) } else { shape::read(node, &transform) };
                 let drawn = drawn.map_err(|fault| self.at(node, fault))?;
                 // Lines are computed only for the few elements that draw something.
@@ -127,7 +127,7 @@ impl<'d> Walk<'d> {
     }
 
     /// Draws the target of a `use` element.
-    fn repeat(
+    fn draw_use(
         &mut self,
         node: Node<'d, 'd>,
         transform: &Transform,
@@ -139,19 +139,19 @@ impl<'d> Walk<'d> {
             let reason = format!("`use` refers to `{}`, which is not there", link.chars().take(40).collect::<String>());
             return Err(self.at(node, OutlineFault::Syntax { reason }));
         };
-        let transform = self.within(node, transform)?;
+        let transform = self.inner_transform(node, transform)?;
         let offset = length_or_zero(node, "x").and_then(|x| Ok([x, length_or_zero(node, "y")?]));
         let offset = offset.map_err(|fault| self.at(node, fault))?;
         let transform = transform.inner([1.0, 0.0], [0.0, 1.0], offset);
         if !is(found, "symbol") {
-            return self.all(found, &transform, depth + 1, is_visible);
+            return self.read_visible(found, &transform, depth + 1, is_visible);
         }
-        self.step(found, depth + 1)?;
+        self.count_step(found, depth + 1)?;
         self.draw(found, &transform, depth + 1, visibility(found).unwrap_or(is_visible))
     }
 
     /// The transform within an element.
-    fn within(&self, node: Node<'d, 'd>, transform: &Transform) -> Result<Transform, OutlineError> {
+    fn inner_transform(&self, node: Node<'d, 'd>, transform: &Transform) -> Result<Transform, OutlineError> {
         let is_root = node.parent().is_none_or(|parent| parent.is_root());
         let fits = node.attribute("viewBox").is_some() || is(node, "svg");
         if fits && !is_root {

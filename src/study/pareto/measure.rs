@@ -111,7 +111,7 @@ impl Measured {
 
     /// The mean distance (mm) of its tips from the contour that another run estimated.
     fn apart(&self, other: &Estimate) -> Option<f64> {
-        Some(1e3 * self.estimate.as_ref()?.apart(other)?)
+        Some(1e3 * self.estimate.as_ref()?.mean_distance(other)?)
     }
 }
 

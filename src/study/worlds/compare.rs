@@ -53,7 +53,7 @@ pub fn compare_worlds(
             tip_mm: of(|(reference, other)| 1e3 * (other.tip - reference.tip).norm()),
             moment_share: moment.map(|moment| 1e-6 * moment.mean * pairs.len() as f64 / bending),
             moment_un_m: moment,
-            contour_mm: Estimate::new(&own.trace).apart(&contour).map(|distance| 1e3 * distance),
+            contour_mm: Estimate::new(&own.trace).mean_distance(&contour).map(|distance| 1e3 * distance),
         });
     }
     Ok(rows)
