@@ -96,8 +96,8 @@ pub(in crate::study) fn evaluate(
             let length = rig.whiskers[in_rig].shaft.length;
             on_shaft += usize::from(perception.contact(bound).is_some_and(|touch| touch.contact_length < length));
             let error = scene.truth.surfaces.nearest(tip_world).distance;
-            let spread = perception.recorded_spread(bound);
-            tips.push(Tip { tick: index, whisker, tip_world, error, standard_deviation: spread, offset: None });
+            let standard_deviation = perception.recorded_deviation(bound);
+            tips.push(Tip { tick: index, whisker, tip_world, error, standard_deviation, offset: None });
         }
     }
     let figures = ErrorFigures::of(&tips);
