@@ -9,6 +9,7 @@ use thiserror::Error;
 use crate::book::{self, BookError};
 use crate::cargo::{NotStarted, cargo};
 use crate::checkout::Checkout;
+use crate::comments::{self, CommentsError};
 use crate::imports::{self, ImportsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
@@ -58,6 +59,8 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Prose(#[from] ProseError),
     #[error(transparent)]
+    Comments(#[from] CommentsError),
+    #[error(transparent)]
     Links(#[from] LinkError),
     #[error(transparent)]
     Book(#[from] BookError),
@@ -80,7 +83,7 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
 const CHECKS: [Check; 15] = [
     check("formatting", &["fmt", "--all", "--check"]),
-    Check { title: "prose of the documentation", work: Work::Prose },
+    Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
     Check { title: "order of the modules", work: Work::Imports },
     Check { title: "dependencies and targets of the runtime", work: Work::Runtime },
@@ -149,7 +152,10 @@ impl Check {
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
             Work::Imports => Ok(imports::check(root)?),
             Work::Runtime => Ok(runtime::check(root)?),
-            Work::Prose => Ok(prose::check(root)?),
+            Work::Prose => {
+                prose::check(root)?;
+                Ok(comments::check(root)?)
+            }
             Work::Links => Ok(links::check(root)?),
             Work::Book => the_book_is_built(root),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),

@@ -8,6 +8,7 @@ mod book;
 mod cargo;
 mod checkout;
 mod checks;
+mod comments;
 mod demo;
 mod fuzz;
 mod hash;
@@ -47,12 +48,20 @@ fn main() -> ExitCode {
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test => status(checks::run(&root)),
-        Command::Prose => status(prose::check(&root)),
+        Command::Prose => prose(&root),
         Command::Imports => status(imports::check(&root)),
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
+    }
+}
+
+/// Measures the pages and the doc comments.
+fn prose(root: &Path) -> ExitCode {
+    match prose::check(root) {
+        Ok(()) => status(comments::check(root)),
+        Err(error) => status(Err(error)),
     }
 }
 
