@@ -1,7 +1,7 @@
 //! Any bytes as a compiled machine, as they are and with a header and a checksum that fit them: refused, or safe to run.
 #![no_main]
 
-#[path = "../../tests/language/artifact/erratic.rs"]
+#[path = "../../tests/policy/machine/artifact/erratic.rs"]
 mod erratic;
 
 use sha2::{Digest, Sha256};

@@ -3,7 +3,7 @@
 
 #[path = "../../tests/policy_robustness/answered.rs"]
 mod answered;
-#[path = "../../tests/language/artifact/erratic.rs"]
+#[path = "../../tests/policy/machine/artifact/erratic.rs"]
 mod erratic;
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

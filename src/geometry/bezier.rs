@@ -120,6 +120,15 @@ mod tests {
         }
     }
 
+    /// A case that the first property once found.
+    #[test]
+    fn a_curve_with_a_tight_bend_is_followed() {
+        let control =
+            [(0.277_428, -0.243_496), (0.207_326, 0.111_083), (0.217_137, -0.138_287), (0.295_123, -0.053_671)];
+        let curve = Bezier { control: control.map(|(x, y)| Point2::new(x, y)) };
+        assert!(max_deviation(&curve, &curve.pieces().unwrap()) <= 1.1e-6);
+    }
+
     #[test]
     fn what_is_straight_is_one_segment_and_what_is_no_curve_is_none() {
         let at = |x, y| Point2::new(x, y);

@@ -7,7 +7,7 @@ mod allocator;
 mod answered;
 mod campaign;
 mod determinism;
-#[path = "../language/artifact/erratic.rs"]
+#[path = "../policy/machine/artifact/erratic.rs"]
 mod erratic;
 mod generate;
 mod mutate;

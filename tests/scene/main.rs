@@ -1,19 +1,14 @@
-//! What there is to be touched: geometry, outlines from files, scenarios, families, solids.
+//! Scenes: the format, geometry, outlines, solids, families, sweeps.
+
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
-mod errors;
-mod explain;
-mod families;
+mod family;
 mod geometry;
-mod near;
 #[cfg(feature = "outlines")]
-mod outlines;
-mod page;
-mod scenes;
-#[cfg(feature = "sim")]
-mod seams;
+mod outline;
+mod scenario;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
-mod solids;
-mod sweeps;
+mod solid;
+mod sweep;

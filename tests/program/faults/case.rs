@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use super::Content;
-use crate::cli::calibrate::sets;
-use crate::cli::program::{ROOT, stderr, vibrissa};
+use crate::command::calibrate::sets;
+use crate::command::program::{ROOT, stderr, vibrissa};
 
 /// A command that writes to the folder `out` in a folder of its own.
 pub(super) struct Case {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::cli::program::directory;
+use crate::command::program::directory;
 
 /// The files in a folder by their names.
 type Content = BTreeMap<String, Vec<u8>>;

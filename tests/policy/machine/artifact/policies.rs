@@ -62,18 +62,18 @@ pub(crate) fn everything() -> Artifact {
 /// The thesis's artifact.
 pub(crate) fn thesis() -> Artifact {
     static THESIS: LazyLock<Artifact> =
-        LazyLock::new(|| artifact("policies/thesis.fsm", include_str!("../../../policies/thesis.fsm")));
+        LazyLock::new(|| artifact("policies/thesis.fsm", include_str!("../../../../policies/thesis.fsm")));
     THESIS.clone()
 }
 
 /// The artifact of a policy that only swipes: small enough to be broken at every place.
 pub(crate) fn swiping() -> Artifact {
-    artifact("thesis.fsm", include_str!("../../fixtures/editor/thesis.fsm"))
+    artifact("thesis.fsm", include_str!("../../../fixtures/editor/thesis.fsm"))
 }
 
 /// The artifact of three levels of states.
 pub(crate) fn nested() -> Artifact {
-    artifact("nested.fsm", include_str!("../../fixtures/charts/nested.fsm"))
+    artifact("nested.fsm", include_str!("../../../fixtures/charts/nested.fsm"))
 }
 
 /// The artifacts of all policies of this project, of the examples of its language's page, of [`nested`], and of [`EVERYTHING`].
@@ -82,7 +82,7 @@ pub(crate) fn all() -> Vec<Artifact> {
     let files = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm"));
     let files = files.map(|path| artifact(&path.display().to_string(), &fs::read_to_string(&path).unwrap()));
-    let examples = include_str!("../../../docs/language.md").split("```fsm\n").skip(1).map(|behind| {
+    let examples = include_str!("../../../../docs/language.md").split("```fsm\n").skip(1).map(|behind| {
         let example = behind.split("```").next().unwrap();
         if example.starts_with("machine") {
             return artifact("language.md", example);

@@ -7,7 +7,7 @@ use vibrissa::geometry::{Vector2, unit};
 use vibrissa_runtime::mechanics::{Elastica, Equilibrium, LocateError, ShaftChain, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
-use crate::elastica::whisker::{any, any_tapered, cut, tip_moment};
+use crate::mechanics::whisker::{any, any_tapered, cut, tip_moment};
 
 /// A bend under a force at a share of the length, at an angle from the shaft there, in units of `EI / c²` for the length
 /// `c`, of as much less as the shaft tapers.

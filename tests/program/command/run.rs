@@ -72,7 +72,7 @@ fn a_scenario_finds_its_outlines_beside_itself_and_tells_of_one_that_is_not_ther
 mod with_simulation {
     use serde_json::Value;
 
-    use crate::cli::program::{directory, stderr, stdout, vibrissa};
+    use crate::command::program::{directory, stderr, stdout, vibrissa};
 
     /// The keys of a JSON value, with those of objects within, sorted.
     fn keys(value: &Value, prefix: &str, into: &mut Vec<String>) {

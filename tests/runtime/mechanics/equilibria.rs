@@ -8,7 +8,7 @@ use vibrissa::geometry::unit;
 use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
-use crate::elastica::whisker::{any_tapered, cut, moment_unit, tip_moment};
+use crate::mechanics::whisker::{any_tapered, cut, moment_unit, tip_moment};
 
 /// Whiskers with a force that bends them: at a share of the length, at an angle from the shaft there, a force in units of
 /// `EI / c²` for the length `c` to where it is, of as much less as the shaft tapers.

@@ -345,7 +345,7 @@ fn parameters_can_be_set_within_their_ranges() {
 
 #[test]
 fn the_same_text_gives_the_same_program() {
-    let text = include_str!("../../policies/thesis.fsm");
+    let text = include_str!("../../../policies/thesis.fsm");
     assert_eq!(program(text), program(text));
 }
 

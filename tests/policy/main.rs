@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
-mod artifact;
 mod chart;
 mod codes;
 #[path = "../common/mod.rs"]
@@ -13,9 +12,7 @@ mod expressions;
 mod format;
 mod index;
 mod machine;
-mod machine_memory;
 mod names;
-mod nesting;
 mod page;
 mod programs;
 mod recovery;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use vibrissa_runtime::mechanics::{Equilibrium, ShaftChain, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
-use crate::elastica::whisker::{any_tapered, bent, with_ratio};
+use crate::mechanics::whisker::{any_tapered, bent, with_ratio};
 
 /// The tip (m) of the whisker's chain with so many links, at the base angle and the direction of a bend. Of several equilibria it is
 /// the one near that bend, if there is one.

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, FAULT_LIMIT, Severity, Source, terminal};
 use vibrissa::scenario;
 
-const DISK: &str = include_str!("../../scenarios/disk.yaml");
+const DISK: &str = include_str!("../../../scenarios/disk.yaml");
 
 fn faults(text: &str) -> Vec<Diagnostic> {
     scenario::read(&Source::new("scenario.yaml", text)).err().unwrap_or_default()
@@ -14,7 +14,7 @@ fn faults(text: &str) -> Vec<Diagnostic> {
 #[test]
 fn every_malformed_scenario_is_answered_as_reviewed() {
     snapshots("scenarios").bind(|| {
-        insta::glob!("../fixtures/scenarios/bad", "*.yaml", |path| {
+        insta::glob!("../../fixtures/scenarios/bad", "*.yaml", |path| {
             let name = path.file_name().unwrap().to_string_lossy();
             let source = Source::new(name, std::fs::read_to_string(path).unwrap());
             let faults = scenario::read(&source).unwrap_err();

@@ -5,7 +5,7 @@ use vibrissa::scenario;
 use vibrissa::scene::Scene;
 use vibrissa_runtime::rig::Rig;
 
-const DOCUMENT: &str = include_str!("../../docs/scenarios.md");
+const DOCUMENT: &str = include_str!("../../../docs/scenarios.md");
 
 fn scenarios() -> Vec<Scene> {
     let blocks = DOCUMENT.split("```yaml\n").skip(1).map(|rest| rest.split("```").next().unwrap());

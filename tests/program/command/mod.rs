@@ -21,3 +21,5 @@ mod stress;
 #[cfg(feature = "sim")]
 mod sweep;
 mod test;
+#[cfg(feature = "sim")]
+mod watch;

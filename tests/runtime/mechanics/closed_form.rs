@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, rotate};
 use vibrissa_runtime::mechanics::Elastica;
 
-use crate::elastica::whisker::{any, any_tapered, bent, force_unit, moment_unit, with_ratio};
+use crate::mechanics::whisker::{any, any_tapered, bent, force_unit, moment_unit, with_ratio};
 
 /// Carlson's integral of the first kind, by duplication (Numerische Mathematik 33 (1979), 1).
 fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {

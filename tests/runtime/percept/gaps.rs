@@ -216,7 +216,7 @@ fn a_pose_that_is_none_leaves_no_point_in_a_contour() {
 /// Policies that compute with all that can go wrong, and go on whatever does.
 fn policies() -> [String; 2] {
     let resting = "initial Exploring failsafe -> Resting state Resting { stop after 0.2 s -> Exploring }";
-    let mut thesis = include_str!("../../policies/thesis.fsm").replace("initial Exploring", resting);
+    let mut thesis = include_str!("../../../policies/thesis.fsm").replace("initial Exploring", resting);
     while let Some(start) = thesis.find("Failure(") {
         let end = start + thesis[start..].find(')').unwrap();
         thesis.replace_range(start..=end, "Resting");

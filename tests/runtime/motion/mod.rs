@@ -1,0 +1,4 @@
+//! Motion: actions to commands.
+
+mod pose_hold;
+mod steering;

@@ -1,0 +1,6 @@
+//! The YAML format of scenarios.
+
+mod errors;
+mod near;
+mod page;
+mod scenes;

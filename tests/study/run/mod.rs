@@ -1,0 +1,5 @@
+//! The control loop in a world.
+
+mod hostile;
+mod ticks;
+mod way;

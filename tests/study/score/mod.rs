@@ -1,0 +1,10 @@
+//! Scores against the exact geometry.
+
+mod corners;
+mod passage;
+mod reach;
+mod retrieval;
+#[allow(clippy::module_inception, reason = "the score as a whole")]
+mod score;
+mod united;
+mod verdicts;
