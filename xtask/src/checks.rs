@@ -106,7 +106,7 @@ const CHECKS: [Check; 15] = [
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
-        &["doc", "--package", "vibrissa", "--features", FEATURES, "--no-deps"],
+        &["doc", "--package", "vibrissa", "--package", "vibrissa-runtime", "--features", FEATURES, "--no-deps"],
     ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
     check("benches, each run once", &["test", "--package", "vibrissa", "--features", FEATURES, "--benches"]),
