@@ -11,3 +11,6 @@ pub type Point2 = nalgebra::Point2<f64>;
 
 /// A vector in the plane.
 pub type Vector2 = nalgebra::Vector2<f64>;
+
+/// A 2×2 matrix, for instance a covariance.
+pub type Matrix2 = nalgebra::Matrix2<f64>;

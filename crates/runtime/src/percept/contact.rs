@@ -1,8 +1,8 @@
 //! The estimated contact of a whisker.
 
-use nalgebra::{Matrix2, Rotation2};
+use nalgebra::Rotation2;
 
-use crate::geometry::{Point2, Pose, Vector2, rotate};
+use crate::geometry::{Matrix2, Point2, Pose, Vector2, rotate};
 
 /// The contact of a whisker, as estimated by a contact estimator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,7 +10,7 @@ pub struct Contact {
     /// Contact position on the surface (m, world frame). It is not on the axis of the shaft.
     pub point_world: Point2,
     /// Covariance of the position (m², world frame).
-    pub covariance_world: Matrix2<f64>,
+    pub covariance_world: Matrix2,
     /// Standard deviation of the position (m), along the surface normal if the estimator knows it, else in both
     /// directions.
     pub deviation: f64,
@@ -27,7 +27,8 @@ impl Contact {
     ///
     /// `position` (m) and `covariance` (m²) are in the frame of the base, `length` (m) is that of the whisker, and
     /// `base` is the pose of the base.
-    pub(super) fn by_tip(position: Vector2, covariance: &Matrix2<f64>, length: f64, base: Pose) -> Self {
+    #[must_use]
+    pub fn by_tip(position: Vector2, covariance: &Matrix2, length: f64, base: Pose) -> Self {
         let deviation = covariance.trace().sqrt();
         Self {
             point_world: base.position + rotate(position, base.heading),
@@ -45,7 +46,7 @@ impl Contact {
 pub(super) const CONTACT_DEVIATION: f64 = 2.2e-5;
 
 /// Rotates a covariance by an angle (rad).
-pub(super) fn rotated(covariance: &Matrix2<f64>, angle: f64) -> Matrix2<f64> {
+pub(super) fn rotated(covariance: &Matrix2, angle: f64) -> Matrix2 {
     let turn = Rotation2::new(angle);
     turn * covariance * turn.inverse()
 }

@@ -139,6 +139,15 @@ impl Perception {
         })
     }
 
+    /// Replaces the contact estimator of a whisker, by its index in the policy. It allows an estimator that no
+    /// [`ContactEstimatorKind`] names. Replace estimators before the first [`update`](Self::update).
+    ///
+    /// # Panics
+    /// If the policy has no such whisker.
+    pub fn set_contact_estimator(&mut self, whisker: usize, estimator: Box<dyn ContactEstimator>) {
+        self.whiskers[whisker].set_estimator(estimator);
+    }
+
     /// Begins a tick with the samples since the last one, oldest first.
     ///
     /// Non-finite values and base angles beyond half a rotation are ignored. The newest valid value counts. A value

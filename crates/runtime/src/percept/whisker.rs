@@ -80,6 +80,11 @@ impl PerceivedWhisker {
         }
     }
 
+    /// Replaces the contact estimator.
+    pub(super) fn set_estimator(&mut self, estimator: Box<dyn ContactEstimator>) {
+        self.estimator = estimator;
+    }
+
     /// Filtered base angle (rad), or NaN if the tick has no valid reading.
     pub(super) fn base_angle(&self) -> f64 {
         self.base_angle.value()
