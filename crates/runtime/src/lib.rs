@@ -4,6 +4,61 @@
 //! estimates contacts, [`machine`] evaluates the compiled policy, and [`motion`] converts its action to a command.
 //!
 //! This crate contains no compiler, no scenario reader and no simulator. They are in the crate `vibrissa`.
+//!
+//! # The control loop
+//!
+//! `vibrissa compile policies/bang.fsm -o bang.machine` compiles a policy to an [`machine::Artifact`]. The robot loads the
+//! bytes and executes one tick per control period:
+//!
+//! ```
+//! use std::sync::Arc;
+//! use vibrissa_runtime::control::Control;
+//! use vibrissa_runtime::geometry::{Point2, Pose};
+//! use vibrissa_runtime::machine::{Artifact, Status};
+//! use vibrissa_runtime::rig::Rig;
+//! use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // Reading an artifact verifies it, so its program is safe to run.
+//! let artifact = Artifact::from_bytes(include_bytes!("../fixtures/bang.machine"))?;
+//! // The rig has the sizes, stiffnesses and sensors of the robot. The default is the reference rig.
+//! let rig = Rig::default();
+//! let mut control = Control::new(&rig, Arc::new(artifact.program))?;
+//!
+//! let period = rig.sensing.control_rate.recip();
+//! for tick in 1..=30 {
+//!     // On a robot, the sensors give the time, the pose of the body and the base angles.
+//!     let body = Pose { position: Point2::origin(), heading: 0.0 };
+//!     let mut whiskers = [Reading::default(); MAX_WHISKERS];
+//!     whiskers[0].base_angle = if tick > 15 { -100e-6 } else { 0.0 };
+//!     let sample = Sample { time: period * f64::from(tick), body, whiskers };
+//!
+//!     let (command, output) = control.tick(&[sample]);
+//!     assert_eq!(output.status, Status::Running);
+//!     assert!(command.velocity_world.norm() <= rig.platform.speed_limit);
+//! }
+//! // The policy explores until a whisker touches. Then it follows the surface.
+//! assert_eq!(control.machine().state_name(), "Following");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A tick does a bounded amount of work and allocates no memory. [`control::Control::tick`] accepts missing and invalid
+//! samples.
+//!
+//! # Modules
+//!
+//! | purpose | modules |
+//! |---|---|
+//! | the control loop and its interface | [`control`], [`signal`] |
+//! | description of the robot | [`rig`], [`calibration`] |
+//! | compiled policies | [`machine`] |
+//! | estimation of contacts | [`percept`], [`mechanics`] |
+//! | commands | [`motion`] |
+//! | basics | [`geometry`], [`units`] |
+//!
+//! Lengths are in metres, angles in radians, times in seconds and forces in newtons. Angles are positive
+//! counter-clockwise. The pages `docs/rig.md` and `docs/glossary.md` of the repository define frames, signs and terms.
 
 pub mod calibration;
 pub mod control;

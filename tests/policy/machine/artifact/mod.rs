@@ -2,6 +2,7 @@
 
 mod damage;
 mod erratic;
+mod fixture;
 mod format;
 mod policies;
 mod round_trip;
