@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
+use std::{fs, io};
 
 use thiserror::Error;
 
@@ -31,6 +32,7 @@ enum Work {
     Prose,
     Links,
     Book,
+    Examples,
     CheckoutIsUntouched,
 }
 
@@ -52,6 +54,8 @@ pub(crate) enum CheckError {
     CoreNeedsMujoco,
     #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
     LeftBehind(String),
+    #[error("cannot list the examples: {0}")]
+    Examples(io::Error),
     #[error(transparent)]
     Imports(#[from] ImportsError),
     #[error(transparent)]
@@ -103,6 +107,8 @@ const CHECKS: [Check; 15] = [
         &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
     ),
     check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
+    // The tests have built them.
+    Check { title: "examples", work: Work::Examples },
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
@@ -158,6 +164,7 @@ impl Check {
             }
             Work::Links => Ok(links::check(root)?),
             Work::Book => the_book_is_built(root),
+            Work::Examples => examples_run(self.title, root),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
     }
@@ -195,6 +202,24 @@ fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckE
     }
     let tree = String::from_utf8_lossy(&output.stdout);
     if tree.contains("mujoco-rs") { Err(CheckError::CoreNeedsMujoco) } else { Ok(()) }
+}
+
+/// Runs every file of `examples` as a program, on the build of the tests.
+fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
+    let entries = fs::read_dir(root.join("examples")).map_err(CheckError::Examples)?;
+    let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
+    let mut paths = paths.map_err(CheckError::Examples)?;
+    paths.sort();
+    for name in paths.iter().filter_map(|path| path.file_stem()?.to_str()) {
+        let arguments = ["run", "--quiet", "--package", "vibrissa", "--features", FEATURES, "--example", name];
+        let rerun = format!("cargo {}", arguments.join(" "));
+        println!("      {rerun}");
+        let status = cargo(root, &arguments).status().map_err(|source| NotStarted { program: "cargo", source })?;
+        if !status.success() {
+            return Err(CheckError::Failed { title, status, rerun });
+        }
+    }
+    Ok(())
 }
 
 /// Without mdBook there is no book, which is no fault of the documentation.
