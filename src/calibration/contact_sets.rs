@@ -1,4 +1,4 @@
-//! Files of contact sets, as comma-separated values.
+//! Files of contact sets as comma-separated values.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -9,7 +9,7 @@ use vibrissa_runtime::calibration::ContactSet;
 
 use crate::geometry::Vector2;
 
-/// Why sets cannot be read.
+/// The error of a file of contact sets.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {reason}")]
 pub struct SetsError {
@@ -17,20 +17,20 @@ pub struct SetsError {
     reason: String,
 }
 
-/// The columns of a file of sets: those that must be there, and those that may.
+/// The columns of a file of sets: the required ones, and the optional ones.
 const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
 const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
-/// How far from the base a place may be (mm), and the greatest base angle (µrad): no hinge turns by more than half a turn.
+/// Largest distance of a contact from the base (mm), and the largest base angle (µrad): half a turn of the hinge.
 const FARTHEST: f64 = 1e4;
 const GREATEST_ANGLE: f64 = 1e6 * PI;
-/// The greatest direction (degrees), either way.
+/// Largest magnitude of a direction (degrees).
 const FULL_TURN: f64 = 360.0;
 
-/// Reads sets from a text of comma-separated values: a header with the names of columns, in any order, and a set a line.
-/// There must be `x_mm`, `y_mm` and `base_angle_urad`, and may be `normal_deg` and `contact`, which is `tip` or `shaft`.
+/// Reads contact sets from comma-separated values: a header with the names of columns in any order, and one set in each
+/// line. `x_mm`, `y_mm` and `base_angle_urad` are required. `normal_deg` and `contact` (`tip` or `shaft`) are optional.
 ///
 /// # Errors
-/// [`SetsError`] with the first line that cannot be used.
+/// [`SetsError`] with the first invalid line.
 pub fn read_sets(bytes: &[u8]) -> Result<Vec<ContactSet>, SetsError> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let refusal = |error: &csv::Error| SetsError {
@@ -88,7 +88,7 @@ fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Resul
     Ok(ContactSet { contact_base, base_angle, normal, on_shaft })
 }
 
-/// Sets as such a text.
+/// Writes sets as comma-separated values.
 #[must_use]
 pub fn write_sets(sets: &[ContactSet]) -> String {
     let mut text = String::from("x_mm,y_mm,base_angle_urad,normal_deg,contact\n");

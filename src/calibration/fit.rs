@@ -1,4 +1,4 @@
-//! Fits to sets, and how well they hold for sets that they have not seen.
+//! Fits to contact sets, and their errors for sets that were not used.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -10,44 +10,46 @@ use vibrissa_runtime::rig::Whisker;
 
 use super::hinge_fit::HingeFit;
 
-/// What was fitted.
+/// The fits and their errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
     /// The fits to all sets.
     pub calibration: Calibration,
-    /// How well each of them holds.
+    /// The error of each of them.
     pub held_out: Vec<HeldOut>,
 }
 
-/// How far a fit is off for sets that it has not seen: every fifth place is held out, with all its sets, five times.
+/// The error of a fit for sets that were not used, by five-fold cross-validation. The sets of one position are held out
+/// together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct HeldOut {
-    /// What was fitted, and what it is for.
+    /// The name of the fit and the estimators that use it.
     pub model: &'static str,
-    /// How many sets were held out and are in its range.
+    /// Number of held-out sets within its range.
     pub sets: usize,
-    /// Root of the mean square of the distances (mm).
+    /// Root mean square of the distances (mm).
     pub rms_mm: f64,
     /// The greatest distance (mm).
     pub max_mm: f64,
-    /// In what range it holds, or what was found.
+    /// The range of the fit, or the fitted value.
     pub range: String,
 }
 
-/// The fewest places of touches by the tip that anything is fitted to.
+/// The fewest positions of tip contacts for a fit.
 pub const FEWEST_PLACES: usize = 50;
-/// Into how many parts the places are divided.
+/// Number of parts into which the positions are divided.
 const FOLDS: usize = 5;
-/// How far a surface may be from parallel to the heading (rad) for a set to count for one channel: a standard deviation, and its weight
-/// falls by a normal distribution.
+/// Standard deviation of the angle between a surface and the heading (rad) for the fit of one channel. The weight of a
+/// set follows a normal distribution of this angle.
 const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
 
-/// Sets that count less are left out.
+/// Sets of less weight are omitted.
 const LEAST_WEIGHT: f64 = 0.1;
 
-/// Fits everything that can be fitted to sets of a whisker. Those of touches on the shaft are left out, and those that bend it to the
-/// right count as their mirror images. With fewer places than [`FEWEST_PLACES`] nothing is fitted, and nothing that has too few in its range.
+/// Fits everything that can be fitted to contact sets of a whisker. Contacts of the shaft are omitted. Sets with a bend
+/// to the right are mirrored. There are no fits with fewer than [`MIN_POSITIONS`] positions, and no fit with too few
+/// positions within its range.
 #[must_use]
 pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     let sets: Vec<ContactSet> =
@@ -63,7 +65,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     calibration.one_channel = near_heading(whisker, &sets);
     if let Some(ContactCurve { range, .. }) = &calibration.one_channel {
         let miss = |curve: &ContactCurve, set: &ContactSet| {
-            // One standard deviation of the surface's direction, where it is known.
+            // One standard deviation of the surface's direction, if it is known.
             let is_meant = weight(whisker, set) > 0.6 && (curve.range[0]..=curve.range[1]).contains(&set.base_angle);
             is_meant.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
         };
@@ -93,20 +95,20 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     Fitted { calibration, held_out }
 }
 
-/// How much a set counts for one channel.
+/// Weight of a set for the fit of one channel.
 fn weight(whisker: &Whisker, set: &ContactSet) -> f64 {
     let off = set.normal.map_or(0.0, |normal| (normal - whisker.usual_normal()) / SURFACE_SPREAD);
     (-0.5 * off * off).exp()
 }
 
-/// The curve of one channel, by the sets that count for it.
+/// The curve of one channel, fitted to the sets with sufficient weight.
 fn near_heading(whisker: &Whisker, sets: &[ContactSet]) -> Option<ContactCurve> {
     let weighted = sets.iter().map(|set| (*set, weight(whisker, set))).filter(|(_, weight)| *weight > LEAST_WEIGHT);
     ContactCurve::fit(&weighted.collect::<Vec<_>>())
 }
 
-/// The number of every set's place, in the order in which the places come. Sets of one place are much alike: those that are fitted to
-/// would tell of those that are held out.
+/// The index of each set's position, in the order in which the positions occur. Sets of one position are similar: if
+/// some were fitted to, the errors of the others would be too small.
 fn places(sets: &[ContactSet]) -> Vec<usize> {
     let mut numbers = BTreeMap::new();
     let number = |set: &ContactSet| {
@@ -116,7 +118,7 @@ fn places(sets: &[ContactSet]) -> Vec<usize> {
     sets.iter().map(number).collect()
 }
 
-/// Fits again and again without a part of the sets, by their places, and judges by that part.
+/// Fits repeatedly without a part of the sets, selected by position, and evaluates the fit on that part.
 fn hold_out<F>(
     model: &'static str,
     (sets, places): (&[ContactSet], &[usize]),

@@ -1,28 +1,29 @@
-//! The stiffness of a base hinge, from touches in known places.
+//! Stiffness of a base hinge from contacts at known positions.
 
 use crate::geometry::{Vector2, rotate, unit};
 use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::percept::TipTable;
 use vibrissa_runtime::rig::Whisker;
 
-/// The mechanics of a whisker, for hinges of any stiffness.
+/// Statics of a whisker with a hinge of any stiffness.
 pub(super) struct HingeFit {
     table: TipTable,
     tip_radius: f64,
-    /// The stiffness that the table is for (N m/rad).
+    /// The stiffness of the table (N m/rad).
     stiffness: f64,
 }
 
-/// The least and the greatest stiffness that is tried, over that of the rig.
+/// The least and the greatest tried stiffness, as multiples of that of the rig.
 const SPAN: (f64, f64) = (0.2, 5.0);
-/// Logarithms as near to those of an end as this are at the end.
+/// A result within this difference of the logarithm from an end of the range counts as at the end.
 const AT_END: f64 = 1e-3;
-/// Values that are tried over that span, and steps of the golden section, which narrows what is between neighbours to a millionth.
+/// Number of tried values in that range, and of golden-section steps, which reduce the interval between neighbours to a
+/// millionth.
 const TRIES: u32 = 16;
 const STEPS: usize = 27;
-/// Directions of the normal (degrees) among which the nearest is sought where none is known.
+/// Directions of the normal (degrees) among which the best is searched if it is not known.
 const DIRECTIONS: std::ops::RangeInclusive<u32> = 60..=220;
-/// Steps of the Gauss-Newton method from there.
+/// Steps of the Gauss-Newton method from the best direction.
 const ITERATIONS: usize = 4;
 
 impl HingeFit {
@@ -34,17 +35,16 @@ impl HingeFit {
         }
     }
 
-    /// The stiffness (N m/rad) by which the mechanics come nearest to sets of touches by the tip, bent to the left. `None` if that is
-    /// beyond all that are tried.
+    /// The stiffness (N m/rad) with the least error for tip contacts, bent to the left. `None` at an end of the range.
     pub(super) fn fit(&self, sets: &[ContactSet]) -> Option<f64> {
-        // A set beyond the mechanics is as bad as one that is off by a centimetre.
+        // A set beyond the range of the statics counts as an error of a centimetre.
         let worst = 1e-2;
         let cost = |log: f64| -> f64 {
             let stiffness = self.stiffness * log.exp();
             sets.iter().map(|set| self.miss(set, stiffness).unwrap_or(worst).min(worst).powi(2)).sum()
         };
         let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-        // With a hinge that is far off, sets beyond the mechanics all cost the same, and nothing says which way to go.
+        // With a wrong hinge, all sets beyond the range have the same error, and the gradient is zero.
         let step = (SPAN.1 / SPAN.0).ln() / f64::from(TRIES);
         let tried = (0..=TRIES).map(|index| SPAN.0.ln() + step * f64::from(index));
         let best = tried.map(|log| (log, cost(log))).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
@@ -67,7 +67,8 @@ impl HingeFit {
         is_within.then(|| self.stiffness * found.exp())
     }
 
-    /// How far the place of a set is from where the mechanics have it (m): under its normal, or the nearest if that is not known.
+    /// Distance between the position of a set and the computed position (m), with its normal, or with the best normal
+    /// if it is not known.
     pub(super) fn miss(&self, set: &ContactSet, stiffness: f64) -> Option<f64> {
         let off = |normal| Some((self.place(set.base_angle, normal, stiffness)? - set.contact_base).norm());
         if let Some(normal) = set.normal {
@@ -86,9 +87,10 @@ impl HingeFit {
         Some(least)
     }
 
-    /// Where the tip touches (m, frame of the base) on a surface with this normal (rad), if the hinge has this stiffness.
+    /// The computed position of the tip (m, frame of the base) on a surface with this normal (rad), for a hinge of this
+    /// stiffness.
     fn place(&self, base_angle: f64, normal: f64, stiffness: f64) -> Option<Vector2> {
-        // The same moment turns another hinge by another angle, and the bent shaft with it.
+        // The same moment rotates another hinge by another angle, and the bent shaft with it.
         let as_in_table = base_angle * stiffness / self.stiffness;
         let turn = base_angle - as_in_table;
         let tip = self.table.at(as_in_table, normal - turn)?.tip_base;

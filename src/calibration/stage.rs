@@ -1,4 +1,4 @@
-//! A stage in the simulated world: a whisker against a rod, step by step over a grid.
+//! A simulated calibration rig: it moves a whisker over a grid of positions in front of a rod.
 
 use crate::geometry::{Point2, Pose, ShapeError, Vector2, circle, rotate, wrap};
 use crate::mujoco::{MujocoError, MujocoWorld};
@@ -9,63 +9,64 @@ use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 use vibrissa_runtime::signal::Command;
 
-/// Step of the grid, both ways (m).
+/// Step of the grid in both directions (m).
 const STEP: f64 = 3e-3;
-/// How far a whisker reaches beyond the near side of the rod, in the rows of the grid, and where the rod's middle is beside the
-/// undeflected shaft in its columns, in steps: 9 times 20 sets.
+/// Rows and columns of the grid in steps, 9 times 20 sets. A row is the overlap of the whisker with the near side of
+/// the rod. A column is the lateral distance of the rod's centre from the undeflected shaft.
 const ROWS: std::ops::RangeInclusive<i32> = 2..=10;
 const COLUMNS: std::ops::RangeInclusive<i32> = -1..=18;
 /// Radius of the rod (m).
 const ROD: f64 = 0.03;
-/// Where the rod is beside a straight whisker that passes it, and how far ahead while the stage goes back there (m).
+/// Lateral distance of the rod from a straight whisker that passes it, and its distance ahead during the return to that
+/// side (m).
 const BESIDE: f64 = 0.036;
 const AHEAD: f64 = 0.05;
-/// The length of a whisker (m) that all these are for; for others they are scaled.
+/// The length of a whisker (m) for which these values are valid. They are scaled for other whiskers.
 const LENGTH: f64 = 0.1;
 /// Size of the block that carries the whisker (m).
 const BLOCK: f64 = 2e-3;
-/// How many times as heavy as a platform, and its servos as strong, the stage is: no whisker pushes it aside.
+/// Factor of a platform's mass and servo stiffness, so that no whisker deflects the rig.
 const STIFF: f64 = 100.0;
-/// How deep a tip may sink in (m) for a moment: where it slips off the rod it springs.
+/// Largest short penetration depth of the tip (m), during a snap-off from the rod.
 const SPRINGING: f64 = 3e-3;
-/// Greatest speed of the stage (m/s), and the time (s) in which the rest of a way shrinks by a factor e.
+/// Highest speed of the rig (m/s), and the time constant (s) of the approach to a position.
 const SPEED: f64 = 0.03;
 const APPROACH: f64 = 0.1;
-/// How near to a place the stage has to be (m), how long it then rests, how long readings are taken, and the longest that a step may
-/// take (s).
+/// Largest distance from a position (m), time of rest there, time of the readings, and the time limit of a step (s).
 const NEAR: f64 = 1e-6;
 const REST: f64 = 0.3;
 const READING: f64 = 0.1;
 const PATIENCE: f64 = 30.0;
-/// How far from the tip what is touched may be (m) to be touched by the tip.
+/// Largest distance between the tip and a tip contact (m).
 const TIP: f64 = 2e-4;
 
-/// Why the stage gave no sets.
+/// The error of a simulated calibration.
 #[derive(Debug, thiserror::Error)]
 pub enum StageError {
     /// The whisker is too small for a rod.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Rod(#[from] ShapeError),
-    /// The same.
+    /// The rod cannot be simulated.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Solid(#[from] SolidError),
     /// The world could not be built.
     #[error(transparent)]
     World(#[from] MujocoError),
-    /// The world stopped being one.
+    /// The simulation cannot be trusted.
     #[error(transparent)]
     Fault(#[from] Fault),
-    /// The stage did not get where it was to go.
+    /// The rig did not reach a position.
     #[error("the stage did not come to rest; make `physics.step` smaller")]
     Restless,
 }
 
-/// Moves the base of a rig's whisker (by its index) over a grid of 3 mm steps before a rod, and takes a set wherever the two touch: in rows
-/// that are ever nearer to the rod the tip is drawn round it, bent as a surface beside the platform bends it. `seed` fixes the noise of
-/// the rig's sensors; a set is the mean of a tenth of a second.
+/// Moves the base of a rig's whisker (by its index) over a grid of 3 mm steps in front of a rod. Each position in
+/// contact gives a set. In each row the tip is dragged around the rod, and the rows approach the rod. The whisker bends
+/// as on a surface beside the platform. A set is the mean of a tenth of a second. `seed` is the seed of the sensor
+/// noise.
 ///
 /// # Errors
-/// [`StageError`] when the world cannot be built or trusted.
+/// [`CalibrationRigError`] if the world cannot be built or trusted.
 ///
 /// # Panics
 /// If the rig has no whisker with that index.
@@ -93,7 +94,7 @@ struct Stage {
     world: MujocoWorld,
     rod_radius: f64,
     length: f64,
-    /// Control ticks a second (Hz).
+    /// Control rate (Hz).
     rate: f64,
     body: Pose,
     /// Mean base angle of the newest tick (rad).
@@ -102,7 +103,7 @@ struct Stage {
 
 impl Stage {
     fn new(rig: &Rig, physics: &Physics, whisker: usize, scale: f64, seed: u64) -> Result<Self, StageError> {
-        // The base is in the middle of the block, and the undeflected shaft points ahead.
+        // The base is at the centre of the block, and the undeflected shaft points ahead.
         let whisker = Whisker { base_body: Point2::origin(), direction_body: 0.0, ..rig.whiskers[whisker].clone() };
         let length = whisker.shaft.length;
         let block = BLOCK * scale;
@@ -125,7 +126,8 @@ impl Stage {
         Ok(Self { world, rod_radius, length, rate: rig.sensing.control_rate, body, base_angle: 0.0 })
     }
 
-    /// One tick on the way to where the rod is at `rod_base` (m, from the base); gives what was left of the way (m).
+    /// One tick of motion towards the position at which the rod is at `rod_base` (m, from the base). Returns the
+    /// remaining distance (m).
     fn tick(&mut self, rod_base: Vector2) -> Result<f64, StageError> {
         let way = -rod_base - self.body.position.coords;
         let speed = (way.norm() / APPROACH).min(SPEED);
@@ -137,7 +139,7 @@ impl Stage {
         Ok(way.norm())
     }
 
-    /// Goes where the rod is at `rod_base` (m, from the base), and rests there.
+    /// Moves to the position at which the rod is at `rod_base` (m, from the base), and rests there.
     fn go(&mut self, rod_base: Vector2) -> Result<(), StageError> {
         let mut rested = 0;
         for _ in 0..self.ticks(PATIENCE) {
@@ -150,7 +152,7 @@ impl Stage {
         Err(StageError::Restless)
     }
 
-    /// Takes a set, if the whisker and the rod touch.
+    /// Measures a set. `None` without contact.
     fn read(&mut self) -> Result<Option<ContactSet>, StageError> {
         let ticks = self.ticks(READING);
         let (rod_base, mut sum) = (-self.body.position.coords, 0.0);
@@ -159,7 +161,7 @@ impl Stage {
             sum += self.base_angle;
         }
         Ok(self.world.whisker_contact(0).map(|(place, contact_length)| {
-            // On the rod's surface, into which the tip has sunk by a little.
+            // On the surface of the rod, which the tip penetrates slightly.
             let normal = place.coords.normalize();
             let from_base = self.rod_radius * normal - self.body.position.coords;
             ContactSet {
@@ -171,7 +173,7 @@ impl Stage {
         }))
     }
 
-    /// How many ticks a time (s) takes.
+    /// Number of ticks in a time (s).
     fn ticks(&self, time: f64) -> u32 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let ticks = (time * self.rate).ceil() as u32;

@@ -17,7 +17,7 @@ fn lay(dice: &mut Dice) -> Layout {
     let tilt = dice.between(-0.17, 0.17);
     let (first, second) = (dice.between(0.4, 0.55), dice.between(0.25, 0.4));
     let thickness = dice.between(0.15, 0.25);
-    // Up along the first side to the corner, and from there on, bent towards the platform.
+    // Along the first side to the corner, and from there towards the platform.
     let (into, out) = (unit(FRAC_PI_2 + tilt), unit(FRAC_PI_2 + tilt + turn));
     let right = |along: Vector2| -thickness * perpendicular(along);
     let corners = [
@@ -39,7 +39,7 @@ fn lay(dice: &mut Dice) -> Layout {
     }
 }
 
-/// From a corner of two directions to the corner of the lines a metre to the right of both.
+/// The vector from the corner between two directions to the corner of their lines displaced by a metre to the right.
 fn behind(into: Vector2, out: Vector2) -> Vector2 {
     let (before, after) = (-perpendicular(into), -perpendicular(out));
     (before + after) / (1.0 + before.dot(&after))

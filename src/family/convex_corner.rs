@@ -1,4 +1,4 @@
-//! A convex corner in the whisker's way.
+//! A convex corner in the path of a whisker.
 
 use std::f64::consts::PI;
 
@@ -14,14 +14,14 @@ pub(super) const FAMILY: Family = Family {
     lay,
 };
 
-/// Corners that turn by more than this (rad) are blades: two corners that together turn by 180°.
+/// Corners that turn by more than this (rad) are blades: two corners that turn by 180° in sum.
 const BLADE: f64 = 172.0 / 180.0 * PI;
 
 fn lay(dice: &mut Dice) -> Layout {
     let turn = dice.between(PI / 6.0, PI);
     let (side, back, thickness) = (dice.between(0.25, 0.4), dice.between(0.1, 0.25), dice.between(2e-3, 5e-3));
     let corners = if turn > BLADE { blade(side, thickness) } else { house(turn, side, back) };
-    // The side that leads to the corner goes along the platform's way, the corner ahead.
+    // The side before the corner is parallel to the path of the platform, with the corner ahead.
     let tilt = if turn > BLADE { 0.0 } else { 0.5 * (PI - turn) } + dice.between(-0.17, 0.17);
     let corners: Vec<_> = corners.iter().map(|&corner| rotate(corner, tilt)).collect();
     let hand = dice.side();
@@ -35,8 +35,8 @@ fn lay(dice: &mut Dice) -> Layout {
     }
 }
 
-/// The corners of a house seen from the top of its gable, which turns by `turn` (rad) and points along y: roofs of a length
-/// `side` (m), and walls of `back` (m).
+/// The corners of a house relative to the top of its gable, which turns by `turn` (rad) and points along y. The roofs
+/// have a length of `side` (m), the walls of `back` (m).
 fn house(turn: f64, side: f64, back: f64) -> Vec<Vector2> {
     let half = 0.5 * (PI - turn);
     let (width, height) = (side * half.sin(), side * half.cos());
@@ -45,7 +45,7 @@ fn house(turn: f64, side: f64, back: f64) -> Vec<Vector2> {
     vec![Vector2::zeros(), left, left + wall, right + wall, right]
 }
 
-/// The corners of a plate of this length and thickness (m) seen from one of those at its end, which points along y.
+/// The corners of a plate of this length and thickness (m) relative to a corner at its end. The plate points along y.
 fn blade(length: f64, thickness: f64) -> Vec<Vector2> {
     let (across, down) = (Vector2::new(thickness, 0.0), Vector2::new(0.0, -length));
     vec![Vector2::zeros(), down, down + across, across]

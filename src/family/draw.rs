@@ -8,20 +8,20 @@ use crate::diagnostic::Source;
 use crate::scenario;
 use crate::scene::{Jitter, Scene};
 
-/// The speeds that scenes are drawn with (m/s).
+/// The speeds of scenes (m/s).
 pub const SPEEDS: [f64; 3] = [0.02, 0.05, 0.1];
 
-/// How far a start may be from its family's.
+/// Largest deviation of a start from that of its family.
 const JITTER: Jitter = Jitter { position: 0.04, heading: FRAC_PI_6 };
 
-/// One scene of a family, and how it is to be run.
+/// One scene of a family with the parameters of its run.
 #[derive(Debug, Clone)]
 pub struct Draw {
-    /// The scenario as a file has it.
+    /// The scenario as text.
     pub text: String,
-    /// The same, read.
+    /// The scenario as a scene.
     pub scene: Scene,
-    /// The speed (m/s) that the run sets, as the policy's parameter `speed`.
+    /// The speed of the run (m/s), a value for the policy's parameter `speed`.
     pub speed: f64,
 }
 
@@ -34,17 +34,18 @@ pub struct NoDraw {
 }
 
 impl Family {
-    /// The scene with this number. Others, and those of other families and seeds, are drawn independently of it.
+    /// The scene with this number. It is independent of other scenes, families and seeds.
     ///
-    /// Its start is evenly distributed within 40 mm along x and y and 30° of the family's, the speed over [`SPEEDS`].
+    /// Its start is sampled uniformly within 40 mm along x and y and 30° of the family's start. Its speed is sampled
+    /// uniformly from [`SPEEDS`].
     ///
     /// # Errors
-    /// [`NoDraw`] when what was drawn is no scene, which would be a fault of the family.
+    /// [`NoDraw`] if the result is not a valid scene, which would be a fault of the family.
     pub fn draw(&self, seed: u64, trial: u64) -> Result<Draw, NoDraw> {
         self.draw_at(seed, trial, None)
     }
 
-    /// The same scene for a run at a `speed` (m/s), or at the one that is drawn.
+    /// The same scene for a run at a `speed` (m/s), or at the random speed.
     ///
     /// # Errors
     /// As [`draw`](Self::draw).
@@ -52,14 +53,14 @@ impl Family {
         let seed = scene_seed(self.name, seed, trial);
         let mut dice = Dice::new(seed);
         let layout = (self.lay)(&mut dice);
-        // The last number that is drawn, so that the scene is the same at every speed.
+        // The speed is sampled last, so that the scene is the same at every speed.
         let speed = speed.unwrap_or_else(|| SPEEDS[dice.count(0, 2) as usize]);
         let name = format!("{}-{trial}", self.name);
         drawn(&layout, &name, seed, speed).ok_or(NoDraw { family: self.name, trial })
     }
 }
 
-/// The scene with its start varied; `None` if there is none.
+/// The scene with a random start. `None` if it is not valid.
 fn drawn(layout: &Layout, name: &str, seed: u64, speed: f64) -> Option<Draw> {
     let read = |layout: &Layout| {
         let text = layout.text(name, seed, speed);

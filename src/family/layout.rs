@@ -1,62 +1,64 @@
-//! What a family draws: objects, a start, an aim; and the text of a scenario that they become.
+//! The layout of a random scene: objects, a start, an end. Also the text of its scenario.
 
 use std::fmt::Write;
 
 use super::outline::turn;
 use crate::geometry::{Harmonic, Point2, Pose, Vector2};
 
-/// A scene without its speed, its start not yet varied.
+/// A scene without its speed and without the deviation of its start.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
-    /// What this scene is like, in a few words and figures.
+    /// Description of the scene in a few words and figures.
     pub(super) about: String,
     /// The objects as YAML.
     pub(super) objects: Vec<String>,
-    /// The start that those of runs are near. The rig stands clear at all of them.
+    /// The mean start of runs. The rig is collision-free at all starts.
     pub(super) start: Pose,
-    /// When a run is completed.
+    /// The end of a run.
     pub(super) aim: Aim,
-    /// About how long the way is (m).
+    /// Approximate length of the path (m).
     pub(super) way: f64,
-    /// [`REFERENCE`] or [`FEELERS`].
+    /// [`REFERENCE`] or [`FORWARD_FACING`].
     pub(super) rig: Rig,
 }
 
-/// What differs between the rigs of families.
+/// The differences between the rigs of families.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rig {
-    /// Whiskers as YAML, with a comma behind; nothing for those of the reference rig.
+    /// Whiskers as YAML with a comma at the end. Empty for those of the reference rig.
     whiskers: &'static str,
     physics: &'static str,
 }
 
-/// When a run is completed.
+/// The end of a run.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Aim {
-    /// When an object has been traced all the way round.
+    /// The closed loop around an object.
     Loop,
-    /// When the platform has gone through a tunnel to its end, which is at this place.
+    /// The passage through a tunnel whose end is at this position.
     Through(Point2),
 }
 
-/// How near the end of a tunnel (m) the platform's centre of mass is when it has gone through.
+/// Distance between the end of a tunnel (m) and the platform's centre of mass at which the passage is complete.
 const AT_END: f64 = 0.05;
-/// How far behind the mouth of a tunnel (m) the first tick is at most: at the greatest speed it goes 3.3 mm a tick.
+/// Largest distance of the first tick behind the mouth of a tunnel (m). At the highest speed the platform moves 3.3 mm
+/// in a tick.
 const AT_MOUTH: f64 = 0.01;
-/// How far the platform may go until it has found the object (m).
+/// Largest distance that the platform may move before it finds the object (m).
 const APPROACH: f64 = 1.0;
-/// How often it may go all that, at its speed.
+/// Time limit as a multiple of the time for the whole path.
 const WAYS: f64 = 6.0;
-/// Time for what does not depend on the speed (s).
+/// Time for actions that do not depend on the speed (s).
 const REST: f64 = 60.0;
-/// The reference rig, with small steps and short contacts, as the thesis's scenes with corners have them: a whisker that springs round
-/// a corner, or comes to an object on the swing, sinks in for a moment, and deeper the longer the steps are.
+/// The reference rig with short steps and hard contacts, as in the baseline's scenes with corners. A whisker that slips
+/// off a corner, or touches an object while it vibrates, penetrates briefly. Longer steps cause deeper penetration.
 pub(super) const REFERENCE: Rig =
     Rig { whiskers: "", physics: "physics: {step: 0.5556 ms, contact_time: 1.25 ms, penetration_limit: 3 mm}" };
-/// The reference rig with two whiskers more a side, which look ahead: one near the corner of the nose that leans out, since what turns
-/// towards the platform by more than some 60°, or stands beside its way, would else meet the nose first; and one that points nearly
-/// straight on, for corners that come between these. They are pressed on nearly along their shafts, under which contacts that are as
-/// long as those of the reference rig give way by millimetres.
+/// The reference rig with two additional forward-facing whiskers on each side. One is near the corner of the nose and
+/// points outwards. Without it, surfaces that turn towards the platform by more than some 60°, or stand beside its
+/// path, would first meet the nose. The other points almost straight ahead, for corners between these. Forces on
+/// forward-facing whiskers are almost axial. With the soft contacts of the reference rig they would penetrate by
+/// millimetres.
 pub(super) const FEELERS: Rig = Rig {
     whiskers: "whiskers: {r0: {}, l0: {}, \
      feeler_r: {base: [100 mm, -14 mm], direction: -30 deg, length: 75 mm, radius: 0.11 mm}, \
@@ -79,7 +81,7 @@ impl Layout {
         let expect = match self.aim {
             Aim::Loop => "object_coverage: 95 %".to_owned(),
             Aim::Through(_) => {
-                // From the first tick behind the mouth to the place where the run ends.
+                // From the first tick behind the mouth to the end of the run.
                 let passage = 1.0 - (AT_MOUTH + AT_END) / self.way;
                 format!("passage: {:.2} %, wall_coverage: 85 %", 100.0 * passage)
             }
@@ -119,10 +121,10 @@ pub(super) fn polar(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Stri
     format!("polar: {{centre: {}, radius: {}, harmonics: [{}]}}", point(centre), metres(radius), harmonics.join(", "))
 }
 
-/// A convex polygon, counter-clockwise, with its corners but for the first rounded by these radii (m), 0 for a sharp one, as an
-/// object. A path adds up, so that its numbers keep all their digits.
+/// A convex polygon as an object, counter-clockwise. All corners except the first are rounded by these radii (m), 0 for
+/// a sharp corner. Errors of a path accumulate, so its numbers keep all digits.
 pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2) -> String {
-    // What the rounding of a corner takes of the sides that meet there.
+    // The length of the adjacent sides that the rounding of a corner replaces.
     let taken = |k: usize| radii[k % radii.len()] * (0.5 * turn(corners, k).2).tan();
     let mut moves = Vec::new();
     for k in 0..corners.len() - 1 {
@@ -139,8 +141,8 @@ pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2
     format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
 }
 
-/// A tunnel as an object: straight runs, each with its length (m) and heading (rad), from a place on; how much is clear between
-/// the walls (m) square to each run, and how thick they are (m).
+/// A tunnel as an object. It begins at `from` and has straight sections, each with its length (m) and heading (rad).
+/// `clear` is the distance between the walls (m), perpendicular to each section, and `thickness` that of the walls (m).
 pub(super) fn tunnel(from: &Pose, runs: &[(f64, f64)], clear: f64, thickness: f64) -> String {
     let runs: Vec<_> = runs
         .iter()

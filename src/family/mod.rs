@@ -1,7 +1,7 @@
-//! Families of scenes, drawn by chance: geometry that nobody tuned a policy for.
+//! Families of random scenes, with geometry that no policy was tuned for.
 //!
-//! A draw is the text of a scenario, read as any other, so that what is drawn is checked, can be printed and can be run by
-//! itself. It depends on nothing but the family's name, the seed and its number.
+//! A scene is the text of a scenario and is read as any other. Thus it is checked, can be printed and can be run by
+//! itself. It depends only on the family's name, the seed and its number.
 
 mod concave_corner;
 mod convex_corner;
@@ -26,12 +26,12 @@ pub use tally::FamilyTally;
 use dice::Dice;
 use layout::Layout;
 
-/// Scenes of one kind.
+/// A kind of scene with random geometry.
 #[derive(Debug, Clone, Copy)]
 pub struct Family {
     /// Its name: letters and `-`.
     pub name: &'static str,
-    /// What its scenes are like.
+    /// Description of its scenes.
     pub about: &'static str,
     lay: fn(&mut Dice) -> Layout,
 }

@@ -1,26 +1,27 @@
-//! Outlines round the origin.
+//! Outlines around the origin.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::dice::Dice;
 use crate::geometry::{Vector2, unit};
 
-/// Points by which an arc is told apart from its corner.
+/// Number of points of an arc.
 const POINTS: u32 = 32;
 
-/// The corners of a random convex polygon round the origin, counter-clockwise: on a circle, no two near each other.
+/// The corners of a random convex polygon around the origin, counter-clockwise. They are on a circle, with a least
+/// distance between neighbours.
 pub(super) fn convex_polygon(dice: &mut Dice, radius: f64, corners: u32) -> Vec<Vector2> {
     let (turned, step) = (dice.between(0.0, TAU), TAU / f64::from(corners));
     let angle = |k: u32, dice: &mut Dice| turned + step * (f64::from(k) + dice.between(-0.3, 0.3));
     (0..corners).map(|k| radius * unit(angle(k, dice))).collect()
 }
 
-/// Points all round a disk.
+/// Points on a circle around the origin.
 pub(super) fn disk(radius: f64) -> Vec<Vector2> {
     arc(radius, 0.0, TAU).collect()
 }
 
-/// The directions in which a closed polygon comes to a corner and leaves it, and how far it turns there (rad).
+/// The directions of the sides before and after a corner of a closed polygon, and its turning angle (rad).
 pub(super) fn turn(corners: &[Vector2], k: usize) -> (Vector2, Vector2, f64) {
     let count = corners.len();
     let corner = |k: usize| corners[k % count];
@@ -28,7 +29,7 @@ pub(super) fn turn(corners: &[Vector2], k: usize) -> (Vector2, Vector2, f64) {
     (into, out, into.perp(&out).atan2(into.dot(&out)))
 }
 
-/// Points all round a convex polygon, counter-clockwise, whose corners are rounded by these radii (m).
+/// Points on a convex polygon, counter-clockwise, whose corners are rounded by these radii (m).
 pub(super) fn rounded(corners: &[Vector2], radii: &[f64]) -> Vec<Vector2> {
     let corner = |k: usize| {
         let (into, out, turn) = turn(corners, k);

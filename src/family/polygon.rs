@@ -15,7 +15,7 @@ pub(super) const FAMILY: Family = Family {
     lay,
 };
 
-/// How much of a side its two rounded corners may take.
+/// Largest share of a side that its two rounded corners replace.
 const ROUNDED: f64 = 0.8;
 
 fn lay(dice: &mut Dice) -> Layout {
@@ -37,7 +37,7 @@ fn lay(dice: &mut Dice) -> Layout {
     }
 }
 
-/// The radius (m) by which a corner is rounded, every other one; 0 for a sharp one.
+/// The radius (m) of a corner. Every other corner is rounded, the rest have 0.
 fn rounding(dice: &mut Dice, corners: &[Vector2], k: usize) -> f64 {
     let (into, out, turn) = turn(corners, k);
     let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / (0.5 * turn).tan();

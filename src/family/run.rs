@@ -11,15 +11,15 @@ use crate::results::RunResult;
 pub struct FamilyRun {
     /// The family.
     pub family: &'static str,
-    /// Which of the family's scenes.
+    /// Number of the scene within the family.
     pub trial: u64,
-    /// What the scene is like.
+    /// Description of the scene.
     pub about: String,
-    /// The speed that it was drawn with (m/s).
+    /// The speed of the scene (m/s).
     pub speed: f64,
-    /// Whether it completed, traced its object, and the body touched nothing.
+    /// True if the run completed, traced its object, and the body touched nothing.
     pub passed: bool,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub result: RunResult,
 }

@@ -14,14 +14,15 @@ pub(super) const FAMILY: Family = Family {
     lay,
 };
 
-/// The most curvature of a bulge (1/m). A tip that slides round it does not spring off.
+/// Largest curvature of a convex part (1/m). A tip that slides around it does not snap off.
 const ROUND: f64 = 1.0 / 0.08;
-/// The most curvature of a hollow (1/m). The nose, 108 mm ahead of the centre of mass, has room where a whisker slides along it.
+/// Largest curvature of a concave part (1/m). A whisker can slide along it without a contact of the nose, which is 108
+/// mm ahead of the centre of mass.
 const HOLLOW: f64 = 1.0 / 0.25;
 
-/// How many directions are looked at.
+/// Number of angles at which the curvature is computed.
 const PLACES: u32 = 720;
-/// What is left of the waves each time that they are found too sharp.
+/// Factor of the harmonics each time that the curvature is too large.
 const FLATTER: f64 = 0.95;
 
 fn lay(dice: &mut Dice) -> Layout {
@@ -34,7 +35,7 @@ fn lay(dice: &mut Dice) -> Layout {
         })
         .collect();
     let mut bends = bends(radius, &harmonics);
-    // A circle is round enough, so this comes to an end.
+    // A circle satisfies both limits, so the loop ends.
     while bends.0 < -HOLLOW || bends.1 > ROUND {
         for harmonic in &mut harmonics {
             harmonic.amplitude *= FLATTER;
@@ -53,7 +54,7 @@ fn lay(dice: &mut Dice) -> Layout {
     }
 }
 
-/// The least and the greatest curvature (1/m) of a curve, positive where it bulges.
+/// The least and the greatest curvature (1/m) of a curve, positive in convex parts.
 fn bends(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
     let curvature = |angle| {
         let [r, slope, bend] = distance(radius, harmonics, angle);

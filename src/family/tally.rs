@@ -1,4 +1,4 @@
-//! What became of the runs of one family.
+//! Counts over the runs of one family.
 
 use serde::Serialize;
 
@@ -6,21 +6,21 @@ use crate::results::{Figures, Tally};
 
 use super::run::FamilyRun;
 
-/// What became of the runs of one family, or of those at one speed.
+/// Counts over the runs of one family, or over those at one speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FamilyTally {
     /// The family.
     pub family: &'static str,
-    /// The speed (m/s); `None` for all together.
+    /// The speed (m/s). `None` for all speeds together.
     pub speed: Option<f64>,
-    /// The figures.
+    /// The counts.
     #[serde(flatten)]
     pub tally: Tally,
 }
 
 impl FamilyTally {
-    /// Counts the runs of a family: those at one speed, or all.
+    /// Counts the runs of a family at one speed, or at all speeds.
     #[must_use]
     pub fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
         let is_counted =

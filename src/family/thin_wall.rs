@@ -1,4 +1,4 @@
-//! Thin walls that stand free.
+//! Free-standing thin walls.
 
 use super::Family;
 use super::dice::Dice;

@@ -1,4 +1,4 @@
-//! The way into a tunnel.
+//! The entrance of a tunnel.
 
 use super::Family;
 use super::dice::Dice;

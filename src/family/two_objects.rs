@@ -22,7 +22,7 @@ fn lay(dice: &mut Dice) -> Layout {
     });
     // A disk has no corners.
     let centre = ahead(dice, hand, &if corners[0].is_empty() { disk(radii[0]) } else { corners[0].clone() });
-    // The second one is farther to the side, or beyond: the platform comes upon the first.
+    // The second one is farther to the side, or behind the first: the platform meets the first one first.
     let direction = unit(dice.between(-0.3, 1.3));
     let beyond = centre + (radii[0] + gap + radii[1]) * Vector2::new(hand * direction.x, direction.y);
     let object = |corners: &[Vector2], centre, radius| {

@@ -1,4 +1,4 @@
-//! Tunnels of straight runs to and fro.
+//! Tunnels of straight sections with corners of alternating sign.
 
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ fn lay(dice: &mut Dice) -> Layout {
     let turn = dice.between(10.0, 60.0) / 180.0 * PI;
     let clear = dice.between(0.18, 0.26);
     let (length, hand) = (dice.between(0.22, 0.35), dice.side());
-    // The first run goes straight ahead.
+    // The first section is straight ahead.
     let runs: Vec<_> =
         (0..dice.count(4, 6)).map(|run| (length, if run % 2 == 0 { 0.0 } else { hand * turn })).collect();
     let from = mouth(dice);

@@ -11,7 +11,7 @@ use crate::scene::FileReference;
 
 use super::text::reason;
 
-/// Why a file cannot be used.
+/// The error of a file that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LoadError {
     /// The file cannot be read.
@@ -39,7 +39,7 @@ pub(crate) enum LoadError {
         /// The errors.
         faults: Vec<Diagnostic>,
     },
-    /// The file is no compiled policy that can be used.
+    /// The file is not a valid compiled policy.
     #[error("{}: {cause}", path.display())]
     Artifact {
         /// The file.
@@ -55,7 +55,7 @@ pub(crate) enum LoadError {
         /// The path of the text when it was compiled.
         origin: String,
     },
-    /// The file has no contact sets that can be used.
+    /// The file has no valid contact sets.
     #[error("{}: {cause}", path.display())]
     Sets {
         /// The file.
@@ -84,7 +84,8 @@ impl LoadError {
         Self::Faults { source_text: Box::new(source.clone()), faults: vec![fault] }
     }
 
-    /// Converts a file that cannot be read into a diagnostic at the place in `source` that names it. Other errors stay as they are.
+    /// Converts a file that cannot be read into a diagnostic at the span in `source` that names it. Other errors stay
+    /// as they are.
     pub(crate) fn named_in(source: &Source, file: &FileReference) -> impl FnOnce(Self) -> Self {
         |error| match error {
             Self::Read { path, cause } => Self::at(source, unreadable(file, &reason(&path, &cause))),

@@ -21,8 +21,8 @@ pub(crate) enum PolicyFile {
     Machine(Box<Artifact>),
 }
 
-/// Reads a policy's text or a compiled machine, which is one by how it begins, or is meant to be by its name; the hash is that of the file
-/// alone.
+/// Reads the text of a policy or a compiled machine. A machine is recognised by its first bytes or by its name. The
+/// hash is that of the file alone.
 pub(crate) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
     let bytes = files.read(path, ARTIFACT_LIMIT).map_err(LoadError::read(path))?;
     let hash = Sha256::new().chain_update(&bytes);
@@ -34,7 +34,7 @@ pub(crate) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loade
     Ok(Loaded { value, hash })
 }
 
-/// A policy's text with those of the files that it uses.
+/// The text of a policy with those of the files that it uses.
 pub(crate) fn with_libraries(source: &Source, files: &mut CommandFiles) -> Source {
     policy::gather(source, &mut |path| library(Path::new(path), files))
 }
@@ -44,7 +44,7 @@ fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
     files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
 }
 
-/// The same for an editor, which writes to no file.
+/// The text of a file that a policy uses, for an editor, which writes no file.
 #[cfg(feature = "lsp")]
 pub(crate) fn library_for_editor(path: &str) -> Result<String, String> {
     let path = Path::new(path);
@@ -54,7 +54,7 @@ pub(crate) fn library_for_editor(path: &str) -> Result<String, String> {
 /// A policy that is ready to run.
 pub(crate) struct Policy {
     pub(crate) artifact: Artifact,
-    /// `None` if it was compiled before.
+    /// The text. `None` for a compiled machine.
     pub(crate) text: Option<PolicyText>,
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct PolicyText {
     pub(crate) tests: Vec<PolicyTest>,
 }
 
-/// Reads a policy's text and compiles it, or a compiled machine.
+/// Reads the text of a policy and compiles it, or reads a compiled machine.
 pub(crate) fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     let Loaded { value, hash } = policy_file(path, files)?;
     match value {
@@ -74,8 +74,8 @@ pub(crate) fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Pol
     }
 }
 
-/// The policy for the scene that was read from `source`: the one that is asked for, or else the one that the scene names, or else the
-/// one that is built in.
+/// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, else the
+/// built-in one.
 pub(crate) fn policy_for(
     asked: Option<&Path>,
     scene: &Scene,
@@ -92,7 +92,7 @@ pub(crate) fn policy_for(
     }
 }
 
-/// Reads a policy's machine alone: what the compiler warns of takes most of its time.
+/// Reads a policy without its warnings, which take most of the time of a compilation.
 pub(crate) fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>, LoadError> {
     let Loaded { value, hash } = policy_file(path, files)?;
     let source = match value {
@@ -106,7 +106,7 @@ pub(crate) fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Pr
     }
 }
 
-/// A policy that is part of the program. It uses the standard library alone.
+/// A built-in policy. It uses only the standard library.
 pub(crate) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
     let source = Source::new(file.path, file.text);
     compiled(&source, &mut |_| Err("it is no part of the program".to_owned()))
@@ -124,7 +124,7 @@ fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>
     }
 }
 
-/// Reads a policy's text where a compiled machine will not do.
+/// Reads the text of a policy. A compiled machine is an error.
 pub(crate) fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
     match policy_file(path, files)?.value {
         PolicyFile::Text(source) => Ok(source),
@@ -139,7 +139,7 @@ pub(crate) fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, Load
     policy::chart(&source).map_err(|faults| LoadError::Faults { source_text: Box::new(source), faults })
 }
 
-/// The hash of a policy with parameters that are set, by name, to values (SI).
+/// The hash of a policy with the names and values (SI) of the parameters that are set.
 #[must_use]
 pub(crate) fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str, f64)>) -> Sha256 {
     settings.fold(policy, |hash, (name, value)| hash.chain_update(format!("\0{name}={value}")))

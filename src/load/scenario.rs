@@ -15,12 +15,12 @@ use crate::outline;
 use crate::scenario;
 use crate::scene::Scene;
 
-/// Reads a scenario with the files that it refers to; the hash is that of all of them.
+/// Reads a scenario with the files that it refers to. The hash is that of all of them.
 pub(crate) fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
     scenario_in(&read(path, files)?, files)
 }
 
-/// The same of a text that has been read.
+/// The scenario of a text that has been read, with the files that it refers to.
 pub(crate) fn scenario_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
     read_scenario(source, |name| outline_file(&beside(Path::new(&source.name), name), files))
 }
@@ -30,12 +30,12 @@ pub(crate) fn outline_file(path: &Path, files: &mut CommandFiles) -> Result<Vec<
     files.read(path, outline::SIZE_LIMIT).map_err(|cause| reason(path, &cause))
 }
 
-/// The path of a file that the file at `path` names relative to itself.
+/// The path of a file whose name is relative to the file at `path`.
 pub(crate) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
     path.parent().unwrap_or(Path::new("")).join(name)
 }
 
-/// A scenario that is part of the program.
+/// A built-in scenario.
 pub(crate) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, LoadError> {
     read_scenario(&Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
 }
@@ -57,7 +57,7 @@ fn read_scenario(
     }
 }
 
-/// Reads touches that were measured.
+/// Reads measured contacts.
 pub(crate) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, LoadError> {
     let source = read(path, files)?;
     read_sets(source.text.as_bytes()).map_err(|cause| LoadError::Sets { path: path.to_owned(), cause })

@@ -9,10 +9,10 @@ use super::LoadError;
 use crate::diagnostic::{NotUtf8, Source, utf8};
 use crate::file::CommandFiles;
 
-/// The most bytes that a text may have: as many as the largest scenario may have. Policies are smaller still.
+/// Largest size of a text in bytes, as for the largest scenario.
 pub(super) const SIZE_LIMIT: usize = 1 << 20;
 
-/// The name of a file as messages tell it. Paths within a text start from it, so that it must be the path, letter by letter.
+/// The name of a file in messages. It is exactly the path, because paths within a text are relative to it.
 pub(super) fn name(path: &Path) -> Result<String, LoadError> {
     path.to_str().map(str::to_owned).ok_or_else(|| LoadError::Name { path: path.to_owned() })
 }
@@ -43,7 +43,7 @@ pub(crate) fn read_standard(files: &mut CommandFiles) -> Result<Source, LoadErro
     Ok(Source::new(name, text))
 }
 
-/// Why a file cannot be read; where there is none, with the name that was probably meant.
+/// The reason for a file that cannot be read. For a missing file it suggests a similar name.
 pub(super) fn reason(path: &Path, cause: &Error) -> String {
     if cause.kind() != ErrorKind::NotFound {
         return cause.to_string();
@@ -51,7 +51,7 @@ pub(super) fn reason(path: &Path, cause: &Error) -> String {
     let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
     let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
     let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
-    // Of names that are equally near the first is suggested, and a folder has no order of its own.
+    // The first of several equally similar names is suggested. A folder has no order of its own.
     siblings.sort_unstable();
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-/// What a command writes as JSON: an object that names its format and the version of that.
+/// A JSON output of a command: an object with the name of its format and the version of the format.
 ///
-/// A version is raised when a key goes, gets another name or another meaning. A key that is added does not raise it. `docs/json.md` has the
-/// promise, `docs/schema` a schema of every format.
+/// The version is raised if a key is removed, renamed or changes its meaning. A new key does not raise it.
+/// `docs/json.md` describes this promise. `docs/schema` has a schema of every format.
 pub trait Document: Serialize {
     /// Name of the format.
     const FORMAT: &'static str;

@@ -1,4 +1,4 @@
-//! The result of a run, as programs read it.
+//! The result of a run as a JSON document.
 
 use super::Document;
 use serde::{Serialize, Serializer};
@@ -7,10 +7,10 @@ use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::{CornerFigures, CornerStatistics, Moments, RetrievalFigures, Score, StateShare, TipDistance};
 
-/// The result of a run, in the units that its keys name; serialised, it is what `run --json` prints.
+/// The result of a run, in the units of its keys. Its serialised form is the output of `run --json`.
 ///
-/// Every key is always there, with `null` for a figure that the run does not have. Numbers keep their full precision, so
-/// that results can be compared bit for bit.
+/// Every key is always present. It is `null` for a figure that the run does not have. Numbers have full precision, so
+/// that results can be compared bit by bit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RunResult {
@@ -22,23 +22,23 @@ pub struct RunResult {
     pub world: String,
     /// Seed of the sensor noise.
     pub seed: u64,
-    /// How the run ended.
+    /// Outcome of the run.
     pub outcome: Outcome,
-    /// Why, if not as it should.
+    /// Reason of the outcome. `None` for a completed run.
     pub reason: Option<String>,
-    /// Name of the state that it ended in.
+    /// Name of the last state.
     pub final_state: String,
     /// Simulated time.
     pub sim_s: f64,
-    /// Wall time from when the run was asked for to the end of its first tick: reading, compiling, building.
+    /// Wall time from the request of the run to the end of its first tick: reading, compiling, building.
     pub start_s: f64,
-    /// Wall time of the loop alone.
+    /// Wall time of the control loop alone.
     pub wall_s: f64,
-    /// Simulated time over wall time; `None` if the clock saw none pass.
+    /// Ratio of simulated time to wall time. `None` for a wall time of zero.
     pub realtime: Option<f64>,
     /// Distance of the tip estimates from the nearest surface.
     pub error_mm: ErrorMm,
-    /// Distance of the tip estimates from the true tips; `None` if the run recorded no tip.
+    /// Distance of the tip estimates from the true tips. `None` if the run recorded no tip.
     pub tip_error_mm: Option<TipErrorMm>,
     /// Share of the reference that was traced, 0 to 1.
     pub coverage: f64,
@@ -48,31 +48,31 @@ pub struct RunResult {
     pub out_of_reach: f64,
     /// Share of the rest of the reference that was traced, 0 to 1.
     pub coverage_in_reach: f64,
-    /// How the platform went through a tunnel; `None` outside of one.
+    /// Passage of the platform through a tunnel. `None` outside of tunnels.
     pub passage: Option<Passage>,
     /// Symmetric Hausdorff distance between the estimated contour and the reference.
     pub hausdorff_mm: Option<f64>,
-    /// The states that were left by their failsafe.
+    /// The fallback transitions.
     pub failsafes: Failsafes,
-    /// The retrievals of whiskers that had lost the object; `None` if the policy made no marks.
+    /// The retrievals of whiskers that had lost the object. `None` if the policy made no marks.
     pub retrieval: Option<Retrieval>,
-    /// Distance of the estimated midpoints from the axis of a tunnel; `None` outside of one.
+    /// Distance of the estimated midpoints from the axis of a tunnel. `None` outside of tunnels.
     pub axis_mm: Option<MeanStd>,
-    /// Sharp corners of the reference contour; `None` if it has none.
+    /// Sharp corners of the reference contour. `None` if it has none.
     pub corners: Option<Corners>,
-    /// Share of the time in each state that was active, 0 to 1; of nested states the innermost counts.
+    /// Share of the time in each state, 0 to 1. Of nested states only the innermost counts.
     #[serde(serialize_with = "shares")]
     #[cfg_attr(test, schemars(with = "std::collections::BTreeMap<String, f64>"))]
     pub states: Vec<StateShare>,
     /// Length of the path of the platform's centre of mass.
     pub path_m: f64,
-    /// That length over the reference contour's.
+    /// Ratio of that length to the length of the reference contour.
     pub path_ratio: f64,
     /// Contacts of the platform's body.
     pub collisions: Collisions,
     /// Wall time of a control tick.
     pub tick_us: TickUs,
-    /// What the run depends on.
+    /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
 
@@ -80,7 +80,7 @@ impl Document for RunResult {
     const FORMAT: &'static str = "run";
 }
 
-/// Which run a result is of.
+/// Names and hashes that identify a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identity {
     /// Name of the scenario.
@@ -91,19 +91,19 @@ pub struct Identity {
     pub world: String,
     /// Seed of the sensor noise.
     pub seed: u64,
-    /// What the run depends on.
+    /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
 
-/// Hashes of all that a run depends on: two runs with the same hashes and seed are the same run.
+/// Hashes of everything that a run depends on. Runs with equal hashes and seed have equal results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Hashes {
-    /// Of the scenario.
+    /// Hash of the scenario.
     pub scenario: String,
-    /// Of the policy with its parameters.
+    /// Hash of the policy with its parameters.
     pub policy: String,
-    /// Of the program and the simulator.
+    /// Hash of the program and the simulator.
     pub engine: String,
 }
 
@@ -119,9 +119,9 @@ pub struct ErrorMm {
     pub p95: Option<f64>,
     /// Maximum.
     pub max: Option<f64>,
-    /// Share of the estimates that lie within the band of 95 % that they tell themselves, 0 to 1.
+    /// Share of the estimates within the 95 % interval that they report, 0 to 1.
     pub within_band: Option<f64>,
-    /// Share of the estimates whose error exceeds 0.1 mm plus four of their own standard deviations, 0 to 1.
+    /// Share of the estimates whose error exceeds 0.1 mm plus four reported standard deviations, 0 to 1.
     pub outliers: Option<f64>,
     /// Number of estimates.
     pub n: usize,
@@ -131,25 +131,25 @@ pub struct ErrorMm {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TipErrorMm {
-    /// Along the outline.
+    /// Along the contour.
     pub along: MeanP95Max,
-    /// Across the outline.
+    /// Perpendicular to the contour.
     pub across: MeanP95Max,
 }
 
-/// How the platform went through a tunnel.
+/// Passage of the platform through a tunnel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Passage {
-    /// Share of the tunnel's length that the platform's centre of mass went through between the walls, 0 to 1.
+    /// Share of the tunnel's length that the platform's centre of mass covered between the walls, 0 to 1.
     pub share: f64,
     /// Share of the left inner side that was traced between the first and the last contact, 0 to 1.
     pub left_coverage: f64,
     /// Share of the right inner side.
     pub right_coverage: f64,
-    /// Whether the whiskers of the rig reach both walls at once.
+    /// True if the whiskers of the rig reach both walls at once.
     pub reaches_both: bool,
-    /// The share of the two that counts: the lesser if the whiskers reach both walls at once, else the greater.
+    /// The lesser share of the two if the whiskers reach both walls at once, else the greater one.
     pub wall_coverage: f64,
 }
 
@@ -165,27 +165,28 @@ pub struct MeanP95Max {
     pub max: f64,
 }
 
-/// States that were left by their failsafe.
+/// Fallback transitions.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Failsafes {
-    /// How many times one was.
+    /// Number of fallback transitions.
     pub count: usize,
-    /// When the first was.
+    /// Time of the first one.
     pub first_s: Option<f64>,
-    /// Name of the state that was left then.
+    /// Name of the state that the first one left.
     pub first_state: Option<String>,
-    /// Why it was left.
+    /// Cause of the first one.
     pub first_cause: Option<String>,
 }
 
-/// Retrievals of whiskers that had lost the object, by the thesis's definitions (section 5.2).
+/// Retrievals of whiskers that had lost the object, by the baseline's definitions (section 5.2 of the thesis).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Retrieval {
-    /// How many there were.
+    /// Number of retrievals.
     pub count: usize,
-    /// Distance from the edge point, the last tip recorded before contact was lost, to where it was found again.
+    /// Distance between the edge point, the last recorded tip before contact was lost, and the point at which contact
+    /// was found again.
     pub radius_mm: MeanStd,
     /// Length of the path of the platform's centre of mass between the two.
     pub distance_mm: MeanStd,
@@ -193,21 +194,22 @@ pub struct Retrieval {
     pub time_s: MeanStd,
 }
 
-/// Sharp corners, which turn by more than 20°: how well they were found, and what they cost.
+/// Accuracy and cost of the sharp corners, which turn by more than 20°.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Corners {
-    /// How many there are.
+    /// Number of sharp corners.
     pub count: usize,
-    /// How many of them were traced on both sides; the figures are of these.
+    /// Number of corners that were traced on both sides. The figures are those of these corners.
     pub traced: usize,
-    /// Distance of the estimated corner, where lines through the tips of its two sides meet, from the exact one.
+    /// Distance of the estimated corner from the exact one. The estimated corner is the intersection of lines through
+    /// the tips of its two sides.
     pub place_mm: MeanStdMax,
-    /// How much more or less than the exact corner the estimated one turns, without sign.
+    /// Magnitude of the difference between the turning angles of the estimated and the exact corner.
     pub angle_rad: MeanStdMax,
-    /// Distance of the last tip before the whisker left the contour from the corner; `null` if it never did.
+    /// Distance between the corner and the last tip before the whisker left the contour. `null` if it never left it.
     pub edge_mm: MeanStdMax,
-    /// Time from that tip to the first one when the whisker was back on the contour; 0 if it did not leave it.
+    /// Time from that tip to the first tip after the whisker was back on the contour. 0 if it did not leave it.
     pub time_s: MeanStdMax,
     /// Path of the platform's centre of mass in that time.
     pub path_m: MeanStdMax,
@@ -217,9 +219,9 @@ pub struct Corners {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Collisions {
-    /// How many separate ones.
+    /// Number of separate contacts.
     pub count: usize,
-    /// Time in touch.
+    /// Time in contact.
     pub time_s: f64,
 }
 
@@ -258,7 +260,7 @@ pub struct TickUs {
 }
 
 impl RunResult {
-    /// The result of `run`, which got this `score`.
+    /// The result of `run` with this `score`.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score) -> Self {
         let Identity { scenario, policy, world, seed, hash } = identity;
@@ -359,7 +361,7 @@ impl MeanStdMax {
 }
 
 impl MeanStd {
-    /// A spread (SI) in a unit of which there are `units` in the SI's.
+    /// Mean and standard deviation in another unit. There are `units` of it in the SI unit.
     fn new(spread: Option<Moments>, units: f64) -> Self {
         Self {
             mean: spread.map(|spread| spread.mean * units),

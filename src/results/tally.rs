@@ -1,26 +1,26 @@
-//! What became of many runs.
+//! Counts over many runs.
 
 use serde::{Deserialize, Serialize};
 
 use super::RunResult;
 use crate::scene::Outcome;
 
-/// How a run of many ended.
+/// The outcome of one of many runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Ending {
-    /// As it should.
+    /// The run reached its end.
     Completed,
-    /// It was not there in time.
+    /// The run reached its time limit.
     Timeout,
-    /// It failed.
+    /// The run failed.
     Failed,
-    /// It can no longer be trusted.
+    /// The simulation cannot be trusted.
     Diverged,
-    /// It ended the process that it ran in.
+    /// The process of the run crashed.
     Crashed,
-    /// It could not begin.
+    /// The run could not begin.
     Refused,
 }
 
@@ -50,49 +50,49 @@ impl From<Outcome> for Ending {
     }
 }
 
-/// What is counted of a run.
+/// The figures of a run that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figures {
-    /// How it ended.
+    /// The outcome.
     pub ending: Ending,
-    /// Whether it was as its scenario expects.
+    /// True if all expectations of its scenario hold.
     pub passed: bool,
-    /// Whether the body touched something.
+    /// True if the body touched something.
     pub collided: bool,
     /// Mean of its errors (mm).
     pub error_mean_mm: Option<f64>,
-    /// Their 95th percentile (mm).
+    /// 95th percentile of its errors (mm).
     pub error_p95_mm: Option<f64>,
-    /// The shares of its tips that are counted.
+    /// The counts of its tips.
     pub tips: TipShares,
 }
 
-/// How many tips some runs recorded, and how many of them lie where they should not or should.
+/// The number of tips of some runs, of outliers, and of tips within their 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TipShares {
-    /// How many tips there are.
+    /// Number of tips.
     pub count: f64,
-    /// How many of them are outliers.
+    /// Number of outliers.
     pub outliers: f64,
-    /// How many lie within the 95 % interval that they report.
+    /// Number of tips within the 95 % interval that they report.
     pub within_band: f64,
 }
 
 impl TipShares {
-    /// Those of one run, by its shares (0 to 1) of `count` tips.
+    /// The counts of one run, by its shares (0 to 1) of `count` tips.
     #[must_use]
     pub fn of_run(count: usize, outliers: Option<f64>, within_band: Option<f64>) -> Self {
         let count = count as f64;
         Self { count, outliers: count * outliers.unwrap_or(0.0), within_band: count * within_band.unwrap_or(0.0) }
     }
 
-    /// Share of all tips that are outliers, 0 to 1; `None` without a tip.
+    /// Share of outliers among all tips, 0 to 1. `None` without a tip.
     #[must_use]
     pub fn outlier_share(&self) -> Option<f64> {
         (self.count > 0.0).then(|| self.outliers / self.count)
     }
 
-    /// Share of all tips that lie within the 95 % interval that they report, 0 to 1; `None` without a tip.
+    /// Share of tips within the 95 % interval that they report, 0 to 1. `None` without a tip.
     #[must_use]
     pub fn within_band_share(&self) -> Option<f64> {
         (self.count > 0.0).then(|| self.within_band / self.count)
@@ -110,7 +110,7 @@ impl std::iter::Sum for TipShares {
 }
 
 impl Figures {
-    /// Those of a run that took place, and `passed` or not.
+    /// The figures of a run. `passed` is true if its expectations hold.
     #[must_use]
     pub fn new(result: &RunResult, passed: bool) -> Self {
         Self {
@@ -124,35 +124,36 @@ impl Figures {
     }
 }
 
-/// What became of some runs.
+/// Counts and mean errors over some runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Tally {
-    /// How many runs there were.
+    /// Number of runs.
     pub runs: usize,
-    /// How many completed.
+    /// Number of completed runs.
     pub completed: usize,
-    /// How many completed as their scenarios expect. Families expect that the object is traced and that the body touches nothing.
+    /// Number of completed runs whose expectations hold. Families expect that the object is traced and that the body
+    /// touches nothing.
     pub passed: usize,
-    /// How many were not there in time.
+    /// Number of timeouts.
     pub timeout: usize,
-    /// How many failed.
+    /// Number of failed runs.
     pub failed: usize,
-    /// How many can no longer be trusted.
+    /// Number of diverged runs.
     pub diverged: usize,
-    /// How many ended the process that they ran in.
+    /// Number of runs whose process crashed.
     pub crashed: usize,
-    /// How many could not begin.
+    /// Number of runs that could not begin.
     pub refused: usize,
-    /// In how many the body touched something.
+    /// Number of runs in which the body touched something.
     pub collided: usize,
-    /// Mean of the runs' mean errors, those that completed (mm).
+    /// Mean of the mean errors of the completed runs (mm).
     pub error_mean_mm: Option<f64>,
-    /// Mean of their 95th percentiles (mm).
+    /// Mean of the 95th percentiles of the errors of the completed runs (mm).
     pub error_p95_mm: Option<f64>,
-    /// Share of the tips of all runs that are outliers, 0 to 1.
+    /// Share of outliers among the tips of all runs, 0 to 1.
     pub outliers: Option<f64>,
-    /// Share of the tips of all runs that lie within the 95 % interval that they report, 0 to 1.
+    /// Share of tips of all runs within the 95 % interval that they report, 0 to 1.
     pub within_band: Option<f64>,
 }
 

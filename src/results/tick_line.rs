@@ -1,13 +1,14 @@
-//! What every tick of a run perceived and commanded, as programs read it.
+//! Perception and command of every tick as JSON documents.
 
 use super::Document;
 use serde::Serialize;
 
 use crate::run::{TickRecord, Trace};
 
-/// One control tick, in the units that its keys name; serialised, it is a line of what `run --ticks` writes.
+/// One control tick, in the units of its keys. Its serialised form is a line that `run --ticks` writes.
 ///
-/// Places and directions are in the world frame. Every key is always there, with `null` for what the tick does not have.
+/// Positions and directions are in the world frame. Every key is always present. It is `null` for a value that the tick
+/// does not have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TickLine<'a> {
@@ -15,17 +16,17 @@ pub struct TickLine<'a> {
     pub scenario: &'a str,
     /// Time since the start of the run.
     pub time_s: f64,
-    /// Name of the active state after the tick; `None` after a failure.
+    /// Name of the active state after the tick. `None` after a failure.
     pub state: Option<&'a str>,
-    /// Place of the platform's centre of mass.
+    /// Position of the platform's centre of mass.
     pub position_m: [f64; 2],
     /// Heading of the platform.
     pub heading_rad: f64,
-    /// Velocity of the centre of mass that the tick commanded.
+    /// Commanded velocity of the centre of mass.
     pub velocity_m_s: [f64; 2],
-    /// Yaw rate that it commanded, counter-clockwise positive.
+    /// Commanded yaw rate, counter-clockwise positive.
     pub yaw_rate_rad_s: f64,
-    /// Whether the platform's body touched something since the last tick; no policy sees this.
+    /// True if the platform's body touched something since the last tick. Policies cannot read this.
     pub body_touches: bool,
     /// The whiskers that the policy binds, in its order.
     pub whiskers: Vec<WhiskerLine<'a>>,
@@ -43,19 +44,19 @@ pub struct WhiskerLine<'a> {
     pub whisker: &'a str,
     /// Filtered base angle, counter-clockwise positive.
     pub deflection_rad: f64,
-    /// Whether that is beyond the contact threshold.
+    /// True if its magnitude exceeds the contact threshold.
     pub touching: bool,
-    /// Whether it sprang since the last tick, as one does that slips off a corner; no policy sees this.
+    /// True if the whisker had a snap-off since the last tick, for instance at a corner. Policies cannot read this.
     pub springs: bool,
-    /// Where the tip is perceived to be.
+    /// Estimated position of the tip.
     pub tip_m: Option<[f64; 2]>,
-    /// How far off that may be: a standard deviation.
+    /// Standard deviation of that position.
     pub tip_spread_m: f64,
-    /// Direction of travel at the end of the contour that was last recorded.
+    /// Direction of travel at the end of the last recorded contour.
     pub tangent: Option<[f64; 2]>,
-    /// Whether the tip was recorded.
+    /// True if the tip was recorded.
     pub recorded: bool,
-    /// What the policy marked: `lost`, `found`.
+    /// The marks of the policy: `lost`, `found`.
     pub marks: Vec<&'static str>,
 }
 

@@ -15,31 +15,31 @@ use super::stall_watch::StallWatch;
 use super::trace::{MarkRecord, TickRecord, Touch, Trace};
 use vibrissa_runtime::control::Control;
 
-/// What a run gave.
+/// The result of the control loop.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
-    /// Why, if not as it should.
+    /// Reason of the outcome. `None` for a completed run.
     pub reason: Option<String>,
-    /// Name of the state that it ended in.
+    /// Name of the last state.
     pub final_state: String,
-    /// What happened.
+    /// The trace.
     pub trace: Trace,
     /// Wall time of the loop alone.
     pub wall: Duration,
-    /// Wall time from where the run was asked for to the end of its first tick. Of the loop alone it is the time of the first samples
-    /// and their tick; who reads, compiles and builds before adds to it.
+    /// Wall time from the request of the run to the end of its first tick. The control loop sets it to the time of the
+    /// first samples and their tick. Its caller adds the time of reading, compiling and building.
     pub start: Duration,
-    /// Wall time of each control tick: perception, machine and steering.
+    /// Wall time of each control tick: perception, machine and motion.
     pub tick_times: Vec<Duration>,
 }
 
-/// Ticks for which there is room from the start, an hour at 30 Hz; a longer run makes more when it needs it.
+/// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
 const ROOM: usize = 108_000;
 
-/// Drives `world` by `control` until `stop`. At every tick `progress` hears what has happened so far, and may break the run
-/// off; then there is none.
+/// Runs `control` in `world` until `stop`. `progress` receives the trace at every tick, and may stop the run. Then the
+/// result is `None`.
 pub fn drive(
     world: &mut dyn World,
     mut control: Control,
@@ -118,12 +118,12 @@ pub fn drive(
     Some(Run { outcome, reason, final_state, trace, wall: start.elapsed(), start: first_tick, tick_times })
 }
 
-/// Whether the platform is where it is to get to.
+/// True if the platform has reached the position of `aim`.
 fn is_reached(tick: &TickRecord, aim: &Reached) -> bool {
     tick.time >= aim.after && (tick.body.position - aim.place).norm() <= aim.within
 }
 
-/// What the tick with this index marked.
+/// The marks of the tick with this index.
 fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
     control.perception().fitted().enumerate().flat_map(move |(whisker, (bound, _))| {
         let marks = control.perception().marks(bound);

@@ -1,4 +1,4 @@
-//! When a whisker has gone all the way round.
+//! Detection of a closed loop.
 
 use std::collections::VecDeque;
 use std::f64::consts::PI;
@@ -6,40 +6,41 @@ use std::f64::consts::PI;
 use crate::geometry::{Point2, Vector2, perpendicular, turn_between};
 use crate::scene::LoopClosed;
 
-/// How far the platform has gone round since the first time at a place (rad) when it has gone all the way round: a full turn, less by
-/// how much it leans to the surface more than at first. A tip that slid back has gone round by nothing, give or take the same.
+/// Least rotation of the platform about a point for a closed loop (rad). It is a full turn minus a possible difference
+/// of the platform's inclination to the surface. A tip that slides back has a rotation of zero, with the same
+/// tolerance.
 const ROUND: f64 = PI;
 
-/// A tip closes the loop where it comes back to one of those that were recorded along this much of the outline (m) from the first one
-/// on. The first one itself may be where no tip comes back to: next to a corner, or off the outline while the contact was fresh.
+/// Length of the outline along which the first tips are kept (m). A later tip near one of them closes the loop. The
+/// very first tip alone is not sufficient: it may be next to a corner, or off the outline because the contact was new.
 const FIRST_STRETCH: f64 = 0.02;
 
-/// Distance (m) between the two tips that tell the direction of the outline.
+/// Distance (m) between the two tips that give the direction of the outline.
 const CHORD: f64 = 0.002;
 
-/// Cosine of the greatest angle between two normals of the same side of an object.
+/// Cosine of the largest angle between two normals on the same side of an object.
 const SAME_SIDE: f64 = 0.5;
 
-/// How many ticks (1) and how far (m) apart tips are at most that follow each other along the outline. The score joins tips by the same
-/// measures.
+/// Limits for consecutive tips along the outline, in ticks (1) and distance (m). The score connects tips by the same
+/// limits.
 const LONGEST_BREAK: usize = 3;
 const LONGEST_STEP: f64 = 0.01;
 
-/// Watches one whisker's tips for their coming round to where the first ones were.
+/// Compares one whisker's tips with its first ones.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LoopWatch {
     start: Option<Start>,
     /// The platform's bearing from the first tip (rad).
     bearing: f64,
-    /// How far that has turned since (rad), counter-clockwise.
+    /// Rotation of that bearing since then (rad), counter-clockwise positive.
     turned: f64,
-    /// The newest tips that follow each other, back to one [`CHORD`] behind.
+    /// The newest consecutive tips, back to one [`CHORD`] behind.
     newest: VecDeque<Point2>,
     /// Ticks since the newest tip.
     missed: usize,
 }
 
-/// Where a loop began.
+/// The start of a loop.
 #[derive(Debug, Clone)]
 struct Start {
     /// Time of the first tip (s).
@@ -48,25 +49,26 @@ struct Start {
     place: Point2,
     /// The first tips.
     tips: Vec<FirstTip>,
-    /// How much of the outline they are along (m).
+    /// Length of the outline along them (m).
     length: f64,
 }
 
 /// One of the first tips.
 #[derive(Debug, Clone, Copy)]
 struct FirstTip {
-    /// Where it is (m, world frame).
+    /// Its position (m, world frame).
     place: Point2,
-    /// The outline's normal there, which points to the platform's side.
+    /// Normal of the outline, towards the platform's side.
     normal: Vector2,
-    /// How far the platform had gone round the very first tip by then (rad).
+    /// Rotation of the platform about the very first tip up to this tip (rad).
     turned: f64,
 }
 
 impl LoopWatch {
-    /// Takes the tip of one tick, if there is one, and where the platform is. Says whether the tip closes the loop: it is near one of
-    /// the first ones, on the same side of the object, late enough, and the platform has gone round since. A tip that slid back is near
-    /// the first ones too, and so is one on the other side of a thin wall.
+    /// Receives the tip of one tick, if there is one, and the position of the platform. Returns true if the tip closes
+    /// the loop. Such a tip is near one of the first ones, on the same side of the object and late enough, and the
+    /// platform has rotated about it since. A tip that slid back is also near the first ones, and so is a tip on the
+    /// other side of a thin wall.
     pub(super) fn closes(&mut self, time: f64, tip: Option<Point2>, platform: Point2, aim: &LoopClosed) -> bool {
         let begun = tip.map(|place| Start { time, place, tips: Vec::new(), length: 0.0 });
         let Some(start) = self.start.take().or(begun) else { return false };
@@ -122,7 +124,8 @@ mod tests {
 
     const AIM: LoopClosed = LoopClosed { within: 0.005, after: 2.0 };
 
-    /// The time at which tips along a circle of 0.1 m, at the angles given tick by tick, close the loop; the platform is outside.
+    /// The time at which tips on a circle of 0.1 m close the loop. The angles are given tick by tick, and the platform
+    /// is outside.
     fn closing_time(angles: impl Iterator<Item = f64>) -> Option<f64> {
         closing_time_with(&AIM, angles)
     }
@@ -144,8 +147,8 @@ mod tests {
         }
     }
 
-    /// Tips all round a polygon, again and again, from 2 mm behind its first corner on, with the platform 0.1 m away from them: straight
-    /// off the outline, but for a lean (rad) that depends on the way so far (m).
+    /// Tips along a polygon, several times around, from 2 mm behind its first corner on. The platform is 0.1 m away,
+    /// perpendicular to the outline except for a lean (rad) that depends on the distance along the path (m).
     fn round(corners: &[Point2], lean: impl Fn(f64) -> f64) -> impl Iterator<Item = (Point2, Point2)> {
         let contour = polygon(corners).unwrap();
         (0..1200).map(move |tick| {
@@ -156,7 +159,7 @@ mod tests {
         })
     }
 
-    /// The way (m) after which those close the loop.
+    /// The distance along the path (m) after which these tips close the loop.
     fn closing_way(corners: &[Point2], lean: impl Fn(f64) -> f64) -> Option<f64> {
         let mut watch = LoopWatch::default();
         let mut ticks = round(corners, lean).zip(0_u32..);
@@ -192,7 +195,8 @@ mod tests {
     #[test]
     fn behind_a_thin_wall_no_lean_of_the_platform_closes_the_loop() {
         for lean in [0.4, 0.6, -0.6] {
-            // Leaning one way at first and the other way from then on, the platform goes round by up to 250 deg to the other side.
+            // With a lean to one side at first and to the other from then on, the platform rotates by up to 250 deg on
+            // the way to the other side.
             let way = closing_way(&wall(0.002), |way| if way < 0.01 { -lean } else { lean });
             assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{lean} rad: {way:?}");
         }

@@ -1,4 +1,4 @@
-//! The loop: sample, perceive, decide, command; and the trace of what happened.
+//! The control loop in a world, and its trace.
 
 mod drive;
 mod loop_watch;

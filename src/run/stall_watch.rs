@@ -1,4 +1,4 @@
-//! When a run gets nowhere.
+//! Detection of a run without progress.
 
 use std::collections::HashMap;
 
@@ -8,13 +8,13 @@ use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::trace::TickRecord;
 
-/// Watches a run for progress: the platform or a recorded tip comes to a place where it has not been.
+/// Detects progress: the platform or a recorded tip reaches a new position.
 #[derive(Debug)]
 pub(super) struct StallWatch {
     limit: Stalled,
     body: Places,
     tips: [Places; MAX_WHISKERS],
-    /// When there was progress last (s).
+    /// Time of the last progress (s).
     newest: f64,
 }
 
@@ -23,7 +23,7 @@ impl StallWatch {
         Self { limit, body: Places::default(), tips: Default::default(), newest: 0.0 }
     }
 
-    /// Takes a tick, and says why the run is given up with it, if it is.
+    /// Receives a tick. Returns the reason if the run has stalled.
     pub(super) fn stalls(&mut self, tick: &TickRecord) -> Option<String> {
         let Stalled { within, after } = self.limit;
         let mut is_new = self.body.add(tick.body.position, within);
@@ -40,12 +40,12 @@ impl StallWatch {
     }
 }
 
-/// Places, by squares of the plane.
+/// Positions by the squares of a grid.
 #[derive(Debug, Default)]
 struct Places(HashMap<(i64, i64), Vec<Point2>>);
 
 impl Places {
-    /// Adds a place that is further than `within` (m) from all that are there; whether it is.
+    /// Adds a position if it is farther than `within` (m) from all earlier ones. Returns true if it is.
     fn add(&mut self, place: Point2, within: f64) -> bool {
         if !(place.x.is_finite() && place.y.is_finite()) {
             return false;
@@ -73,7 +73,7 @@ mod tests {
 
     const LIMIT: Stalled = Stalled { within: 0.02, after: 10.0 };
 
-    /// The time (s) at which a run is given up that goes through these places of the platform and these tips, ten a second.
+    /// The time (s) at which a run stalls with these positions of the platform and these tips, ten a second.
     fn given_up(ticks: impl Iterator<Item = (Point2, Option<Point2>)>) -> Option<f64> {
         let mut watch = StallWatch::new(LIMIT);
         let mut ticks = ticks.enumerate().map(|(index, (position, tip))| {

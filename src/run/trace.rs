@@ -1,32 +1,32 @@
-//! What happened in a run, tick by tick.
+//! Trace of a run, tick by tick.
 
 use crate::geometry::{Point2, Pose, Vector2};
 use vibrissa_runtime::machine::{Fallback, Mark};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
-/// What happened in a run, tick by tick.
+/// Trace of a run, tick by tick.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// The whiskers that the policy binds, in its order.
     pub whiskers: Vec<String>,
-    /// The machine's states; ticks name them by index.
+    /// The machine's states. Ticks refer to them by index.
     pub states: Vec<String>,
-    /// The state that each of them lies in, by its index; an outer state comes before those in it.
+    /// The parent of each state, by its index. An outer state comes before its inner states.
     pub parents: Vec<Option<usize>>,
     /// Time between ticks (s).
     pub period: f64,
     /// The ticks.
     pub ticks: Vec<TickRecord>,
-    /// What the policy marked, in the order of time; of one tick, whisker by whisker.
+    /// The marks of the policy in the order of time. Within a tick they are in the order of whiskers.
     pub marks: Vec<MarkRecord>,
-    /// Whether the run ended because the platform's body was driven into something, after the last tick.
+    /// True if the run ended after the last tick because the platform's body was driven into something.
     pub crashed: bool,
 }
 
 /// One mark.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MarkRecord {
-    /// What was marked.
+    /// The kind of mark.
     pub mark: Mark,
     /// Index of the whisker.
     pub whisker: usize,
@@ -43,42 +43,43 @@ pub struct TickRecord {
     pub time: f64,
     /// Pose of the platform's centre of mass, as sampled.
     pub body: Pose,
-    /// Index of the active state after the tick; `None` after a failure.
+    /// Index of the active state after the tick. `None` after a failure.
     pub state: Option<usize>,
-    /// Filtered base angles (rad).
+    /// Filtered base angles (rad), counter-clockwise positive.
     pub deflections: [f64; MAX_WHISKERS],
     /// Tip estimates that the policy recorded (m, world frame).
     pub tips: [Option<Point2>; MAX_WHISKERS],
-    /// What the whiskers' tips touch, recorded or not.
+    /// The perceived contacts of the whiskers, recorded or not.
     pub touches: [Touch; MAX_WHISKERS],
-    /// How far off each tip may be (m), as standard deviations, by what the tip model tells.
+    /// Standard deviation of each tip position (m), as reported by the contact estimator.
     pub tip_spreads: [f64; MAX_WHISKERS],
-    /// The command that the tick gave.
+    /// The command of the tick.
     pub command: Command,
-    /// The state that the machine left by its failsafe, if it left one.
+    /// The fallback transition of the tick, if there was one.
     pub failsafe: Option<Fallback>,
-    /// Where the axis of each whisker ends (m, world frame), as the world knows it; no policy sees this. `None` of a whisker that the
-    /// trace does not have.
+    /// True position of the end of each whisker's axis (m, world frame). `None` for a whisker that the trace does not
+    /// have. Policies cannot read it.
     pub tip_ends: [Option<Point2>; MAX_WHISKERS],
-    /// Whether the platform's body touched something since the last tick, as the world knows it; no policy sees this.
+    /// True if the platform's body touched something since the last tick. Policies cannot read it.
     pub body_touches: bool,
-    /// Whether each whisker sprang since the last tick, as one does that slips off a corner; no policy sees this either.
+    /// True for each whisker with a snap-off since the last tick, for instance at a corner. Policies cannot read it.
     pub springs: [bool; MAX_WHISKERS],
 }
 
-/// What a whisker's tip touches, as perceived.
+/// The perceived contact of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Touch {
-    /// Whether the base angle is beyond the rig's contact threshold.
+    /// True if the magnitude of the base angle exceeds the rig's contact threshold.
     pub is_touching: bool,
-    /// Where the tip is, or would be if it touched (m, world frame); `None` in a tick that brought no reading.
+    /// Estimated position of the tip (m, world frame), also without contact. `None` in a tick without a reading.
     pub tip_world: Option<Point2>,
-    /// Direction of travel (unit vector, world frame) at the end of the contour that the policy last recorded, once it is ready.
+    /// Direction of travel (unit vector, world frame) at the end of the last recorded contour. `None` before the local
+    /// contour is ready.
     pub tangent_world: Option<Vector2>,
 }
 
 impl Trace {
-    /// The ticks in which the machine left a state by its failsafe, with what it did so for.
+    /// The ticks with a fallback transition, and its cause.
     pub fn failsafes(&self) -> impl Iterator<Item = (&TickRecord, Fallback)> {
         self.ticks.iter().filter_map(|tick| Some((tick, tick.failsafe?)))
     }

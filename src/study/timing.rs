@@ -1,4 +1,4 @@
-//! How fast the runs of the bench are.
+//! Run times of the bench.
 
 use serde::Serialize;
 
@@ -7,18 +7,19 @@ use crate::scene::Outcome;
 use crate::score::Statistics;
 use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 
-/// How fast one run was.
+/// Run time of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
-    /// How it ended.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// Simulated time (s).
     pub sim: f64,
-    /// Wall time (s) from the compiled policy and the scene to the end of the first tick: world, tables of perception.
+    /// Wall time (s) from the compiled policy and the scene to the end of the first tick. It includes the world and the
+    /// tables of perception.
     pub start: f64,
-    /// Time of the processor (s): world, perception, policy, and score.
+    /// Processor time (s) of world, perception, policy and score.
     pub processor: f64,
-    /// Mean time of a control tick (s), if there was one.
+    /// Mean time of a control tick (s). `None` without a tick.
     pub tick_mean: Option<f64>,
     /// Its 99th percentile (s).
     pub tick_p99: Option<f64>,
@@ -44,29 +45,29 @@ impl Timing {
     }
 }
 
-/// How fast a scene is under a policy: medians over several runs of it.
+/// Run time of a scene under a policy: medians over several runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TimingRow {
-    /// The scenario, with what makes it harder.
+    /// The scenario followed by the conditions.
     pub scenario: String,
     /// The policy.
     pub policy: String,
     /// The world.
     pub world: String,
-    /// How the runs ended.
+    /// Outcome of the runs.
     pub outcome: Outcome,
-    /// How many there were.
+    /// Number of runs.
     pub runs: usize,
     /// Simulated time.
     pub sim_s: f64,
     /// Wall time from the compiled policy and the scene to the end of the first tick.
     pub start_ms: f64,
-    /// Time of the processor: world, perception, policy, and score.
+    /// Processor time of world, perception, policy and score.
     pub processor_s: f64,
-    /// Simulated time over time of the processor.
+    /// Ratio of simulated time to processor time.
     pub realtime: f64,
-    /// The least and the greatest of these.
+    /// The smallest and the largest of these ratios.
     pub realtime_range: [f64; 2],
     /// Time of a control tick.
     pub tick_us: TickTimes,
@@ -76,7 +77,7 @@ impl Document for TimingRow {
     const FORMAT: &'static str = "timing";
 }
 
-/// Time of a control tick (µs): perception, policy, and steering.
+/// Time of a control tick (µs): perception, policy and motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TickTimes {
@@ -87,7 +88,7 @@ pub struct TickTimes {
 }
 
 impl TimingRow {
-    /// The row of a scene's runs; `None` if there are none.
+    /// The row of a scene's runs. `None` without a run.
     #[must_use]
     pub fn new(scenario: String, policy: String, world: String, runs: &[Timing]) -> Option<Self> {
         let first = runs.first()?;

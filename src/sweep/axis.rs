@@ -1,22 +1,22 @@
-//! What varies in a sweep.
+//! The axes of a sweep: parameters and keys that vary.
 
 use crate::diagnostic::Span;
 use crate::scenario::Change;
 use vibrissa_runtime::units::Quantity;
 
-/// Something that varies, with its values.
+/// A parameter or key that varies, with its values.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     pub(super) name: String,
     pub(super) values: AxisValues,
 }
 
-/// The values of something that varies; at least one.
+/// The values of an axis, at least one.
 #[derive(Debug, Clone)]
 pub(super) enum AxisValues {
-    /// Of a parameter of the policies.
+    /// Values of a policy parameter.
     Parameter(Vec<ParameterValue>),
-    /// Of a key of the scenarios.
+    /// Values of a scenario key.
     Scenario(Vec<Change>),
 }
 
@@ -24,9 +24,9 @@ pub(super) enum AxisValues {
 #[derive(Debug, Clone)]
 pub(super) struct ParameterValue {
     pub(super) quantity: Quantity,
-    /// The same as it is written.
+    /// The value as written in the sweep.
     pub(super) text: String,
-    /// Where that is.
+    /// Its span in the sweep.
     pub(super) span: Span,
 }
 
@@ -44,7 +44,7 @@ impl AxisValues {
         }
     }
 
-    /// A value (by its index, below their number) as it stands in keys.
+    /// The text of a value in keys of runs. `value` is an index below the number of values.
     pub(super) fn text(&self, value: usize) -> String {
         match self {
             Self::Parameter(values) => values[value].text.clone(),

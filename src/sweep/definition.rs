@@ -1,7 +1,7 @@
-//! Sweeps: many runs, told in a few lines of YAML.
+//! Definitions of sweeps in YAML.
 //!
-//! A sweep is scenes, policies, and what varies of both. Its runs are all of their combinations, a list that depends on its text
-//! alone; so does the key of each run.
+//! A sweep has scenes, policies, and axes that vary both. Its runs are all combinations. The list of runs and the key
+//! of each run depend only on the text of the sweep.
 
 use super::axis::Axis;
 use super::read;
@@ -10,7 +10,7 @@ use super::scenes::SweepScenes;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::scene::FileReference;
 
-/// A sweep, read and checked by itself: the files that it refers to are others' to read.
+/// A sweep that has been read and checked. The files that it names have not been read.
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(super) name: String,
@@ -42,7 +42,7 @@ impl Sweep {
         read::read(source)
     }
 
-    /// Its name, fit to be a file's.
+    /// Its name, a valid file name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -54,20 +54,20 @@ impl Sweep {
         &self.policies
     }
 
-    /// Where the scenes come from.
+    /// The sources of the scenes.
     #[must_use]
     pub fn scenes(&self) -> &[SweepScenes] {
         &self.scenes
     }
 
-    /// How many runs there are; `None` if that is no number.
+    /// Number of runs. `None` on overflow.
     pub(super) fn count(&self) -> Option<u64> {
         let trials = self.scenes.iter().try_fold(0_u64, |sum, scenes| sum.checked_add(scenes.trials))?;
         let lengths = self.axes.iter().map(Axis::len).chain([self.policies.len()]);
         lengths.map(|length| length as u64).try_fold(trials, u64::checked_mul)
     }
 
-    /// All runs in their order: by scenes, trials, what varies, and policies.
+    /// All runs in order: by scenes, trials, axes and policies.
     pub fn runs(&self) -> impl Iterator<Item = SweepRun<'_>> {
         (0..self.count().unwrap_or(0)).filter_map(|index| self.run(index))
     }
@@ -78,18 +78,18 @@ impl Sweep {
         SweepRun::new(self, index)
     }
 
-    /// One run of every kind: the first trial of all scenes under every policy, with every value of what varies once.
+    /// One run of every kind: the first trial of all scenes under every policy, with every value of an axis once.
     pub fn samples(&self) -> impl Iterator<Item = SweepRun<'_>> {
         let starts = self.scenes.iter().scan(0, |next, scenes| Some(std::mem::replace(next, *next + scenes.trials)));
         starts.flat_map(move |trial| self.variants().flat_map(move |variant| self.of(trial, variant)))
     }
 
-    /// How many combinations there are of what varies.
+    /// Number of combinations of the axes.
     pub(super) fn variant_count(&self) -> u64 {
         self.axes.iter().map(|axis| axis.len() as u64).product()
     }
 
-    /// The combinations in which at most one thing has not its first value.
+    /// The combinations in which at most one axis has another value than its first.
     fn variants(&self) -> impl Iterator<Item = u64> {
         let stride = |axis: usize| self.axes[axis + 1..].iter().map(|axis| axis.len() as u64).product::<u64>();
         let others = self.axes.iter().enumerate();
@@ -98,7 +98,7 @@ impl Sweep {
         std::iter::once(0).chain(others)
     }
 
-    /// The runs of a trial, counted through all scenes, with one combination of what varies.
+    /// The runs of a trial with one combination of the axes. Trials are numbered through all scenes.
     fn of(&self, trial: u64, variant: u64) -> impl Iterator<Item = SweepRun<'_>> {
         let policies = self.policies.len() as u64;
         let first = (trial * self.variant_count() + variant) * policies;

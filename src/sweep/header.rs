@@ -1,4 +1,4 @@
-//! What results of a sweep are results of.
+//! Header of a file of sweep results.
 
 use crate::results::Document;
 use std::collections::BTreeMap;
@@ -14,11 +14,11 @@ use super::shard::Shard;
 pub struct Header {
     /// The name of the sweep.
     pub sweep: String,
-    /// Which part of it.
+    /// The part of the sweep.
     pub shard: Shard,
-    /// Its text, of which the list of runs is made.
+    /// Text of the sweep, which defines the list of runs.
     pub text: String,
-    /// What it refers to, and the program, each with its version or the hash of what it holds.
+    /// The files that the sweep names, and the program, each with its version or a hash of its content.
     pub inputs: BTreeMap<String, String>,
 }
 
@@ -27,13 +27,13 @@ impl Document for Header {
 }
 
 impl Header {
-    /// The same for another part.
+    /// The header of another part.
     #[must_use]
     pub fn of_shard(&self, shard: Shard) -> Self {
         Self { shard, ..self.clone() }
     }
 
-    /// A hash of everything but the part.
+    /// A hash of the header without the part.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let hash = Sha256::new().chain_update(&self.text);
@@ -41,7 +41,7 @@ impl Header {
         hash.finalize().iter().fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"))
     }
 
-    /// What is not as in `other`, in words; `None` if both are of the same sweep.
+    /// A description of the difference from `other`. `None` if both are of the same sweep.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<String> {
         if self.sweep != other.sweep {

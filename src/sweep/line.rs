@@ -10,21 +10,21 @@ use crate::results::RunResult;
 use crate::results::{Ending, Figures, TipShares};
 use crate::sweep::SweepRun;
 
-/// The result of a run of a sweep; serialised, a line of its results.
+/// The result of a run of a sweep. Its serialised form is a line of the results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepLine {
-    /// The hash of its key, in hexadecimal digits.
+    /// Hash of its key, in hexadecimal digits.
     run: String,
     /// Its key.
     key: String,
     /// The family or the scenario.
     scenes: String,
-    /// The number of its trial.
+    /// Number of its trial.
     trial: u64,
-    /// What varies in the sweep, as it is written there.
+    /// The values of the axes as written in the sweep.
     settings: BTreeMap<String, String>,
-    /// Whether it was as its scenario expects.
+    /// True if all expectations of its scenario hold.
     passed: bool,
     #[serde(flatten)]
     end: End,
@@ -34,7 +34,7 @@ impl Document for SweepLine {
     const FORMAT: &'static str = "sweep-run";
 }
 
-/// What came of it.
+/// The end of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
@@ -52,19 +52,19 @@ enum End {
 }
 
 impl SweepLine {
-    /// That of a run which took place in a scene that is `about` something.
+    /// The line of a run that took place. `about` describes the scene.
     #[must_use]
     pub fn ran(run: &SweepRun<'_>, about: String, passed: bool, result: RunResult) -> Self {
         Self::new(run, passed, End::Result { about, result: Box::new(result) })
     }
 
-    /// That of a run which could not begin.
+    /// The line of a run that could not begin.
     #[must_use]
     pub fn refused(run: &SweepRun<'_>, reason: String) -> Self {
         Self::without_result(run, Ending::Refused, reason)
     }
 
-    /// That of a run which ended its process.
+    /// The line of a run whose process crashed.
     #[must_use]
     pub fn crashed(run: &SweepRun<'_>, reason: String) -> Self {
         Self::without_result(run, Ending::Crashed, reason)
@@ -88,7 +88,7 @@ impl SweepLine {
     }
 }
 
-/// What a line says that is counted.
+/// The fields of a line that are counted.
 #[derive(Debug, Deserialize)]
 struct Counted {
     key: String,
@@ -112,10 +112,10 @@ struct Collisions {
     count: usize,
 }
 
-/// The key of a run, and what is counted of it, from its line.
+/// The key and the figures of a run, read from its line.
 ///
 /// # Errors
-/// It is not the line of a run.
+/// If it is not the line of a run.
 pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
     let Counted { key, passed, outcome: ending, error_mm, collisions } = serde_json::from_str(line)?;
     let collided = collisions.is_some_and(|collisions| collisions.count > 0);

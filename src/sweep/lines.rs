@@ -1,4 +1,4 @@
-//! The lines of a file of results, read.
+//! Reader of the lines of a file of results.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -11,14 +11,14 @@ use crate::results::Document;
 use super::header::Header;
 use super::results::ResultsError;
 
-/// The most bytes of a line. A header holds the text of its sweep, of up to 1 MiB, and names what that depends on; the line of a run has a few
-/// thousand bytes.
+/// Largest size of a line in bytes. A header has the text of its sweep, up to 1 MiB, and names its inputs. The line of
+/// a run has a few thousand bytes.
 pub(super) const LINE_LIMIT: usize = 16 << 20;
 
-/// How every file of results begins.
+/// The first bytes of every file of results.
 const BEGINNING: &[u8] = br#"{"format":"sweep""#;
 
-/// What a first line says before it is known to be of this version.
+/// The keys of a first line that are read before its version is known.
 #[derive(Deserialize)]
 struct Preamble {
     version: Option<u32>,
@@ -28,19 +28,19 @@ struct Preamble {
 pub(super) struct Lines<'f> {
     path: &'f Path,
     reader: BufReader<&'f File>,
-    /// How many lines were read.
+    /// Number of lines read.
     number: usize,
-    /// How many bytes those have.
+    /// Number of bytes of these lines.
     whole: u64,
 }
 
 impl<'f> Lines<'f> {
-    /// Of a file that has just been opened.
+    /// A reader at the beginning of a file.
     pub(super) fn new(path: &'f Path, file: &'f File) -> Self {
         Self { path, reader: BufReader::new(file), number: 0, whole: 0 }
     }
 
-    /// What the first line says; `None` if it is not there as a whole.
+    /// The header. `None` if the first line is not complete.
     pub(super) fn header(&mut self) -> Result<Option<Header>, ResultsError> {
         let no_results = |cause: String| ResultsError::NoResults { path: self.path.to_owned(), cause };
         let text = self.read()?;
@@ -57,18 +57,18 @@ impl<'f> Lines<'f> {
             let header = serde_json::from_slice(&text);
             return header.map(Some).map_err(|cause| no_results(cause.to_string()));
         }
-        // Something else that just has no end of line is not to be taken for a torn header.
+        // Another kind of file without an end of line must not count as an incomplete header.
         let is_torn = text.starts_with(BEGINNING) || BEGINNING.starts_with(&text);
         if is_torn { Ok(None) } else { Err(no_results("it has no first line".to_owned())) }
     }
 
-    /// The next line with its number; `None` if there is none, or only the torn end of one.
+    /// The next line with its number. `None` at the end of the file or at an incomplete line.
     pub(super) fn next(&mut self) -> Result<Option<(usize, String)>, ResultsError> {
         let text = self.read()?;
         Ok(text.ends_with(b"\n").then(|| (self.number, String::from_utf8_lossy(&text).into_owned())))
     }
 
-    /// How many bytes there are without a torn end, when all has been read.
+    /// Number of bytes of the complete lines, after everything has been read.
     pub(super) fn whole(&self) -> u64 {
         self.whole
     }

@@ -1,4 +1,4 @@
-//! The results of a sweep's shards as one.
+//! Merged results of the shards of a sweep.
 
 use crate::results::Document;
 use std::collections::{BTreeMap, HashMap};
@@ -18,13 +18,13 @@ use crate::sweep::Sweep;
 /// The results of all parts of a sweep.
 #[derive(Debug)]
 pub struct Merged {
-    /// What they are results of, with the part that the first file has.
+    /// The header, with the part of the first file.
     pub header: Header,
     /// The sweep.
     pub sweep: Sweep,
-    /// The lines of the runs, by index.
+    /// The lines of the runs by index.
     pub lines: BTreeMap<u64, String>,
-    /// What is counted of them.
+    /// The figures of the runs by index.
     pub figures: BTreeMap<u64, Figures>,
 }
 
@@ -33,14 +33,14 @@ pub struct Merged {
 pub struct Missing {
     /// Its key.
     pub key: String,
-    /// The part of the sweep that it belongs to.
+    /// Its part of the sweep.
     pub shard: Shard,
 }
 
-/// Joins files of results; `None` if there are none.
+/// Merges files of results. `None` without a file.
 ///
 /// # Errors
-/// [`ResultsError`] when they are not results of one and the same sweep, or a run has two.
+/// [`ResultsError`] if they are not results of the same sweep, or if a run has two results.
 pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merged>, ResultsError> {
     let (mut merged, mut indices): (Option<Merged>, _) = (None, HashMap::new());
     let mut owners = BTreeMap::new();
@@ -86,15 +86,15 @@ impl Merged {
         Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
     }
 
-    /// Checks that the results may be written to `path`. As long as what it gives is kept, no sweep writes there.
+    /// Checks that the results may be written to `path`. While the returned file is open, no sweep writes to it.
     ///
     /// # Errors
-    /// [`ResultsError`] when something else is there: a part of the sweep, or what another run of it is still writing.
+    /// [`ResultsError`] if the file has other content, or if a sweep is writing to it.
     pub fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
         check_place(path, &self.header.of_shard(Shard::WHOLE))
     }
 
-    /// The runs that have no result.
+    /// The runs without a result.
     pub fn missing(&self) -> impl Iterator<Item = Missing> {
         let missing = self.sweep.runs().filter(|run| !self.lines.contains_key(&run.index));
         missing.map(|run| {
@@ -103,10 +103,10 @@ impl Merged {
         })
     }
 
-    /// The results as a file has them, in the order of the runs.
+    /// The results as text, in the order of the runs.
     ///
     /// # Errors
-    /// The header cannot be written as JSON, which would be a fault of the program.
+    /// If the header cannot be written as JSON, which would be a fault of the program.
     pub fn text(&self) -> serde_json::Result<String> {
         let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned())?;
         for line in self.lines.values() {

@@ -18,7 +18,7 @@ use crate::scenario::unreadable;
 use crate::scene::{FileReference, WorldSetup};
 use crate::trial::{ExecuteError, Inputs, Trial, check_world, engine_version, short_hash};
 
-/// Why a sweep cannot run.
+/// The error of a sweep that cannot run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum PlanError {
     /// A file cannot be used.
@@ -46,7 +46,7 @@ pub(crate) struct Plan {
     policies: Vec<Loaded<Program>>,
     /// The texts of its scenarios, in the order of the sweep's scenes.
     scenarios: Vec<Option<Source>>,
-    /// The files that scenarios name, by their paths, or why one cannot be read.
+    /// The content of the files that scenarios name, by path, or the reason why a file cannot be read.
     files: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
     inputs: BTreeMap<String, String>,
     prune: bool,
@@ -97,7 +97,7 @@ impl Plan {
         let mut files = BTreeMap::new();
         for run in self.sweep.samples().filter(|run| run.policy == 0) {
             let Ok((path, text, _)) = self.scenario(&run) else { continue };
-            // What is wrong with it is told when its run is prepared.
+            // Its errors are reported when its run is prepared.
             let _ = run.scene(&text, &self.source, &mut |name| {
                 let path = beside(&path, name);
                 let bytes = outline_file(&path, read);
@@ -115,7 +115,7 @@ impl Plan {
         self.files = files;
     }
 
-    /// What the results of a part of it depend on.
+    /// The header of the results of a part.
     pub(crate) fn header(&self, shard: Shard) -> Header {
         let (sweep, text) = (self.sweep.name().to_owned(), self.source.text.clone());
         Header { sweep, shard, text, inputs: self.inputs.clone() }
@@ -131,7 +131,7 @@ impl Plan {
         policies.iter().map(read).collect()
     }
 
-    /// Prepares one run of every kind, so that what is wrong with the last shows before the first has run.
+    /// Prepares one run of every kind, so that all errors are reported before the first run.
     ///
     /// `note` receives remarks about the sweep.
     ///
@@ -200,7 +200,8 @@ impl Plan {
         Ok(Trial { world, seed, inputs, ..Trial::new(scene, Arc::new(program)) })
     }
 
-    /// The text of a run's scenario, the file that what it names is beside, and the speed (m/s), if a family has drawn one.
+    /// The path and text of a run's scenario, and the random speed (m/s) of a scene of a family. Names in the text are
+    /// relative to the path.
     fn scenario(&self, run: &SweepRun<'_>) -> Result<(PathBuf, Source, Option<f64>), PlanError> {
         let scenes = run.scenes();
         match (&scenes.of, &self.scenarios[run.scenes]) {
@@ -225,10 +226,10 @@ impl Plan {
         }
     }
 
-    /// The bytes of the file that a scenario at `scenario` calls `name`, as it was when the sweep was read.
+    /// The content of the file that the scenario at `scenario` calls `name`, as it was when the sweep was read.
     fn file(&self, scenario: &Path, name: &str) -> Result<Vec<u8>, String> {
         let path = beside(scenario, name);
-        // Where several values change one part of a scenario, a run may name what no sample does.
+        // If several values change one part of a scenario, a run may name a file that no sample names.
         self.files.get(&path).cloned().unwrap_or_else(|| outline_file(&path, &mut CommandFiles::new()))
     }
 }

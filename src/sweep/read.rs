@@ -14,10 +14,10 @@ const SCENES: &str = "[{family: convex-corner, trials: 100}]";
 const POLICIES: &str = "[../policies/vibrissa.fsm]";
 const VALUES: &str = "[2 cm/s, 5 cm/s]";
 
-/// The most trials of one source of scenes, and the most runs of a sweep: who merges holds their results in memory.
+/// The most trials of one source of scenes, and the most runs of a sweep. A merge holds all results in memory.
 const MOST_RUNS: u64 = 1_000_000;
 
-/// Reads a sweep. The list of faults is never empty, and in the order of the text.
+/// Reads a sweep. The list of errors is not empty and in the order of the text.
 pub(super) fn read(source: &Source) -> Result<Sweep, Vec<Diagnostic>> {
     let (tree, faults) = fault::parse(source, "sweep")?;
     let mut no_files = |_: &str| Err("a sweep has no files of its own".to_owned());
@@ -69,7 +69,7 @@ fn some<'n>(reader: &mut Reader<'_>, entry: &'n Entry, expected: &str, example: 
     Some(items)
 }
 
-/// Reports what stands there a second time: its runs would be the same.
+/// Reports a repeated item, whose runs would be the same.
 fn check_new<K: Ord>(reader: &mut Reader<'_>, seen: &mut BTreeMap<K, Span>, key: K, place: Span, name: &str) {
     if let Some(first) = seen.get(&key) {
         let message = format!("`{name}` is there twice, and its runs would be too");
@@ -148,13 +148,13 @@ fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
     axes.into_iter().collect()
 }
 
-/// Keys of a scenario that a sweep itself gives, and how.
+/// Keys of a scenario that the sweep sets, with a hint.
 const GIVEN: [(&str, &str); 2] = [
     ("policy", "list the policies in the sweep's own `policies`"),
     ("seed", "give the scenes `trials`, each of which has noise of its own, and a `seed` to begin with"),
 ];
 
-/// Checks that what varies can do so by itself: else results would stand under values that their runs did not have.
+/// Checks that the axes are independent. Otherwise results would be listed under values that their runs did not have.
 fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option<&Entry>) {
     let names = |entry: Option<&'_ Entry>| match entry.map(|entry| &entry.value.value) {
         Some(Node::Mapping(entries)) => entries.iter().map(|entry| entry.key.clone()).collect(),
@@ -188,7 +188,7 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
     }
 }
 
-/// What varies, each by its name, with values that `read` reads.
+/// The axes with their names. `read` reads their values.
 fn named(
     reader: &mut Reader<'_>,
     entry: Option<&Entry>,
@@ -218,7 +218,7 @@ fn parameters(reader: &mut Reader<'_>, _: &Placed<String>, items: &[Placed<Node>
     Some(AxisValues::Parameter(values.into_iter().collect::<Option<_>>()?))
 }
 
-/// A value of a parameter; whether that is of its dimension only the policy knows.
+/// A value of a parameter. Its dimension is checked later against the policy.
 fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterValue> {
     let plain = |value_si| Quantity { value_si, dimension: Dimension::NUMBER, unit: None };
     let (quantity, text) = match &node.value {
@@ -246,7 +246,7 @@ fn changes(_: &mut Reader<'_>, path: &Placed<String>, items: &[Placed<Node>]) ->
     Some(AxisValues::Scenario(items.iter().map(|item| Change::new(path.clone(), item.clone())).collect()))
 }
 
-/// The fault of a policy, or of a value for one, at a place.
+/// The error of a policy, or of a value for one, at a span.
 pub(super) fn unfit(place: Span, reason: &str) -> Diagnostic {
     let fault = Diagnostic::error(fault::UNFIT, "the policy cannot be run so", place, reason);
     fault.hint("what varies of a policy are parameters that all policies have; those of families have a `speed`")

@@ -1,4 +1,4 @@
-//! A file of results that grows line by line, and that is gone on with after a kill.
+//! A file of results that grows line by line. An interrupted sweep is resumed from it.
 
 use crate::results::Document;
 use std::collections::{BTreeMap, HashMap};
@@ -14,7 +14,7 @@ use crate::file;
 use crate::results::Figures;
 use crate::sweep::Sweep;
 
-/// Why results cannot be used.
+/// The error of a file of results.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
     /// The file cannot be read or written.
@@ -22,7 +22,7 @@ pub enum ResultsError {
     File {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         cause: io::Error,
     },
     /// Another process writes to the file.
@@ -31,30 +31,30 @@ pub enum ResultsError {
         /// The file.
         path: PathBuf,
     },
-    /// The file holds something else.
+    /// The file has other content.
     #[error("{} does not begin as results of a sweep do ({cause}); choose another place with --out", path.display())]
     NoResults {
         /// The file.
         path: PathBuf,
-        /// What is wrong with its first line.
+        /// The error of its first line.
         cause: String,
     },
-    /// The file holds results of another sweep, or of one that was another then.
+    /// The file has results of another sweep, or of an earlier version of the sweep.
     #[error("{} holds results of {difference}; keep the two apart, with another --out or without that file", path.display())]
     Other {
         /// The file.
         path: PathBuf,
-        /// What is not as it was.
+        /// The difference.
         difference: String,
     },
-    /// A line is no result of the sweep.
+    /// A line is not a result of the sweep.
     #[error("{}, line {line}: {cause}; remove that line, and go on with the sweep", path.display())]
     Line {
         /// The file.
         path: PathBuf,
         /// The number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The error of the line.
         cause: String,
     },
     /// A line is too long to be a result.
@@ -89,7 +89,7 @@ pub(super) fn indices(sweep: &Sweep) -> HashMap<String, u64> {
     sweep.runs().map(|run| (run.key(), run.index)).collect()
 }
 
-/// Results that are being written.
+/// A file of results that is open for writing.
 #[derive(Debug)]
 pub struct Results {
     path: PathBuf,
@@ -97,12 +97,12 @@ pub struct Results {
 }
 
 impl Results {
-    /// Opens the file of results at `path`, or begins it, and gives the figures of the runs that are there, by index. A last line
-    /// that was not finished is cut off. Nobody else can write to the file as long as this lives.
+    /// Opens or creates the file of results at `path`, and returns the figures of its runs by index. An incomplete last
+    /// line is removed. No other process can write to the file until this is dropped.
     ///
     /// # Errors
-    /// [`ResultsError`] when the file cannot be used, or holds something else than results of the part of `sweep` that `header`
-    /// tells.
+    /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
+    /// `header`.
     pub fn open(path: &Path, header: &Header, sweep: &Sweep) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let failed = ResultsError::file(path);
         let file = locked(path)?;
@@ -136,12 +136,12 @@ impl Results {
     /// Adds the line of a run. It is on the disk when this returns.
     ///
     /// # Errors
-    /// [`ResultsError::File`] when it cannot be written.
+    /// [`ResultsError::File`] if it cannot be written.
     pub fn add(&mut self, line: &str) -> Result<(), ResultsError> {
-        // In one go, so that a line is there as a whole or as the torn end of the file.
+        // One write, so that a line is complete or the incomplete end of the file.
         let line = format!("{}\n", line.trim_end());
         let written = if line.len() > LINE_LIMIT {
-            // It could not be read again.
+            // Such a line could not be read again.
             Err(io::Error::new(io::ErrorKind::InvalidData, "a line of results would be too long"))
         } else {
             self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data())
@@ -150,10 +150,10 @@ impl Results {
     }
 }
 
-/// Checks that results of what `header` tells may take the place of what is at `path`: that there is nothing, or what are results of the same.
-/// As long as what it gives is kept, no sweep writes to them.
+/// Checks that results with this `header` may replace the file at `path`: there is none, or it has results of the same
+/// sweep. While the returned file is open, no sweep writes to it.
 pub(super) fn check_place(path: &Path, header: &Header) -> Result<Option<File>, ResultsError> {
-    // What is no regular file holds nothing that could be lost.
+    // Anything but a regular file has no content that could be lost.
     if !path.is_file() {
         return Ok(None);
     }
@@ -165,19 +165,20 @@ pub(super) fn check_place(path: &Path, header: &Header) -> Result<Option<File>, 
     Ok(Some(file))
 }
 
-/// Opens a file of results, which nobody else writes to as long as it is open.
+/// Opens a file of results. No other process writes to it while it is open.
 fn locked(path: &Path) -> Result<File, ResultsError> {
     loop {
         let file = file::append(path).map_err(ResultsError::file(path))?;
         lock(path, &file)?;
-        // Before it was locked, merged results may have taken its place; what is added to it would be lost.
+        // Merged results may have replaced the file before it was locked. Lines that are added to the old file would be
+        // lost.
         if file::is_at(&file, path) {
             return Ok(file);
         }
     }
 }
 
-/// Keeps others from writing to a file of results as long as it is open.
+/// Locks a file of results against other writers while it is open.
 fn lock(path: &Path, file: &File) -> Result<(), ResultsError> {
     file.try_lock().map_err(|error| match error {
         TryLockError::WouldBlock => ResultsError::Busy { path: path.to_owned() },

@@ -11,17 +11,17 @@ use crate::scenario::Files;
 use crate::scene::{FileReference, Scene};
 use vibrissa_runtime::units::Quantity;
 
-/// One run of a sweep: a trial, under one policy, with one value of everything that varies.
+/// One run of a sweep: a trial, under one policy, with one value of every axis.
 #[derive(Debug, Clone, Copy)]
 pub struct SweepRun<'s> {
     sweep: &'s Sweep,
-    /// Its place in the list of all runs, from 0.
+    /// Its index in the list of all runs, from 0.
     pub index: u64,
     /// The index of its scenes among the sweep's.
     pub scenes: usize,
     /// The number of its trial among those of its scenes.
     pub trial: u64,
-    /// Which combination it is of what varies; the last thing varies fastest.
+    /// Index of the combination of axis values. The last axis varies fastest.
     variant: u64,
     /// The index of its policy among the sweep's.
     pub policy: usize,
@@ -55,14 +55,14 @@ impl<'s> SweepRun<'s> {
         &self.sweep.policies[self.policy]
     }
 
-    /// What it has in common with the other trials of its scenes: equal for those with the same settings and policy, and in the
-    /// order of the sweep.
+    /// The group of the run. It is equal for trials with the same scenes, settings and policy. Groups are in the order
+    /// of the sweep.
     #[must_use]
     pub fn group(&self) -> (usize, u64, usize) {
         (self.scenes, self.variant, self.policy)
     }
 
-    /// What tells it from all other runs of the sweep, in words.
+    /// The text that identifies the run within the sweep.
     #[must_use]
     pub fn key(&self) -> String {
         let scenes = self.scenes();
@@ -78,12 +78,12 @@ impl<'s> SweepRun<'s> {
         key + ", policy=" + &scenario::quoted(&self.policy().name)
     }
 
-    /// What varies, with the values of this run as they are written.
+    /// The axes with the values of this run as written in the sweep.
     pub fn settings(&self) -> impl Iterator<Item = (&'s str, String)> {
         self.choices().map(|(axis, value)| (axis.name.as_str(), axis.values.text(value)))
     }
 
-    /// The parameters of its policy that are set, with their places in the sweep.
+    /// The parameters of its policy that are set, with their spans in the sweep.
     pub fn parameters(&self) -> impl Iterator<Item = (&'s str, Quantity, Span)> {
         self.choices().filter_map(|(axis, value)| match &axis.values {
             AxisValues::Parameter(values) => Some((axis.name.as_str(), values[value].quantity, values[value].span)),
@@ -91,16 +91,17 @@ impl<'s> SweepRun<'s> {
         })
     }
 
-    /// That its policy cannot be run as the run wants it, at the place in the sweep that says so: of a parameter, or else of the policy.
+    /// The error of a policy that cannot be run as the run requires. Its span is that of the parameter, or else of the
+    /// policy.
     #[must_use]
     pub fn unfit(&self, parameter: Option<Span>, reason: &str) -> Diagnostic {
         read::unfit(parameter.unwrap_or(self.policy().span), reason)
     }
 
-    /// Reads its scene: the `scenario`, with what the run changes of it.
+    /// Reads its scene: the `scenario` with the changes of the run.
     ///
     /// # Errors
-    /// As [`scenario::read`], with the text that they point into: the scenario, and then the `sweep`.
+    /// As [`scenario::read`], with the text that the spans refer to: the scenario, or the `sweep`.
     pub fn scene(
         &self,
         scenario: &Source,
@@ -114,7 +115,7 @@ impl<'s> SweepRun<'s> {
         scenario::read_changed(scenario, sweep, &changes.collect::<Vec<_>>(), files)
     }
 
-    /// Everything that varies, with the index of its value.
+    /// The axes with the index of the value of each.
     fn choices(&self) -> impl Iterator<Item = (&'s Axis, usize)> {
         let mut left = self.variant;
         let choice = |axis: &'s Axis| {

@@ -1,4 +1,4 @@
-//! Where the scenes of a sweep come from.
+//! Sources of the scenes of a sweep.
 
 use crate::family::Family;
 use crate::scene::FileReference;
@@ -6,20 +6,20 @@ use crate::scene::FileReference;
 /// Scenes of one kind.
 #[derive(Debug, Clone)]
 pub struct SweepScenes {
-    /// What they are.
+    /// The family or the scenario.
     pub of: ScenesOf,
-    /// How many trials there are, counted from 0.
+    /// Number of trials. They are numbered from 0.
     pub trials: u64,
     /// The seed, if one is given.
     pub seed: Option<u64>,
 }
 
-/// What the trials are trials of.
+/// The source of the trials.
 #[derive(Debug, Clone)]
 pub enum ScenesOf {
-    /// A family: every trial is a scene of its own.
+    /// A family. Every trial is another scene.
     Family(Family),
-    /// A scenario: every trial has noise of its own.
+    /// A scenario. Every trial has other noise.
     Scenario(FileReference),
 }
 
@@ -41,7 +41,7 @@ impl SweepScenes {
         }
     }
 
-    /// The seed of the family; 1 unless another is given.
+    /// The seed of the family, 1 by default.
     #[must_use]
     pub fn family_seed(&self) -> u64 {
         self.seed.unwrap_or(1)

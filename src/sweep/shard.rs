@@ -6,14 +6,14 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// One of several parts of a sweep. Which part a run belongs to depends on its key alone.
+/// One of several parts of a sweep. The part of a run depends only on its key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
-    /// Which part, from 1.
+    /// Number of the part, from 1.
     number: u64,
-    /// How many parts there are.
+    /// Number of parts.
     of: u64,
 }
 
@@ -21,19 +21,19 @@ impl Shard {
     /// All of a sweep, in one part.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// Whether the run with this key belongs to it.
+    /// True if the run with this key belongs to the part.
     #[must_use]
     pub fn has(self, key: &str) -> bool {
         run_hash(key) % self.of == self.number - 1
     }
 
-    /// The part that the run with this key belongs to, of as many.
+    /// The part of the run with this key, of the same number of parts.
     #[must_use]
     pub fn of_run(self, key: &str) -> Self {
         Self { number: run_hash(key) % self.of + 1, of: self.of }
     }
 
-    /// The name of the file of its results.
+    /// Name of the file of its results.
     #[must_use]
     pub fn file_name(self) -> String {
         if self == Self::WHOLE {

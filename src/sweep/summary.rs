@@ -1,4 +1,4 @@
-//! What became of a sweep.
+//! Summary of a sweep.
 
 use crate::results::Document;
 use std::collections::BTreeMap;
@@ -8,15 +8,15 @@ use serde::Serialize;
 use crate::results::{Figures, Tally};
 use crate::sweep::{Sweep, SweepRun};
 
-/// What became of a sweep, or of a part of it.
+/// Summary of a sweep, or of a part of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepSummary {
     /// The name of the sweep.
     pub sweep: String,
-    /// How many runs were there before.
+    /// Number of runs that earlier processes had finished.
     pub resumed: usize,
-    /// Its runs by what they have in common, in the order of the sweep.
+    /// Its runs in groups, in the order of the sweep.
     pub groups: Vec<SweepGroup>,
 }
 
@@ -24,23 +24,23 @@ impl Document for SweepSummary {
     const FORMAT: &'static str = "sweep-summary";
 }
 
-/// The runs of one family or scenario under one policy, with one value of everything that varies.
+/// The runs of one family or scenario under one policy, with one value of every axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SweepGroup {
     /// The family or the scenario.
     pub scenes: String,
-    /// What varies, as it is written.
+    /// The values of the axes as written in the sweep.
     pub settings: BTreeMap<String, String>,
     /// The policy.
     pub policy: String,
-    /// What became of them.
+    /// Counts over the runs.
     #[serde(flatten)]
     pub tally: Tally,
 }
 
 impl SweepSummary {
-    /// Counts runs of `sweep` by their indices; so many of them were there before.
+    /// Counts runs of `sweep` by their indices. `resumed` of them are from earlier processes.
     #[must_use]
     pub fn new(sweep: &Sweep, runs: &BTreeMap<u64, Figures>, resumed: usize) -> Self {
         let mut groups: BTreeMap<_, (SweepRun<'_>, Vec<Figures>)> = BTreeMap::new();
@@ -58,7 +58,7 @@ impl SweepSummary {
         Self { sweep: sweep.name().to_owned(), resumed, groups: groups.collect() }
     }
 
-    /// How many runs crashed or could not begin.
+    /// Number of runs that crashed or could not begin.
     #[must_use]
     pub fn without_result(&self) -> usize {
         self.groups.iter().map(|group| group.tally.crashed + group.tally.refused).sum()

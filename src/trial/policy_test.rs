@@ -1,4 +1,4 @@
-//! The verdict on a run that a policy's test asked for.
+//! The verdict of a policy's test on a run.
 
 use super::trial::TrialResult;
 use crate::diagnostic::Diagnostic;
@@ -15,7 +15,7 @@ pub fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) ->
     test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
 }
 
-/// A figure of a run (SI, truths as 1 and 0); not a number if the run does not have it.
+/// A figure of a run (SI, bool as 1 and 0). Not a number if the run does not have it.
 fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64 {
     let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
     let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
@@ -51,7 +51,7 @@ fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64
     }
 }
 
-/// Whether a state is active when the innermost active one is `innermost`: the same, or one around it.
+/// True if a state is active while `innermost` is the innermost active state: the same state or one around it.
 fn is_active(program: &Program, state: usize, innermost: Option<usize>) -> bool {
     innermost.is_some_and(|innermost| program.contains(state, innermost))
 }

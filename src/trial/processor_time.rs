@@ -1,16 +1,16 @@
-//! The clock by which runs are compared.
+//! The clock of run time comparisons.
 
-/// The processor's time that this thread has taken (s): what other programs take of the machine does not count, so that ratios hold on a
-/// busy one. Only differences mean something.
+/// Processor time of this thread (s). Other programs do not affect it, so that ratios are valid on a busy machine. Only
+/// differences are meaningful.
 #[cfg(unix)]
 pub(crate) fn processor_time() -> f64 {
     use rustix::time::{ClockId, clock_gettime};
     use std::time::Duration;
-    // A time that is negative, or has a billion nanoseconds, is none of a thread.
+    // A negative time or one with a billion nanoseconds cannot occur for a thread.
     Duration::try_from(clock_gettime(ClockId::ThreadCPUTime)).unwrap_or_default().as_secs_f64()
 }
 
-/// The time that has passed (s), where threads have no clock of their own. Only differences mean something.
+/// Elapsed time (s), for systems whose threads have no clock. Only differences are meaningful.
 #[cfg(not(unix))]
 pub(crate) fn processor_time() -> f64 {
     use std::sync::OnceLock;

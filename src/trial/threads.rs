@@ -1,4 +1,4 @@
-//! Work on several processors at once.
+//! Parallel work on several threads.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -6,30 +6,30 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread::{Builder, available_parallelism, scope};
 
-/// How many threads make sense on this machine.
+/// The number of threads that this machine executes at the same time.
 #[must_use]
 pub fn processors() -> NonZeroUsize {
     available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// How many threads to work on.
+/// The number of threads for parallel work.
 #[derive(Debug, Clone, Copy)]
 pub struct Threads {
-    /// The most that work at a time.
+    /// The most threads at a time.
     pub count: NonZeroUsize,
-    /// Hears how many there are instead, if the system does not start as many.
+    /// Receives the number of threads if the system starts fewer.
     pub fewer: fn(usize),
 }
 
 impl From<NonZeroUsize> for Threads {
-    /// So many; nobody hears if there are fewer.
+    /// As many threads. A smaller number is not reported.
     fn from(count: NonZeroUsize) -> Self {
         Self { count, fewer: |_| () }
     }
 }
 
-/// Does `work` on every task, on so many `threads`, and gives what came of it in the order of the tasks. `done` hears on the
-/// calling thread of each that is done, in the order in which they are.
+/// Executes `work` on every task with as many `threads`, and returns the results in the order of the tasks. `done`
+/// receives each finished task on the calling thread, in the order in which they finish.
 pub fn in_parallel<T: Sync, R: Send>(
     tasks: &[T],
     threads: impl Into<Threads>,
@@ -52,10 +52,10 @@ pub fn in_parallel<T: Sync, R: Send>(
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// The same without keeping what comes of the tasks: `done` gets it, with the index of its task, and may break the work off, which
-/// then ends with the tasks that have begun. Tasks begin in their order. Each thread does its tasks with a `tool` of its own.
+/// Executes tasks without keeping the results. `done` receives each result with the index of its task, and may stop the
+/// work. Then only the tasks that have begun are finished. Tasks begin in their order. Each thread has its own `tool`.
 ///
-/// If the system starts fewer threads, these do all tasks; if it starts none, the calling thread does.
+/// If the system starts fewer threads, they execute all tasks. If it starts none, the calling thread does.
 pub fn stream_in_parallel<T: Sync, S, R: Send>(
     tasks: &[T],
     threads: impl Into<Threads>,
@@ -64,7 +64,7 @@ pub fn stream_in_parallel<T: Sync, S, R: Send>(
     mut done: impl FnMut(usize, R) -> ControlFlow<()>,
 ) {
     let next = AtomicUsize::new(0);
-    // A result at a time for each thread: who cannot keep up with them is not buried under them.
+    // Each thread waits with its result until the receiver is ready, so that results do not accumulate.
     let threads = threads.into();
     let wanted = threads.count.get().min(tasks.len());
     let (sender, receiver) = sync_channel(wanted);
@@ -76,7 +76,7 @@ pub fn stream_in_parallel<T: Sync, S, R: Send>(
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(task) = tasks.get(index) else { break };
-                    // When nobody listens any more the work has been broken off.
+                    // Without a receiver the work has been stopped.
                     if sender.send((index, work(&mut tool, task))).is_err() {
                         break;
                     }

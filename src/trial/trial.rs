@@ -90,7 +90,7 @@ impl Trial {
     /// Runs and scores the trial.
     ///
     /// # Errors
-    /// [`ExecuteError`] if the run cannot begin. The run itself tells how it ended.
+    /// [`ExecuteError`] if the run cannot begin. The outcome of a run is part of the result.
     pub fn run(&self) -> Result<TrialResult, ExecuteError> {
         self.run_with(|_| ControlFlow::Continue(()))
     }
@@ -175,7 +175,7 @@ impl Trial {
     }
 }
 
-/// The first sixteen hexadecimal digits of a hash: enough to tell files apart.
+/// The first sixteen hexadecimal digits of a hash, enough to distinguish files.
 #[must_use]
 pub fn short_hash(hash: &[u8]) -> String {
     hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()

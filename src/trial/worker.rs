@@ -1,13 +1,14 @@
-//! Processes in which runs happen: what ends one costs no other run.
+//! Worker processes. A crash ends only the run of its process.
 
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread::JoinHandle;
 
-/// How many of the last lines that a process wrote to standard error tell why it ended.
+/// Number of the last lines on standard error that are reported as the reason of a crash.
 const LAST_LINES: usize = 3;
 
-/// How often a run is begun whose process ends: what a machine was short of for a moment, it may have the second time.
+/// Number of attempts at a request whose process ends. A temporary shortage of the machine may be over at the second
+/// attempt.
 const ATTEMPTS: usize = 2;
 
 /// A process that answers every line on its standard input with a line on its standard output.
@@ -21,28 +22,28 @@ pub struct Worker {
     errors: Option<JoinHandle<Vec<String>>>,
 }
 
-/// Why a worker cannot begin.
+/// The error of a worker that cannot begin.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
     /// Its process cannot be started.
     #[error("a process for runs cannot be started: {0}")]
     Process(#[from] io::Error),
-    /// Its process ended.
+    /// Its process ended, for this reason.
     #[error("a process for runs ended before its first: {0}")]
     Ended(String),
-    /// It would do other runs.
+    /// It would execute other runs.
     #[error(
         "the sweep, or a file that it names, has changed since it began; go on with it as it was, or choose another place with --out"
     )]
     Changed,
 }
 
-/// What a worker gives for a request.
+/// The answer of a worker to a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Answer {
-    /// The line that it answered.
+    /// The line that it wrote.
     Line(String),
-    /// Its process ended, and so did the next one's, for this reason.
+    /// Its process ended, and so did the next process, for this reason.
     Crash(String),
 }
 
@@ -50,7 +51,7 @@ impl Worker {
     /// Starts `command`, whose first line must be the `greeting`.
     ///
     /// # Errors
-    /// [`StartError`] when it does not start, or says something else.
+    /// [`StartError`] if the process does not start, or writes another first line.
     pub fn start(command: &mut Command, greeting: &str) -> Result<Self, StartError> {
         let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = piped.spawn()?;
@@ -76,11 +77,11 @@ impl Worker {
     fn line(&mut self) -> io::Result<String> {
         let mut line = String::new();
         self.answers.read_line(&mut line)?;
-        // A line without an end is the last of a process that ended while it wrote it.
+        // A line without an end is the last of a process that crashed while writing.
         line.strip_suffix('\n').map(str::to_owned).ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
     }
 
-    /// Waits for the process, whose output has ended, and says why it did.
+    /// Waits for the process after the end of its output, and returns the reason of its end.
     fn end(&mut self) -> String {
         self.requests = None;
         let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
@@ -113,11 +114,11 @@ fn last_lines(errors: ChildStderr) -> Vec<String> {
     last
 }
 
-/// Has a request answered by the worker in `slot`, which gets a new one where there is none or it ends. A request at which two
-/// workers end is given up.
+/// The answer of the worker in `slot` to a request. The slot gets a new worker if it has none or if its worker ends. A
+/// request at which two workers end is given up.
 ///
 /// # Errors
-/// [`StartError`] when there is no other worker to be had.
+/// [`StartError`] if no other worker can be started.
 pub fn answer(
     slot: &mut Option<Worker>,
     start: impl Fn() -> Result<Worker, StartError>,
@@ -142,7 +143,8 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
 
-    /// A worker that doubles numbers; it dies of 13, and of 7 if it has not the file `mark` to say that it has done so before.
+    /// A worker that doubles numbers. It ends at 13. It ends at 7 unless the file `mark` shows that it has done so
+    /// before.
     fn start(mark: &str) -> Result<Worker, StartError> {
         let script = format!(
             "echo ready; while read n; do

@@ -10,13 +10,13 @@ use crate::quasi_static::{QuasiStaticError, QuasiStaticWorld};
 use crate::scene::{Scene, WorldKind, WorldSetup};
 use crate::world::World;
 
-/// Why a run could not begin.
+/// The error of a run that cannot begin.
 #[derive(Debug, thiserror::Error)]
 pub enum ExecuteError {
     /// The scenario's rig does not have what the policy needs.
     #[error(transparent)]
     Bind(#[from] BindError),
-    /// It was broken off.
+    /// The run was stopped.
     #[error("the run was broken off")]
     Interrupted,
     /// The world could not be built.
@@ -49,10 +49,10 @@ pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result
     }
 }
 
-/// Checks that the world can be had.
+/// Checks that the world is available.
 ///
 /// # Errors
-/// [`ExecuteError`] when this build has it not, or when its simulator's library cannot be loaded.
+/// [`ExecuteError`] if this build does not have it, or if the library of its simulator cannot be loaded.
 pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
     match kind {
         #[cfg(feature = "sim")]
@@ -79,8 +79,8 @@ fn simulator() -> &'static str {
     return "none";
 }
 
-/// A hash of everything but scenario and policy that a run in a world depends on: this program's version, the simulator's, and
-/// the model that it is given, and whether that is pruned.
+/// A hash of everything except scenario and policy that a run in a world depends on: the versions of this program and
+/// of the simulator, the model, and the pruning.
 #[must_use]
 pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     let engine = match world.kind {
@@ -92,7 +92,7 @@ pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
-    // It has all of the rig but its longest step, the solids and the start, whichever world they are for.
+    // The model has the whole rig except its longest step, the solids and the start, for every world.
     hash.update(mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start));
     hash.update([u8::from(world.prune)]);
     hash.update(scene.physics.calm_step.to_le_bytes());

@@ -1,4 +1,4 @@
-//! What makes the bench harder.
+//! Conditions of the bench beyond the baseline's.
 
 use std::fmt;
 
@@ -6,38 +6,38 @@ use serde::Serialize;
 
 use crate::scene::Scene;
 
-/// What makes a run of the bench harder than the thesis's scenes are: friction, and the estimated noise of the real sensor.
+/// Friction and estimated sensor noise. The baseline's scenes have neither.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Conditions {
-    /// Coefficient of sliding friction of whatever is touched. The tip model knows it, as one knows it that was calibrated on
-    /// such a surface.
+    /// Coefficient of sliding friction of all objects. The contact estimator assumes the same coefficient, as if it had
+    /// been calibrated on such a surface.
     pub friction: f64,
-    /// Whether sensors have the noise and the resolution that the real one is estimated to have.
+    /// True if sensors have the noise and the resolution that are estimated for the real sensor.
     pub noise: bool,
 }
 
-/// The longest step (s) and time constant of contacts (s) at which a tip slides steadily up to a friction of 0.3, and one that was
-/// stuck and springs off sinks in by less than the limit.
+/// The longest step (s) and contact time constant (s) that suffice with friction. Up to a friction of 0.3 a tip slides
+/// steadily, and a tip that snaps off after sticking penetrates less than the limit.
 const STEP: f64 = 1.0 / 3600.0;
 const CONTACT_TIME: f64 = 1.25e-3;
-/// How deep a tip may sink in (m) for a moment: one that was stuck springs off faster than one that slid.
+/// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
 const PENETRATION_LIMIT: f64 = 3e-3;
 
 impl Conditions {
-    /// Whether nothing is made harder.
+    /// True without friction and noise.
     #[must_use]
     pub fn are_ideal(self) -> bool {
         self == Self::default()
     }
 
-    /// The name of a scenario, and what makes it harder.
+    /// The name of a scenario followed by the conditions.
     #[must_use]
     pub fn named(self, scenario: &str) -> String {
         if self.are_ideal() { scenario.to_owned() } else { format!("{scenario}, {self}") }
     }
 
-    /// Makes a scene so.
+    /// Sets friction and noise of a scene.
     pub fn apply(self, scene: &mut Scene) {
         let Scene { rig, physics, .. } = scene;
         if self.friction > 0.0 {

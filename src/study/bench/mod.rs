@@ -1,4 +1,4 @@
-//! The bench: the thesis's scenes under its policy and others, beside what the thesis reports.
+//! The bench: the baseline's scenes under its policy and others, compared with the baseline's results.
 
 mod conditions;
 mod row;

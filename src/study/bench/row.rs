@@ -1,4 +1,4 @@
-//! One run of the bench, against the thesis.
+//! One run of the bench, compared with the baseline.
 
 use crate::results::Document;
 use serde::Serialize;
@@ -9,45 +9,45 @@ use crate::scene::Outcome;
 use super::conditions::Conditions;
 use super::thesis::{Reported, ThesisFigures, thesis_figures};
 
-/// How a figure compares with the thesis's, by their means.
+/// The comparison of the mean of a figure with the baseline's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// At most the thesis's.
+    /// At most the baseline's.
     Better,
-    /// More, or not known.
+    /// Greater than the baseline's, or unknown.
     Worse,
 }
 
-/// The verdicts on the figures that the thesis reports of a scene; `None` on what it does not report, and on all of a run that did
-/// not complete.
+/// The verdicts on the figures that the baseline reports of a scene. `None` for other figures, and for all figures of a
+/// run that did not complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Verdicts {
-    /// On the mean error.
+    /// Verdict on the mean error.
     pub error_mm: Option<Verdict>,
-    /// On the retrieval radius; also `None` for a run without retrievals, which cannot be worse at them.
+    /// Verdict on the retrieval radius. `None` for a run without retrievals.
     pub radius_mm: Option<Verdict>,
-    /// On the axis error.
+    /// Verdict on the axis error.
     pub axis_mm: Option<Verdict>,
 }
 
-/// One run of the bench, beside what the thesis reports of its scene.
+/// One run of the bench with the baseline's figures of its scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BenchRow {
     /// The run.
     #[serde(flatten)]
     pub result: RunResult,
-    /// What makes it harder than the thesis's scenes are.
+    /// The conditions of the run.
     pub conditions: Conditions,
-    /// What the thesis reports; `None` of a scene that is not one of its own.
+    /// The baseline's figures. `None` for a scene that the baseline does not have.
     pub thesis: Option<ThesisFigures>,
-    /// How the two compare.
+    /// The verdicts.
     pub verdicts: Verdicts,
-    /// Whether the run completed, no figure is worse than the thesis's, and what the scenario expects holds; whether it completed,
-    /// if conditions make it harder.
+    /// True if the run completed, no figure is worse than the baseline's, and all expectations hold. With friction or
+    /// noise, a completed run suffices.
     pub passed: bool,
 }
 
@@ -56,7 +56,7 @@ impl Document for BenchRow {
 }
 
 impl BenchRow {
-    /// The row of a run, which is as its scenario expects if `holds`.
+    /// The row of a run. `holds` is true if all expectations of its scenario hold.
     #[must_use]
     pub fn new(result: RunResult, holds: bool) -> Self {
         let thesis = thesis_figures(&result.scenario).copied();
@@ -74,20 +74,20 @@ impl BenchRow {
         Self { result, conditions: Conditions::default(), thesis, verdicts, passed }
     }
 
-    /// The same row as that of a run under `conditions`.
+    /// The same row for a run under `conditions`.
     #[must_use]
     pub fn under(self, conditions: Conditions) -> Self {
         let passed = if conditions.are_ideal() { self.passed } else { self.result.outcome == Outcome::Completed };
         Self { conditions, passed, ..self }
     }
 
-    /// The scene, and the conditions if they make it harder.
+    /// The scene followed by the conditions.
     #[must_use]
     pub fn scene(&self) -> String {
         self.conditions.named(&self.result.scenario)
     }
 
-    /// The figures that the thesis reports too: what was found, what it reports, and the verdict.
+    /// The figures that the baseline reports too: the measured one, the baseline's, and the verdict.
     pub(crate) fn figures(&self) -> [(MeanStd, Option<Reported>, Option<Verdict>); 3] {
         let error = MeanStd { mean: self.result.error_mm.mean, std: self.result.error_mm.std };
         let radius = self.result.retrieval.map(|retrieval| retrieval.radius_mm).unwrap_or_default();
@@ -103,6 +103,6 @@ impl BenchRow {
 
 fn verdict(reported: Option<Reported>, found: Option<f64>) -> Option<Verdict> {
     let reported = reported?;
-    // What is not a number is no better.
+    // A value that is not a number counts as worse.
     Some(if found.is_some_and(|found| found <= reported.mean) { Verdict::Better } else { Verdict::Worse })
 }

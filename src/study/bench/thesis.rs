@@ -1,8 +1,8 @@
-//! What the thesis reports of its ten scenes.
+//! The baseline's results in its ten scenes.
 
 use serde::Serialize;
 
-/// A mean and a sample standard deviation (mm), as far as the thesis gives them.
+/// A mean and a sample standard deviation (mm), as far as the baseline reports them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Reported {
@@ -12,7 +12,7 @@ pub struct Reported {
     pub std: Option<f64>,
 }
 
-/// What the thesis reports of a scene (sections 5.1 to 5.3).
+/// The baseline's results in one scene (sections 5.1 to 5.3 of the thesis).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ThesisFigures {
@@ -21,13 +21,13 @@ pub struct ThesisFigures {
     pub scenario: &'static str,
     /// Mean absolute error of the contour.
     pub error_mm: Reported,
-    /// Retrieval radius; `None` where nothing had to be retrieved.
+    /// Retrieval radius. `None` in scenes without a retrieval.
     pub radius_mm: Option<Reported>,
-    /// Axis error; `None` outside of tunnels.
+    /// Axis error. `None` outside of tunnels.
     pub axis_mm: Option<Reported>,
 }
 
-/// The ten scenes in the thesis's order.
+/// The ten scenes in the baseline's order.
 pub const THESIS: [ThesisFigures; 10] = [
     swiped("disk", (0.8, 0.5)),
     swiped("rounded-rectangle", (0.8, 0.6)),
@@ -42,7 +42,7 @@ pub const THESIS: [ThesisFigures; 10] = [
     tunnelled("round-tunnel", (3.0, 2.0), (5.0, 6.0)),
 ];
 
-/// What the thesis reports of the scene with this name; `None` if it is not one of the thesis's.
+/// The baseline's results in the scene with this name. `None` for a scene that the baseline does not have.
 #[must_use]
 pub fn thesis_figures(scenario: &str) -> Option<&'static ThesisFigures> {
     THESIS.iter().find(|figures| figures.scenario == scenario)

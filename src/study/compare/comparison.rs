@@ -9,13 +9,13 @@ use crate::scene::Outcome;
 use super::difference::FigureComparison;
 use super::figure::FIGURES;
 
-/// Policies over the same runs: every scenario from every start, with the same noise.
+/// Several policies over the same runs: every scenario from every start, with the same noise.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Comparison {
-    /// The policies, in the order given; the first is what the others are compared with.
+    /// The policies in the order given. The others are compared with the first.
     pub policies: Vec<PolicyRuns>,
-    /// Every figure of every other policy that has pairs.
+    /// Every figure of every other policy that has pairs of runs.
     pub figures: Vec<FigureComparison>,
 }
 
@@ -29,9 +29,10 @@ impl Document for Comparison {
 pub struct PolicyRuns {
     /// The policy's file.
     pub policy: String,
-    /// How many runs there were.
+    /// Number of runs.
     pub runs: usize,
-    /// Those that did not complete. Of their figures only `completed` counts: of a run that is cut short others would mislead.
+    /// The runs that did not complete. Of their figures only `completed` counts, because the others of a shortened run
+    /// would mislead.
     pub incomplete: Vec<Incomplete>,
 }
 
@@ -41,16 +42,16 @@ pub struct PolicyRuns {
 pub struct Incomplete {
     /// Name of the scenario.
     pub scenario: String,
-    /// The seed of its noise and its start.
+    /// Seed of its noise and its start.
     pub seed: u64,
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
-    /// Why.
+    /// The reason of the outcome.
     pub reason: Option<String>,
 }
 
 impl Comparison {
-    /// Compares policies by their runs, which are in the same order for each.
+    /// Compares policies by their runs. All policies have the same runs in the same order.
     #[must_use]
     pub fn new(policies: &[(String, Vec<RunResult>)]) -> Self {
         let runs = policies.iter().map(|(policy, results)| {

@@ -1,4 +1,4 @@
-//! One figure of two policies, pair by pair.
+//! One figure of two policies, compared in pairs of runs.
 
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -7,38 +7,38 @@ use crate::score::Statistics;
 
 use super::figure::Figure;
 
-/// How sure an interval is to contain the mean difference.
+/// Confidence level of an interval of the mean difference.
 const CONFIDENCE: f64 = 0.95;
 
-/// What can be said of a difference.
+/// The result of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Outlook {
-    /// The interval has only differences in which the policy is better than the first.
+    /// The interval contains only differences in favour of the policy.
     Better,
-    /// The interval has only differences in which it is worse.
+    /// The interval contains only differences in favour of the first policy.
     Worse,
     /// No pair differs.
     Same,
-    /// The difference cannot be told from zero.
+    /// The interval contains zero: the difference is not significant.
     Open,
 }
 
-/// The mean difference of a policy from the first, with its interval.
+/// The mean difference of a policy from the first, with its confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Difference {
-    /// The mean of this policy less that of the first.
+    /// The mean of this policy minus that of the first.
     pub mean: f64,
-    /// The 95 % interval of the mean, by Student's t; `None` with fewer than two pairs.
+    /// The 95 % confidence interval of the mean by Student's t. `None` with fewer than two pairs.
     ///
-    /// Student's t, because pairs are few: at ten pairs a percentile bootstrap covers the mean some 90 times in a hundred only,
-    /// at five some 80, while t keeps close to its 95 for differences that are far from normal.
+    /// Pairs are few. With ten pairs a percentile bootstrap covers the mean in only some 90 % of cases, with five in
+    /// some 80 %. Student's t stays close to 95 % even for differences that are far from normal.
     pub interval: Option<[f64; 2]>,
 }
 
-/// One figure of one policy against the first, over the pairs in which both have it.
+/// One figure of one policy compared with the first, over the pairs in which both have it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FigureComparison {
@@ -52,19 +52,19 @@ pub struct FigureComparison {
     pub first: f64,
     /// Mean of this one.
     pub mean: f64,
-    /// What lies between.
+    /// The mean difference.
     pub difference: Difference,
-    /// In how many pairs this one is better.
+    /// Number of pairs in which this policy is better.
     pub wins: usize,
-    /// In how many it is worse.
+    /// Number of pairs in which it is worse.
     pub losses: usize,
-    /// What can be said.
+    /// The result.
     pub outlook: Outlook,
 }
 
 impl FigureComparison {
-    /// Compares `pairs` of values, the first policy's before the other's; `None` if there is no pair. Pairs with a value that is
-    /// not a finite number do not count.
+    /// Compares `pairs` of values, the first policy's before the other's. `None` without a pair. Pairs with a value
+    /// that is not finite are omitted.
     #[must_use]
     pub fn new(figure: &Figure, policy: &str, mut pairs: Vec<(f64, f64)>) -> Option<Self> {
         pairs.retain(|(first, other)| first.is_finite() && other.is_finite());
@@ -97,7 +97,7 @@ impl FigureComparison {
     }
 }
 
-/// The interval of the mean of what these are a sample of.
+/// The confidence interval of the mean of the population of a sample.
 fn interval(sample: &Statistics) -> Option<[f64; 2]> {
     let std = sample.std()?;
     let count = sample.count() as f64;

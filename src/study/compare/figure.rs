@@ -8,15 +8,16 @@ use crate::scene::Outcome;
 pub struct Figure {
     /// Its name, with its unit.
     pub name: &'static str,
-    /// Its value, in that unit; `None` if the run does not have it.
+    /// Its value in that unit. `None` if the run does not have it.
     pub of: fn(&RunResult) -> Option<f64>,
-    /// Whether it is better the larger it is.
+    /// True if larger values are better.
     pub larger_is_better: bool,
-    /// Whether runs that were cut short have it as well as those that completed.
+    /// True if runs that did not complete have it too.
     pub of_every_run: bool,
 }
 
-/// All of them, as they are named in the result of a run; and whether it completed, 1 or 0, whose mean is a share.
+/// All figures, with the names of the result of a run. The last is 1 for a completed run and else 0, so that its mean
+/// is a share.
 pub const FIGURES: [Figure; 17] = [
     Figure {
         of_every_run: true,

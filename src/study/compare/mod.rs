@@ -1,4 +1,4 @@
-//! Policies against each other, over the same runs.
+//! Comparison of policies over the same runs.
 
 mod comparison;
 mod difference;

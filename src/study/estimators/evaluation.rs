@@ -14,11 +14,11 @@ use vibrissa_runtime::signal::Sample;
 
 use super::row::EstimatorRow;
 
-/// The noise of the sensors, over the estimate of that of the real one.
+/// Factors of the estimated noise of the real sensor.
 const NOISES: [f64; 3] = [0.0, 1.0, 10.0];
 
-/// Runs a policy once in a scene without noise, and evaluates every contact estimator on its samples, at several levels of noise.
-/// The points that the run recorded are evaluated.
+/// Runs a policy once in a scene without noise. Then evaluates every contact estimator on the samples of the run, at
+/// several levels of noise. The points that the run recorded are evaluated.
 ///
 /// # Errors
 /// [`ExecuteError`] if the run cannot begin, or if the rig does not have what an estimator needs.
@@ -45,7 +45,7 @@ pub fn evaluate_all(scene: &Scene, program: Arc<Program>, world: WorldKind) -> R
     Ok(rows)
 }
 
-/// Gives readings so many times the noise and the resolution of the real sensor.
+/// Multiplies the noise and the resolution of the real sensor by a factor.
 fn make_noisy(sensing: &mut Sensing, factor: f64) {
     sensing.make_real();
     sensing.angle_noise *= factor;
@@ -68,8 +68,8 @@ fn noisy(ticks: &[Vec<Sample>], rig: &Rig, seed: u64) -> Vec<Vec<Sample>> {
     ticks
 }
 
-/// The figures of contact estimators on a recording. There is one estimator for each of the policy's `whiskers`, which are indices in the
-/// rig. Perception assumes `rig`. The row has the name of the first estimator.
+/// The figures of contact estimators on a recording. There is one estimator for each of the policy's `whiskers`, given
+/// as indices in the rig. Perception assumes `rig`. The row has the name of the first estimator.
 pub(in crate::study) fn evaluate(
     scene: &Scene,
     rig: &Rig,
@@ -84,7 +84,7 @@ pub(in crate::study) fn evaluate(
         let start = processor_time();
         perception.update(samples);
         seconds += processor_time() - start;
-        // A trace has only those whiskers that the rig has.
+        // A trace has only the whiskers that the rig has.
         let fitted = whiskers.iter().enumerate().filter_map(|(bound, index)| index.map(|index| (bound, index)));
         for (whisker, (bound, in_rig)) in fitted.enumerate() {
             if tick.tips[whisker].is_none() {

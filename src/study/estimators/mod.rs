@@ -1,4 +1,4 @@
-//! Tip models against each other: the same samples for all of them, with more and more noise.
+//! Comparison of contact estimators on the same samples, at several levels of noise.
 
 mod evaluation;
 mod row;

@@ -1,33 +1,34 @@
-//! How one tip model did.
+//! The figures of one contact estimator.
 
 use crate::results::Document;
 use serde::Serialize;
 
-/// How one tip model did on the samples of one scene.
+/// The figures of one contact estimator on the samples of one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct EstimatorRow {
     /// The scene.
     pub scenario: String,
-    /// The noise of the sensors, over the estimate of that of the real one.
+    /// Factor of the estimated noise of the real sensor.
     pub noise: f64,
-    /// The tip model's name.
+    /// Name of the contact estimator.
     pub model: &'static str,
-    /// Of the points that the run had recorded by sliding and without noise, the share that it tells.
+    /// Share of the points for which the estimator reports a position, 0 to 1. The points are those that the run
+    /// recorded without noise by the sliding estimator.
     pub told: f64,
-    /// Mean distance of what it tells from the exact surface (mm), its 95th percentile, and the share of it within its own band.
+    /// Mean distance of the reported positions from the exact surface (mm).
     pub mean_mm: Option<f64>,
-    /// See `mean_mm`.
+    /// 95th percentile of that distance (mm).
     pub p95_mm: Option<f64>,
-    /// See `mean_mm`.
+    /// Share of the reported positions within their own 95 % interval, 0 to 1.
     pub within_band: Option<f64>,
-    /// The share of it that are outliers.
+    /// Share of the reported positions that are outliers, 0 to 1.
     pub outliers: Option<f64>,
-    /// Number of points that it tells.
+    /// Number of reported positions.
     pub tips: usize,
-    /// The share of the points that it tells to be touches of the shaft.
+    /// Share of the reported positions that are reported as contacts of the shaft, 0 to 1.
     pub on_shaft: f64,
-    /// Mean time that perception takes a tick (µs), all whiskers together.
+    /// Mean time of perception in a tick (µs), all whiskers together.
     pub tick_us: f64,
 }
 

@@ -1,7 +1,7 @@
-//! What no other is better than.
+//! Pareto-optimal points.
 
-/// Which of some points, each with what it costs and how far off it is, no other is better than: at most as dear and at most as far
-/// off, and one of both less. What is `None`, or has what is no number, is on no front.
+/// True for each Pareto-optimal point, a cost and an error. No other point has at most the same cost and at most the
+/// same error, with one of both less. `None` and points that are not numbers are never Pareto-optimal.
 #[must_use]
 pub fn front(points: &[Option<(f64, f64)>]) -> Vec<bool> {
     let known = |point: &Option<(f64, f64)>| point.filter(|(cost, error)| cost.is_finite() && error.is_finite());
@@ -23,7 +23,7 @@ mod tests {
     }
 
     proptest! {
-        /// In the order of their cost, points of a front come nearer and nearer.
+        /// In the order of their cost, the errors of Pareto-optimal points decrease.
         #[test]
         fn a_front_falls(points in prop::collection::vec((0.0..9.0_f64, 0.0..9.0_f64).prop_map(Some), 1..40)) {
             let on = front(&points);
@@ -31,7 +31,7 @@ mod tests {
                 points.iter().zip(&on).filter(|(_, on)| **on).filter_map(|(point, _)| *point).collect();
             chosen.sort_by(|a, b| a.0.total_cmp(&b.0));
             prop_assert!(chosen.windows(2).all(|pair| pair[1].1 < pair[0].1));
-            // Everything else has one on the front that is better.
+            // Every other point is dominated by a Pareto-optimal one.
             for (cost, error) in points.iter().zip(&on).filter(|(_, on)| !**on).filter_map(|(point, _)| *point) {
                 prop_assert!(chosen.iter().any(|one| one.0 <= cost && one.1 <= error));
             }

@@ -1,4 +1,4 @@
-//! Runs under all settings, and what they cost.
+//! Runs under all settings, with their run times.
 
 use std::sync::Arc;
 
@@ -16,18 +16,19 @@ use crate::score::{Estimate, Statistics};
 use crate::study::estimators::evaluate;
 use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 
-/// How far behind the scene's start (m) the fine run begins once more.
+/// Distance behind the scene's start at which the second fine run begins (m).
 const BEHIND: f64 = 1e-3;
 
-/// Runs a policy in a scene under every one of `settings`, the first of which is the default, `repeats` times, one run at a time. One round
-/// has every setting once, so that what else the machine does falls on all of them. `progress` hears of every run that is done.
+/// Runs a policy in a scene `repeats` times under each of `settings`, one run at a time. The first setting is the
+/// default. Each round has every setting once, so that disturbances of the machine affect all of them. `progress`
+/// receives the setting of every run that is done.
 ///
-/// In all of them perception takes whiskers to have as many links as those of the fine run, so that what a coarse chain costs is not made
-/// up for by a tip model that knows it. Another tip model gets the samples of a run under the policy's own: no policy makes up for
-/// it, or is thrown by it.
+/// In all settings perception assumes as many links as in the fine run. Otherwise an estimator that assumes a coarse
+/// chain would compensate for its error. Another contact estimator receives the samples of a run under the policy's
+/// own. Therefore its error does not affect the path of the run.
 ///
 /// # Errors
-/// [`ExecuteError`] when the first of the settings cannot be run; one of the others is then refused.
+/// [`ExecuteError`] if the first setting cannot run. Any other setting that cannot run counts as refused.
 pub fn measure(
     scene: &Scene,
     program: &Arc<Program>,
@@ -79,14 +80,14 @@ pub fn measure(
     })
 }
 
-/// What is kept of a run.
+/// The kept part of a run's result.
 pub(super) struct Measured {
     pub(super) ending: Ending,
     pub(super) reason: Option<String>,
     pub(super) sim_s: f64,
     pub(super) error_mm: Option<f64>,
     pub(super) coverage: Option<f64>,
-    /// What it estimates, if that is a run's own.
+    /// The estimated contour. `None` if the estimator is not that of the run.
     estimate: Option<Estimate>,
     seconds: f64,
 }
@@ -131,8 +132,8 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
     Ok(Measured::new(&result, seconds))
 }
 
-/// A run under the policy's own contact estimator, whose samples are given to an estimator of another `kind`. The time is that of the run
-/// with the other perception.
+/// A run under the policy's own contact estimator, whose samples are given to an estimator of another `kind`. The time
+/// is that of the run with the other perception.
 fn re_estimated(trial: &Trial, kind: ContactEstimatorKind) -> Result<Measured, ExecuteError> {
     let Trial { scene, assumed_rig, program, .. } = trial;
     let whiskers = scene.rig.fitted(&program.whiskers, &program.optional).map_err(BindError::from)?;
@@ -147,7 +148,7 @@ fn re_estimated(trial: &Trial, kind: ContactEstimatorKind) -> Result<Measured, E
     Ok(Measured { error_mm: other.mean_mm, coverage: None, estimate: None, ..run })
 }
 
-/// Says of every row on which fronts it is, of all settings and of those in its own world.
+/// Marks the Pareto-optimal rows, among all settings and among those of the same world.
 fn mark(rows: &mut [ParetoRow]) {
     let fronts = |world: Option<&str>| {
         let of = |error: fn(&ParetoRow) -> Option<f64>| {

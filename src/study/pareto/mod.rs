@@ -1,4 +1,4 @@
-//! Run time against error: settings of a scene's world and of its perception, what each costs and what it is worth.
+//! Run time against error over the settings of a scene's world and of its perception.
 
 mod front;
 mod measure;

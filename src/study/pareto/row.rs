@@ -1,4 +1,4 @@
-//! What one setting costs, and what it is worth.
+//! Run time and error of one setting.
 
 use crate::results::Document;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use crate::score::Statistics;
 use super::measure::Measured;
 use super::setting::Setting;
 
-/// What a scene's settings cost, and what they are worth.
+/// Run times and errors of the settings of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Pareto {
@@ -18,14 +18,14 @@ pub struct Pareto {
     pub scenario: String,
     /// The policy.
     pub policy: String,
-    /// Its tip models, whisker by whisker.
+    /// Its contact estimators, whisker by whisker.
     pub tip_models: Vec<&'static str>,
-    /// How often every setting was run.
+    /// Number of runs of every setting.
     pub repeats: usize,
-    /// The mean distance (mm) of the tips of the fine run, from a start 1 mm behind, from the contour of the fine run: what differs from
-    /// that by less cannot be told apart.
+    /// Mean distance (mm) between the tips of a second fine run, from a start 1 mm behind, and the contour of the fine
+    /// run. Smaller differences are not significant.
     pub floor_mm: Option<f64>,
-    /// The settings, the default first and the fine one second.
+    /// The settings. The first is the default, the second the fine one.
     pub settings: Vec<ParetoRow>,
 }
 
@@ -33,57 +33,58 @@ impl Document for Pareto {
     const FORMAT: &'static str = "pareto";
 }
 
-/// What one setting costs, and what it is worth.
+/// Run time and error of one setting.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ParetoRow {
-    /// What is not as in the scenario.
+    /// The changes to the scenario.
     pub setting: String,
-    /// What that is: `default`, `fine`, `links`, `step`, `contacts`, `integrator`, `solver`, `world`, `tip model`, or `several`.
+    /// The kind of change: `default`, `fine`, `links`, `step`, `contacts`, `integrator`, `solver`, `world`, `tip
+    /// model`, or `several`.
     pub axis: &'static str,
     /// The world.
     pub world: &'static str,
     /// Links of the first whisker.
     pub links: usize,
-    /// Length of a step; in the quasi-static world, of a sample.
+    /// Length of a step. In the quasi-static world, the time between samples.
     pub step_ms: f64,
-    /// Time constant of contacts; `None` where surfaces are hard.
+    /// Time constant of contacts. `None` if contacts are rigid.
     pub contact_time_ms: Option<f64>,
     /// MuJoCo's integrator.
     pub integrator: Option<&'static str>,
     /// MuJoCo's solver.
     pub solver: Option<&'static str>,
-    /// How the run ended.
+    /// Outcome of the run.
     pub outcome: Ending,
-    /// Why, if not as it should.
+    /// Reason of the outcome. `None` for a completed run.
     pub reason: Option<String>,
     /// Simulated time.
     pub sim_s: f64,
-    /// Time of the processor that the run took, the median of all.
+    /// Processor time of the run, the median over all rounds.
     pub processor_s: Option<f64>,
-    /// The same over that of the default in the same round, the median of all rounds.
+    /// Ratio of the processor time to that of the default in the same round, the median over all rounds.
     pub relative_time: Option<f64>,
-    /// The least and the greatest of these.
+    /// The smallest and the largest of these ratios.
     pub relative_time_range: Option<[f64; 2]>,
-    /// Mean distance of its tips from the exact contour.
+    /// Mean distance of the tips from the exact contour.
     pub error_mm: Option<f64>,
-    /// Mean distance of its tips from the contour that the fine run estimated; `None` of another tip model.
+    /// Mean distance of the tips from the contour that the fine run estimated. `None` for another contact estimator.
     pub fine_mm: Option<f64>,
-    /// Share of the exact contour that was traced, 0 to 1; `None` of another tip model.
+    /// Share of the exact contour that was traced, 0 to 1. `None` for another contact estimator.
     pub coverage: Option<f64>,
-    /// Whether no other setting is at most as dear and at most as far off, and one of both less.
+    /// True if the setting is Pareto-optimal among all settings.
     pub on_front: Front,
-    /// The same among the settings in its world.
+    /// True if the setting is Pareto-optimal among the settings of its world.
     pub on_front_of_world: Front,
 }
 
-/// Whether a setting is on the fronts of time against error.
+/// Pareto-optimality of a setting by either error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Front {
-    /// Against the exact contour.
+    /// By the error against the exact contour.
     pub exact: bool,
-    /// Against the fine run.
+    /// By the error against the fine run.
     pub fine: bool,
 }
 
@@ -94,12 +95,13 @@ impl Front {
 }
 
 impl ParetoRow {
-    /// Whether the run ended as it should.
+    /// True if the run completed.
     pub(crate) fn completed(&self) -> bool {
         self.outcome == Ending::Completed
     }
 
-    /// The row of a setting, which makes this of rig and world; with the statistics of its relative and its absolute times (s).
+    /// The row of a setting. `scene` and `world` are the result of the setting. `figures` has the statistics of
+    /// relative and absolute times (s).
     pub(super) fn new(
         setting: &Setting,
         scene: &Scene,

@@ -7,35 +7,36 @@ use crate::scene::{Scene, WorldKind};
 use vibrissa_runtime::machine::ContactEstimatorKind;
 use vibrissa_runtime::rig::Rig;
 
-/// What a setting has that the scenario has not.
+/// One change of a setting to a scenario.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
     /// The world.
     World(WorldKind),
     /// Links of every whisker.
     Links(usize),
-    /// All steps as long: the longest (s) up to this that goes into a sample. Where this is longer than a sample, samples become as long.
+    /// The longest step (s), for all steps. It is rounded down to an integer fraction of a sample. A step longer than a
+    /// sample lengthens the samples.
     Step(f64),
-    /// Contacts with a time constant of one step: MuJoCo takes none that is shorter, and with other integrators than `discrete` none below
-    /// two steps.
+    /// Contacts with a time constant of one step, the shortest that MuJoCo accepts. With integrators other than
+    /// `discrete`, the shortest is two steps.
     HardContacts,
-    /// No step is longer than those that fast whiskers take.
+    /// No calm steps: no step is longer than those for fast whiskers.
     NoCalmSteps,
-    /// Whiskers bend in the air, too.
+    /// Whiskers bend in the air too.
     BendInAir,
-    /// How MuJoCo goes from step to step.
+    /// Numerical integrator of MuJoCo.
     Integrator(Integrator),
-    /// How MuJoCo finds the forces of contacts.
+    /// Contact solver of MuJoCo.
     Solver(Solver),
-    /// The tip model of every whisker.
+    /// Contact estimator of every whisker.
     TipModel(ContactEstimatorKind),
 }
 
-/// A setting: the scenario with some changes, one after the other; the default has none.
+/// A setting: a scenario with changes that are applied in order. The default has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting(pub Vec<Change>);
 
-/// Links of the fine run, and of the whiskers that perception takes there to be in all settings.
+/// Links of the fine run. Perception assumes as many in all settings.
 pub(super) const FINE_LINKS: usize = 40;
 /// The longest step (s) of the fine run.
 const FINE_STEP: f64 = 0.5e-3;
@@ -46,7 +47,7 @@ const USUAL: f64 = 1.0 / 300.0;
 const SHORT: f64 = 1.0 / 900.0;
 const SHORTER: f64 = 1.0 / 1800.0;
 const STEPS: [f64; 6] = [1.0 / 90.0, SLOW, USUAL, 1.0 / 600.0, SHORT, SHORTER];
-/// A step (s) that the explicit integrators bear.
+/// A step (s) at which explicit integrators are stable.
 const SHORTEST: f64 = 1.0 / 3600.0;
 
 impl Setting {
@@ -56,16 +57,16 @@ impl Setting {
         Self(Vec::new())
     }
 
-    /// The fine one that others are compared with: in MuJoCo, where the program has it, with 40 links and steps of at most 0.5 ms.
-    /// Contacts are as hard as the step bears, for what a whisker sinks in by is what a world of hard surfaces has not.
+    /// The fine setting that others are compared with: 40 links and steps of at most 0.5 ms, in MuJoCo if the program
+    /// has it. Contacts are as hard as the step allows, because penetration is absent in a world of rigid surfaces.
     #[must_use]
     pub fn fine() -> Self {
         use Change::{BendInAir, HardContacts, Links, Step, World};
         Self(vec![World(WorldKind::default()), Links(FINE_LINKS), Step(FINE_STEP), HardContacts, BendInAir])
     }
 
-    /// The settings that are compared of a scene in its `world`: the default, the fine one, every axis by itself, and some changes
-    /// together. Those that are as one before are left out, and so are those of worlds that the program does not have.
+    /// The settings that are compared for a scene in its `world`: the default, the fine one, every axis by itself, and
+    /// some combinations. Duplicates are omitted, and so are settings of worlds that the program does not have.
     #[must_use]
     pub fn all(scene: &Scene, world: WorldKind) -> Vec<Self> {
         use Change::{
@@ -103,12 +104,12 @@ impl Setting {
         all.filter(is_new).chain(ContactEstimatorKind::ALL.map(|kind| Self(vec![TipModel(kind)]))).collect()
     }
 
-    /// The tip model that takes the place of the policy's own.
+    /// The contact estimator that replaces the policy's own.
     pub(super) fn tip_model(&self) -> Option<ContactEstimatorKind> {
         self.0.iter().find_map(|change| if let Change::TipModel(kind) = change { Some(*kind) } else { None })
     }
 
-    /// The scene and the world with the changes.
+    /// The scene and the world after the changes.
     pub(super) fn apply(&self, scene: &Scene, world: WorldKind) -> (Scene, WorldKind) {
         let (mut scene, mut world) = (scene.clone(), world);
         let Scene { rig, physics, .. } = &mut scene;
@@ -128,7 +129,7 @@ impl Setting {
         (scene, world)
     }
 
-    /// The one thing that it changes, in words.
+    /// Name of the single kind of change, `several` for a combination.
     pub(super) fn axis(&self) -> &'static str {
         match self.0.as_slice() {
             [] => "default",
@@ -136,7 +137,7 @@ impl Setting {
             [Change::Links(_)] => "links",
             [Change::Step(_) | Change::NoCalmSteps] => "step",
             [Change::BendInAir] => "whiskers in the air",
-            // An integrator comes with what it bears.
+            // An integrator is combined with the step that it needs.
             [Change::Integrator(_)] | [Change::Step(_), Change::Integrator(_), Change::HardContacts] => "integrator",
             [Change::HardContacts] => "contacts",
             [Change::Solver(_)] => "solver",
@@ -147,7 +148,7 @@ impl Setting {
     }
 }
 
-/// Gives every whisker so many links.
+/// Sets the number of links of every whisker.
 pub(super) fn set_links(rig: &mut Rig, links: usize) {
     for whisker in &mut rig.whiskers {
         whisker.shaft.links = links;
@@ -155,7 +156,7 @@ pub(super) fn set_links(rig: &mut Rig, links: usize) {
 }
 
 fn set_step(rig: &mut Rig, physics: &mut Physics, step: f64) {
-    // A whole number, though rounded.
+    // An integer in spite of rounding errors.
     let parts = |period: f64| (period / step - 1e-9).ceil().max(1.0);
     let sensing = &mut rig.sensing;
     sensing.sample_rate = sensing.sample_rate.min(sensing.control_rate * parts(sensing.control_rate.recip()));

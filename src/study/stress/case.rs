@@ -1,4 +1,4 @@
-//! Cases that are hard on a world.
+//! Stress tests of a world.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,54 +8,55 @@ use crate::scene::{Scene, Stop, WorldKind};
 use crate::solid::{Solid, SolidError};
 use vibrissa_runtime::rig::Rig;
 
-/// A scene that strains a world, and how the platform is driven through it.
+/// A stress test: a scene at the limits of a world, and a drive of the platform.
 #[derive(Debug, Clone)]
 pub struct StressCase {
-    /// What is hard about it.
+    /// Name of the difficulty.
     pub name: String,
     /// The world.
     pub world: WorldKind,
     /// The scene.
     pub scene: Scene,
-    /// How the platform is driven.
+    /// The drive of the platform.
     pub drive: Drive,
 }
 
-/// How the platform is driven.
+/// The drive of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
-    /// By the policy that the program runs unless it is given another.
+    /// The default policy of the program.
     Policy,
-    /// Straight ahead at a speed (m/s), turning at a rate (rad/s), whatever is there.
+    /// A constant forward speed (m/s) and yaw rate (rad/s), whatever the whiskers touch.
     Straight(f64, f64),
 }
 
-/// Why a case could not be made: a fault of the list of cases.
+/// The error of a case that cannot be made, a fault of the list of cases.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
-    /// Its shape is none.
+    /// The shape is not valid.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// Its outline is none.
+    /// The outline is not valid.
     #[error(transparent)]
     Contour(#[from] ContourError),
-    /// Its object cannot be simulated.
+    /// The object cannot be simulated.
     #[error(transparent)]
     Solid(#[from] SolidError),
 }
 
-/// Usual speed (m/s).
+/// Default speed (m/s).
 const SPEED: f64 = 0.05;
-/// How far the right whisker reaches from the middle of the reference platform (m), and how deep what is beside it lies within that.
+/// Lateral reach of the right whisker from the centre of the reference platform (m), and the overlap of an object
+/// beside it with that reach.
 const REACH: f64 = 0.1266;
 const DEEP: f64 = 0.012;
-/// Far from the origin (m).
+/// An offset far from the origin (m).
 const FAR: Vector2 = Vector2::new(1e4, -1e4);
 
 /// All cases, each in both worlds.
 ///
 /// # Errors
-/// [`CaseError`] when one cannot be made.
+/// [`CaseError`] if a case cannot be made.
 pub fn stress_cases() -> Result<Vec<StressCase>, CaseError> {
     let mut list = List(Vec::new());
     list.settings()?;
@@ -64,7 +65,7 @@ pub fn stress_cases() -> Result<Vec<StressCase>, CaseError> {
     Ok(list.0)
 }
 
-/// A scene with the reference rig at the origin, heading along y, before an object; it ends after a time (s).
+/// A scene with the reference rig at the origin, heading along y, in front of an object. It ends after a time (s).
 pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, CaseError> {
     Ok(Scene {
         name: name.to_owned(),
@@ -82,12 +83,12 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
     })
 }
 
-/// A disk that the right whisker is drawn along.
+/// A disk beside the platform that the right whisker is dragged along.
 pub(super) fn disk_beside() -> Result<Contour, CaseError> {
     Ok(circle(Point2::new(REACH - DEEP + 0.2, 0.25), 0.2)?)
 }
 
-/// Gives a scene another step (s); where it is longer than a sample, samples become as long.
+/// Sets the step of a scene (s). A step longer than a sample lengthens the samples.
 pub(super) fn set_step(scene: &mut Scene, step: f64) {
     scene.physics.step = step;
     let sensing = &mut scene.rig.sensing;
@@ -108,7 +109,7 @@ pub(super) fn set_links(rig: &mut Rig, links: usize) {
     }
 }
 
-/// The cases so far.
+/// The list of cases in construction.
 struct List(Vec<StressCase>);
 
 impl List {
@@ -118,7 +119,7 @@ impl List {
         }
     }
 
-    /// A disk beside the way, with other settings of the rig.
+    /// Adds a disk beside the path, with changed settings of the rig.
     fn settings_of(&mut self, name: String, change: impl FnOnce(&mut Scene)) -> Result<(), CaseError> {
         let mut scene = scene("", disk_beside()?, 6.0)?;
         scene.name = name;
@@ -181,7 +182,7 @@ impl List {
             far.start.position += FAR;
             self.add(&far, drive);
         }
-        // The near side, and what is behind it.
+        // The near side of the object, and a line behind it.
         let (near, far) = (REACH - DEEP, REACH + 0.3);
         let half = 0.5 * 0.1_f64.to_radians();
         let rise = (far - near) * half;

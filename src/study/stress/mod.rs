@@ -1,5 +1,5 @@
-//! What is hard on a world: every case ends in one of the ways in which runs end, with numbers that are finite; and the largest
-//! steps that are stable.
+//! Stress tests of a world. Every case must end with a regular outcome and finite numbers. Other tasks search the
+//! largest stable step.
 
 mod case;
 mod run;
@@ -9,7 +9,7 @@ pub use case::{CaseError, Drive, StressCase, stress_cases};
 pub use run::StressRow;
 pub use stability::StabilityCase;
 
-/// A case, or a setting of which the largest stable step is sought.
+/// A stress test, or the search for the largest stable step of a setting.
 #[derive(Debug, Clone)]
 pub enum StressTask {
     /// A case.
@@ -19,16 +19,16 @@ pub enum StressTask {
 }
 
 impl StressTask {
-    /// All of them: the list that processes agree on.
+    /// All tasks. Processes identify a task by its index in this list.
     ///
     /// # Errors
-    /// [`CaseError`] when a case cannot be made.
+    /// [`CaseError`] if a case cannot be made.
     pub fn all() -> Result<Vec<Self>, CaseError> {
         let cases = stress_cases()?.into_iter().map(|case| Self::Case(Box::new(case)));
         Ok(cases.chain(StabilityCase::all().into_iter().map(|case| Self::Step(Box::new(case)))).collect())
     }
 
-    /// What it is called.
+    /// The name of the task.
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -37,7 +37,7 @@ impl StressTask {
         }
     }
 
-    /// Does it.
+    /// Executes the task.
     #[must_use]
     pub fn run(&self) -> StressRow {
         match self {
@@ -46,7 +46,7 @@ impl StressTask {
         }
     }
 
-    /// What is told of it if it ended its process.
+    /// The row of a task whose process crashed.
     #[must_use]
     pub fn crashed(&self, reason: String) -> StressRow {
         match self {

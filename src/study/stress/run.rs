@@ -1,4 +1,4 @@
-//! What becomes of a case.
+//! Execution of a stress test.
 
 use crate::results::Document;
 use std::sync::Arc;
@@ -16,37 +16,38 @@ use vibrissa_runtime::units::Dimension;
 use super::case::{Drive, StressCase};
 use super::stability::StabilityCase;
 
-/// What became of a case, or of the search for a largest stable step.
+/// The result of a stress test or of a search for the largest stable step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum StressRow {
-    /// Of a case.
+    /// The result of a stress test.
     Case {
-        /// What is hard about it.
+        /// Name of the difficulty.
         name: String,
         /// The world.
         world: String,
-        /// How the platform was driven.
+        /// The drive of the platform.
         drive: String,
-        /// How it ended.
+        /// Outcome of the run.
         outcome: Ending,
-        /// Why, if not as it should.
+        /// Reason of the outcome. `None` for a completed run.
         reason: Option<String>,
         /// Simulated time.
         sim_s: f64,
-        /// Whether every number of its trace and its result is finite, but for the spreads of tips beyond a tip model's range.
+        /// True if every number of the trace and the result is finite. Standard deviations of tips beyond the range of
+        /// a contact estimator are excepted.
         finite: bool,
     },
-    /// Of a search.
+    /// The result of a search.
     Step {
         /// The setting.
         name: String,
         /// The world.
         world: String,
-        /// The largest stable step; `None` if not even 0.1 ms is stable.
+        /// The largest stable step. `None` if 0.1 ms is not stable.
         largest_ms: Option<f64>,
-        /// Why there is no answer, if there is none.
+        /// Reason of a missing result.
         reason: Option<String>,
     },
 }
@@ -56,7 +57,7 @@ impl Document for StressRow {
 }
 
 impl StressRow {
-    /// Whether it is as it must be: a typed end, and numbers that are finite.
+    /// True if the outcome is regular and all numbers are finite.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         match self {
@@ -67,12 +68,12 @@ impl StressRow {
 }
 
 impl StressCase {
-    /// Runs it.
+    /// Runs the case.
     #[must_use]
     pub fn run(&self) -> StressRow {
         let program = match self.drive.program() {
             Ok(program) => Arc::new(program),
-            // A fault of this program, and no end of a run.
+            // A fault of this program, not an outcome of a run.
             Err(reason) => return self.crashed(reason),
         };
         let mut trial = Trial::new(self.scene.clone(), program);
@@ -82,10 +83,10 @@ impl StressCase {
             Err(cause) => return self.row(Ending::Refused, Some(cause.to_string()), 0.0, true),
         };
         let document = trial.document(&result);
-        // JSON has no word for what is no number: it would read as a figure that the run does not have.
+        // JSON has no infinite numbers. They would read as missing figures.
         let run = result.run;
         let mut trace = run.trace;
-        // These alone may be infinite: beyond the range of a tip model nothing is known of the place.
+        // Only these may be infinite: beyond the range of a contact estimator the position is unknown.
         for spread in
             trace.ticks.iter_mut().flat_map(|tick| &mut tick.tip_spreads).filter(|spread| spread.is_infinite())
         {
@@ -95,7 +96,7 @@ impl StressCase {
         self.row(run.outcome.into(), run.reason, document.sim_s, finite)
     }
 
-    /// The row of a case that ended its process.
+    /// The row of a case whose process crashed.
     pub(super) fn crashed(&self, reason: String) -> StressRow {
         self.row(Ending::Crashed, Some(reason), 0.0, true)
     }
@@ -107,7 +108,7 @@ impl StressCase {
 }
 
 impl StabilityCase {
-    /// Searches.
+    /// Searches the largest stable step.
     #[must_use]
     pub fn run(&self) -> StressRow {
         let (largest, reason) = match self.largest_stable_step() {
@@ -120,7 +121,7 @@ impl StabilityCase {
 }
 
 impl Drive {
-    /// The program that drives so.
+    /// The program of this drive.
     fn program(self) -> Result<Program, String> {
         let (path, text) = match self {
             Self::Policy => (DEFAULT_POLICY.path, DEFAULT_POLICY.text),
@@ -146,7 +147,7 @@ impl std::fmt::Display for Drive {
     }
 }
 
-/// Whether there is no number in what something looks like to Rust that is not finite.
+/// True if a text in Rust's debug format has no number that is not finite.
 fn is_finite(debug: &str) -> bool {
     debug.split(|letter: char| !letter.is_alphanumeric()).all(|word| word != "NaN" && word != "inf")
 }

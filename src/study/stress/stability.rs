@@ -1,4 +1,4 @@
-//! The largest step that a world bears.
+//! The largest stable step of a world.
 
 use crate::geometry::Vector2;
 use crate::physics::{Integrator, Physics};
@@ -10,7 +10,7 @@ use vibrissa_runtime::signal::Command;
 
 use super::case::{CaseError, disk_beside, scene, set_links, set_step, stiffen};
 
-/// A setting of which the largest stable step is sought.
+/// A setting whose largest stable step is searched.
 #[derive(Debug, Clone)]
 pub struct StabilityCase {
     /// The setting.
@@ -21,10 +21,10 @@ pub struct StabilityCase {
     physics: Physics,
 }
 
-/// Ticks a second at which steps are tried, and the most steps a tick: the shortest step is 0.1 ms.
+/// Tick rate of the tried steps (Hz), and the most steps in a tick. The shortest step is 0.1 ms.
 const TICKS: f64 = 30.0;
 const MOST_STEPS: u32 = 333;
-/// Ticks of being shaken, of rest after it, and of the way past a disk.
+/// Ticks of the shaking, of the rest after it, and of the path past a disk.
 const SHAKEN: usize = 30;
 const REST: usize = 60;
 const PAST: usize = 75;
@@ -36,7 +36,7 @@ impl StabilityCase {
         let mut cases = Vec::new();
         let mut add = |name: String, world, change: &dyn Fn(&mut Rig, &mut Physics)| {
             let mut rig = Rig::default();
-            // The shafts must bend when they are shaken in the air.
+            // The shafts must bend while they are shaken in the air.
             let mut physics = Physics { rigid_in_air: false, ..Physics::default() };
             change(&mut rig, &mut physics);
             cases.push(Self { name, world, rig, physics });
@@ -58,17 +58,19 @@ impl StabilityCase {
         cases
     }
 
-    /// The largest stable step (s), found by bisection over the steps that make up a tick; `None` if not even the shortest is.
+    /// The largest stable step (s), by bisection over the number of steps in a tick. `None` if the shortest step is not
+    /// stable.
     ///
-    /// It is stable if the platform can be shaken, without its whiskers' swinging more some time after that, and driven past a disk, without a
-    /// fault.
+    /// A step is stable if no fault occurs and the vibration of the whiskers decays after the platform was shaken. Then
+    /// the platform is driven past a disk, also without a fault.
     ///
     /// # Errors
-    /// [`CaseError`] when the disk cannot be made.
+    /// [`CaseError`] if the disk cannot be made.
     pub fn largest_stable_step(&self) -> Result<Option<f64>, CaseError> {
         let scene = scene(&self.name, disk_beside()?, 0.0)?;
         let is_stable = |steps: u32| self.is_stable(&scene, step(steps));
-        // Long steps are tried first: they take the least time. As many steps as `low` are not stable, as many as `high` are.
+        // Long steps are tried first because they take the least time. `low` steps in a tick are not stable, `high`
+        // steps are.
         let (mut low, mut high) = (0, 1);
         while !is_stable(high) {
             if high == MOST_STEPS {
@@ -86,7 +88,7 @@ impl StabilityCase {
     fn is_stable(&self, scene: &Scene, step: f64) -> bool {
         let mut scene = scene.clone();
         (scene.rig, scene.physics) = (self.rig.clone(), self.physics.clone());
-        // A sample a step, so that every number of steps makes up a tick.
+        // One sample for each step, so that any number of steps fits into a tick.
         scene.rig.sensing.sample_rate = step.recip();
         set_step(&mut scene, step);
         let shaken = self.world_of(&scene, false).is_ok_and(|mut world| calms_down(world.as_mut()).unwrap_or(false));
@@ -106,7 +108,8 @@ fn step(steps: u32) -> f64 {
     (TICKS * f64::from(steps)).recip()
 }
 
-/// Shakes the platform in free air. Whether its whiskers do not swing more some time later: soft ones may swing for long.
+/// Shakes the platform in free air. Returns true if the vibration of the whiskers has not grown some time later.
+/// Compliant whiskers may vibrate for long.
 fn calms_down(world: &mut dyn World) -> Result<bool, Fault> {
     let bend = |world: &mut dyn World, command: &Command| -> Result<f64, Fault> {
         let samples = world.advance(command)?;

@@ -1,4 +1,4 @@
-//! One scene, one policy, several simulations.
+//! One scene under one policy in several simulations.
 
 use std::sync::Arc;
 
@@ -11,17 +11,18 @@ use crate::score::Estimate;
 use crate::trial::{ExecuteError, Trial};
 use vibrissa_runtime::machine::Program;
 
-/// Runs a policy in a scene in a simulation, the `reference`, and compares others with it.
+/// Runs a policy in a scene in a simulation, the `reference`, and compares other simulations with it.
 ///
-/// Tips and moments: the whiskers of every simulation, the reference's too, are carried along the poses of the reference's run, so that all are
-/// asked the same; two runs in a loop do not stay in step. What counts are the ticks of a whisker in which it touches in both
-/// simulations, and rings in neither: all readings of the tick are beyond the contact threshold, and no farther apart than that.
+/// Tips and moments: in every simulation, also in the reference, the whiskers are moved along the poses of the
+/// reference's run. Thus all simulations have the same input, which two closed loops do not. A tick of a whisker counts
+/// if the whisker touches in both simulations and vibrates in neither. It does not vibrate if all readings of the tick
+/// exceed the contact threshold and differ by less than the threshold.
 ///
-/// Contours: the policy runs in every simulation, and how far its tips are from the contour that the reference's run estimated is the mean of
-/// their distances. Perception takes whiskers to be the scene's, in all simulations.
+/// Contours: the policy runs in every simulation. The figure is the mean distance of its tips from the contour that the
+/// reference's run estimated. Perception assumes the whiskers of the scene in all simulations.
 ///
 /// # Errors
-/// [`ExecuteError`] when a run cannot begin.
+/// [`ExecuteError`] if a run cannot begin.
 pub fn compare_worlds(
     scene: &Scene,
     program: &Arc<Program>,
@@ -67,8 +68,8 @@ fn run(scene: &Scene, program: &Arc<Program>, simulation: &Simulation) -> Result
     Ok(trial.run()?.run)
 }
 
-/// What two simulations make of the same whisker in the same tick, where it is compared; and how many there are in which it touches in
-/// either.
+/// The pairs of instants of the same whisker in the same tick that are compared. Also the number of ticks in which the
+/// whisker touches in either simulation.
 fn pairs(reference: &Track, other: &Track, threshold: f64) -> (Vec<(Instant, Instant)>, usize) {
     let whiskers = reference.ticks.iter().zip(&other.ticks).flat_map(|(one, two)| one.iter().zip(two));
     let touching = whiskers.filter(|(one, two)| one.least.max(two.least) > threshold);

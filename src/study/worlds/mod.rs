@@ -1,4 +1,4 @@
-//! Simulations of worlds against each other: the same policy, the same scenes.
+//! Comparison of simulations: the same policy in the same scenes.
 
 mod compare;
 mod row;

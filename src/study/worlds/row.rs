@@ -1,4 +1,4 @@
-//! How far a simulation is from another.
+//! Differences between a simulation and the reference.
 
 use crate::results::Document;
 use serde::Serialize;
@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::results::Ending;
 use crate::score::Statistics;
 
-/// How far a simulation is from another, the reference, in one scene under one policy.
+/// Differences between a simulation and the reference, in one scene under one policy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WorldsRow {
@@ -16,25 +16,25 @@ pub struct WorldsRow {
     pub policy: String,
     /// The simulation.
     pub simulation: &'static str,
-    /// What it is compared with.
+    /// The simulation that it is compared with.
     pub reference: &'static str,
-    /// How the policy's run ended in the simulation.
+    /// Outcome of the policy's run in the simulation.
     pub outcome: Ending,
-    /// Why, if not as it should.
+    /// Reason of the outcome. `None` for a completed run.
     pub reason: Option<String>,
-    /// How long both were carried along the reference's way.
+    /// Time for which both were moved along the reference's path.
     pub along_s: f64,
-    /// Why no farther, if that is not all of it.
+    /// Reason for a shorter time than that of the whole path.
     pub stopped: Option<String>,
-    /// How many ticks of whiskers are compared.
+    /// Number of ticks of whiskers that are compared.
     pub compared: usize,
-    /// Of those in which a whisker touches in either, the share that is not.
+    /// Share of ticks that are not compared, among those in which a whisker touches in either simulation.
     pub left_out: f64,
-    /// How far apart tips are.
+    /// Distances of the tips.
     pub tip_mm: Option<Apart>,
-    /// How far apart moments at the base are.
+    /// Differences of the base moments.
     pub moment_un_m: Option<Apart>,
-    /// Their mean, over the mean of the reference's moments.
+    /// Mean difference of the base moments over the mean of the reference's moments.
     pub moment_share: Option<f64>,
     /// Mean distance of the tips that the policy's run recorded from the contour of the reference's run.
     pub contour_mm: Option<f64>,
@@ -46,7 +46,7 @@ impl Document for WorldsRow {
     const VERSION: u32 = 2;
 }
 
-/// Differences, by their sizes.
+/// The sizes of differences.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Apart {
@@ -59,7 +59,7 @@ pub struct Apart {
 }
 
 impl Apart {
-    /// Those of some differences; `None` if there are none.
+    /// The statistics of some differences. `None` without any.
     pub(super) fn of(differences: Vec<f64>) -> Option<Self> {
         let statistics = Statistics::of(differences)?;
         Some(Self { mean: statistics.mean(), p95: statistics.percentile(95.0), max: statistics.max() })

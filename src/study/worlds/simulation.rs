@@ -4,10 +4,10 @@ use crate::physics::{Physics, Preset, ShaftModel};
 use crate::scene::{Scene, WorldKind};
 use vibrissa_runtime::rig::Rig;
 
-/// A rig in a world, which stands for a scene's.
+/// A rig in a world that represents the rig of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// The rig.
     pub rig: Rig,
@@ -18,7 +18,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// The scene's whiskers as chains, by MuJoCo: what others are compared with.
+    /// The scene's whiskers as chains in MuJoCo, the reference of comparisons.
     #[must_use]
     pub fn chain(scene: &Scene) -> Self {
         let physics = Physics { shafts: ShaftModel::Chain, ..scene.physics.clone() };
@@ -36,7 +36,7 @@ impl Simulation {
         }
     }
 
-    /// The peer's cables in their place, by MuJoCo.
+    /// The baseline's cables instead of the chains, in MuJoCo.
     #[must_use]
     pub fn peer_cable(scene: &Scene) -> Self {
         let (mut rig, mut physics) = (scene.rig.clone(), scene.physics.clone());
@@ -44,7 +44,7 @@ impl Simulation {
         Self { name: "peer_cable", rig, physics, world: WorldKind::Mujoco }
     }
 
-    /// The scene in this simulation.
+    /// The scene with this simulation's rig and physics.
     pub(super) fn scene(&self, scene: &Scene) -> Scene {
         Scene { rig: self.rig.clone(), physics: self.physics.clone(), ..scene.clone() }
     }

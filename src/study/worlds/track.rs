@@ -1,4 +1,4 @@
-//! Whiskers that are carried along a way.
+//! Whiskers that are moved along a path.
 
 use crate::geometry::{Point2, Pose, wrap};
 use crate::run::Trace;
@@ -8,35 +8,36 @@ use vibrissa_runtime::signal::Command;
 
 use super::simulation::Simulation;
 
-/// How many times as heavy as a platform what carries the whiskers is: none of them pushes it aside.
+/// Factor of the platform's mass for the carrier of the whiskers, so that no whisker deflects it.
 const HEAVY: f64 = 100.0;
-/// Time constant of its servos (s), a sixth of a tick at 30 Hz. Where the velocity changes by `Δv`, it ends the tick `Δv` times this from
-/// where it should be, 0.25 mm for 50 mm/s, which the next command puts right. It is so in every simulation.
+/// Time constant of its servos (s), a sixth of a tick at 30 Hz. If the velocity changes by `Δv`, the position error at
+/// the end of the tick is `Δv` times this. It is 0.25 mm for 50 mm/s, and the next command corrects it. It is equal in
+/// every simulation.
 const SERVO: f64 = 5e-3;
 
-/// What a simulation makes of whiskers on the way.
+/// The whiskers of a simulation along a path.
 pub(super) struct Track {
-    /// Tick by tick, the whiskers in the rig's order; as many as the simulation goes along with.
+    /// The whiskers of each tick in the rig's order, as far as the simulation follows the path.
     pub(super) ticks: Vec<Vec<Instant>>,
-    /// Why it went no farther.
+    /// The fault that stopped it.
     pub(super) fault: Option<String>,
 }
 
 /// One whisker in one tick.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant {
-    /// Where the tip is at the end of the tick (m, world frame).
+    /// Position of the tip at the end of the tick (m, world frame).
     pub(super) tip: Point2,
-    /// The moment of the spring at the base (N m) at the end of the tick.
+    /// Base moment (N m) at the end of the tick.
     pub(super) moment: f64,
-    /// The least of the base angle (rad) in the tick, by its size.
+    /// The least magnitude of the base angle (rad) in the tick.
     pub(super) least: f64,
-    /// How far apart (rad) the base angles of the tick are.
+    /// The difference (rad) between the greatest and the least base angle in the tick.
     pub(super) range: f64,
 }
 
 impl Track {
-    /// Carries a simulation's whiskers from the scene's start to where the platform was at every tick of a run.
+    /// Moves the whiskers of a simulation from the scene's start along the poses of a run.
     pub(super) fn along(way: &Trace, scene: &Scene, simulation: &Simulation) -> Result<Self, ExecuteError> {
         let mut scene = simulation.scene(scene);
         let rig = &mut scene.rig;
@@ -73,7 +74,7 @@ impl Track {
     }
 }
 
-/// The command that gets from one pose to another in a time (s).
+/// The command that moves the platform from one pose to another in a time (s).
 fn towards(from: &Pose, to: &Pose, period: f64) -> Command {
     Command {
         velocity_world: (to.position - from.position) / period,
