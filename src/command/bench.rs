@@ -73,7 +73,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     Ok(if rows.iter().all(|row| row.passed) { Exit::Done } else { Exit::Unexpected })
 }
 
-/// Every scenario under every policy and all conditions; the runs of a scenario stand together.
+/// The trials of every scenario under every policy and all conditions. The runs of a scenario are consecutive.
 pub(super) fn bench_trials(
     arguments: &BenchTrials,
     files: &mut CommandFiles,
@@ -102,7 +102,7 @@ pub(super) fn bench_trials(
     Ok(trials)
 }
 
-/// Tells why a run did not complete, and what of a run of the scene as it is was not as its scenario expects.
+/// Reports the reason of an incomplete run, and the expectations that do not hold without friction and noise.
 fn tell(row: &BenchRow, violations: &[Violation]) {
     let RunResult { policy, outcome, reason, .. } = &row.result;
     let scene = row.scene();
@@ -115,7 +115,7 @@ fn tell(row: &BenchRow, violations: &[Violation]) {
     }
 }
 
-/// The places for a picture of every run, all results, and the page that shows them.
+/// The files for a picture of every run, all results, and the page.
 struct Report {
     pictures: Vec<Output>,
     results: Output,
@@ -133,7 +133,7 @@ impl Report {
         Ok(Self { pictures, results: file("results.json")?, page: file("index.html")? })
     }
 
-    /// Writes it; where the page is.
+    /// Writes the files and returns the path of the page.
     fn write(self, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
         for (file, picture) in self.pictures.into_iter().zip(pictures) {
             file.write(picture)?;

@@ -50,7 +50,7 @@ pub(super) struct CalibrateArguments {
     format: Format,
 }
 
-/// What is printed as JSON.
+/// The JSON output.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Printed<'f> {
@@ -115,7 +115,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     Ok(Exit::Done)
 }
 
-/// Tells what could not be fitted, and what that wants.
+/// Reports the fits that were not possible, and the sets that they need.
 fn tell_missing(Fitted { calibration, .. }: &Fitted) {
     let missing = [
         (
@@ -134,7 +134,7 @@ fn tell_missing(Fitted { calibration, .. }: &Fitted) {
 /// The name of a calibration's file.
 const FILE: &str = "calibration.yaml";
 
-/// The places for the calibration, the sets that it rests on, and a picture of both.
+/// The files for the calibration, its contact sets, and a picture of both.
 struct Report {
     calibration: Output,
     sets: Output,

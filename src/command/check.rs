@@ -34,18 +34,18 @@ pub(super) struct CheckArguments {
     json: bool,
 }
 
-/// What is known of one policy.
+/// The result for one policy.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Checked {
     file: String,
-    /// Why the file cannot be read; `null` if it can.
+    /// The error of reading the file. `null` if it was read.
     error: Option<String>,
-    /// `null` if the file is at fault or a library.
+    /// The machine. `null` if the file has errors or is a library.
     machine: Option<Summary>,
-    /// `null` if the file is at fault or a machine.
+    /// The library. `null` if the file has errors or is a machine.
     library: Option<LibrarySummary>,
-    /// What a compiled machine comes from; `null` for a policy's text.
+    /// The origin of a compiled machine. `null` for the text of a policy.
     compiled: Option<Compiled>,
     diagnostics: Vec<Record>,
 }
@@ -61,11 +61,11 @@ struct Summary {
     whiskers: Vec<String>,
     parameters: Vec<ParameterSummary>,
     states: Vec<StateSummary>,
-    /// Where states without a failsafe of their own are left to.
+    /// Target of the fallback transition of states without their own.
     failsafe: Option<String>,
-    /// Bytes that a running machine keeps.
+    /// Bytes of memory of a running machine.
     memory_bytes: usize,
-    /// A bound on the operations of any tick, with eight transitions in it.
+    /// A bound on the operations of any tick with eight transitions.
     most_operations: usize,
 }
 
@@ -92,7 +92,7 @@ struct ParameterSummary {
     name: String,
     value: String,
     range: Option<[String; 2]>,
-    /// What the policy says about it; may be empty.
+    /// Description from the policy. It may be empty.
     description: String,
 }
 
@@ -111,20 +111,20 @@ struct PositionSchema {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 struct StateSummary {
     name: String,
-    /// Where it is in the policy's text.
+    /// Position in the policy's text.
     #[serde(flatten)]
     #[cfg_attr(test, schemars(with = "PositionSchema"))]
     place: Position,
-    /// The state that it lies in.
+    /// The state that contains it.
     parent: Option<String>,
-    /// Whether the run, or the state that it lies in, begins in it.
+    /// True if the run, or the state that contains it, begins in it.
     initial: bool,
     transitions: usize,
-    /// Where it is left to when the machine cannot go on in it; `null` for the machine's failsafe.
+    /// Target of the fallback transition. `null` for that of the machine.
     failsafe: Option<String>,
-    /// The most operations that a tick in this state does without leaving it, with those of the states that it lies in.
+    /// The most operations of a tick that stays in this state, with those of the states that contain it.
     operations: usize,
-    /// How many states it lies in.
+    /// Number of states that contain it.
     #[serde(skip)]
     depth: usize,
 }
@@ -133,7 +133,7 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let checked = arguments.policies.iter().map(|path| {
         check_one(path, &mut files, arguments.json).or_else(|failure| match failure {
-            // What is wrong with one file is no reason not to look at the others.
+            // After an error in one file, the other files are still checked.
             Failure::Load(LoadError::Read { .. } | LoadError::Name { .. } | LoadError::Artifact { .. }) => {
                 Ok(unreadable(path, &failure, arguments.json))
             }
@@ -238,7 +238,7 @@ fn summary(artifact: &Artifact) -> Summary {
     }
 }
 
-/// What a target is called.
+/// The name of a target.
 fn name(program: &Program, target: &Target) -> String {
     match target {
         Target::State { state, .. } => program.states[*state].name.to_string(),

@@ -46,7 +46,7 @@ pub(super) struct CompareArguments {
     jobs: Jobs,
 }
 
-/// A scenario with one of its starts and one of its seeds.
+/// A scenario with one start and one seed.
 struct Setting {
     path: PathBuf,
     scene: Scene,
@@ -92,7 +92,7 @@ fn tell_incomplete(comparison: &Comparison) {
     }
 }
 
-/// The runs that every policy does: each scenario as it is, and then with other seeds and starts.
+/// The runs of every policy: each scenario as it is, and then with other seeds and starts.
 fn settings(
     files: &[&PathBuf],
     arguments: &CompareArguments,
@@ -106,7 +106,7 @@ fn settings(
     };
     for (index, (second, scenario)) in scenarios.iter().enumerate() {
         let name = &scenario.value.name;
-        // The same runs twice would pretend to be two pairs.
+        // A repeated run would count as a second pair.
         if let Some((first, _)) = scenarios[..index].iter().find(|(_, first)| first.value.name == *name) {
             return Err(Failure::SameName { first: first.clone(), second: second.clone(), name: name.clone() });
         }

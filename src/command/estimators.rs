@@ -38,7 +38,7 @@ pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failur
         let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
         evaluate_all(&scene, Arc::clone(&program), world).map_err(failed)
     };
-    // One at a time by default, because their times are compared too.
+    // One run at a time by default, because the run times are compared too.
     let threads = arguments.jobs.threads_or(NonZeroUsize::MIN);
     let mut progress = Progress::new(SCENARIOS.len());
     let rows = in_parallel(SCENARIOS, threads, work, |rows| {

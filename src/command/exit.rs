@@ -11,14 +11,14 @@ pub enum Exit {
     Unexpected,
     /// The input cannot be used.
     Unusable,
-    /// The program is at fault.
+    /// The program has a fault.
     Internal,
-    /// Somebody ended it.
+    /// The user interrupted the program.
     Interrupted,
 }
 
 impl Exit {
-    /// The number that the shell gets.
+    /// The number for the shell.
     #[must_use]
     pub const fn status(self) -> u8 {
         match self {
@@ -26,7 +26,7 @@ impl Exit {
             Self::Unexpected => 1,
             Self::Unusable => 2,
             Self::Internal => 3,
-            // What shells give for a program that Ctrl-C ended: 128 and the signal's number.
+            // The usual status after Ctrl-C: 128 plus the number of the signal.
             Self::Interrupted => 130,
         }
     }

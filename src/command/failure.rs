@@ -19,7 +19,7 @@ use vibrissa_runtime::rig::UnknownWhisker;
 use super::exit::Exit;
 use super::output;
 
-/// Why a command could not be carried out.
+/// The error of a command.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     #[error(transparent)]
@@ -126,7 +126,7 @@ impl Failure {
         }
     }
 
-    /// Prints what went wrong to standard error.
+    /// Prints the error to standard error.
     pub(super) fn report(&self) {
         match self {
             Self::Load(LoadError::Faults { source_text, faults }) => output::diagnostics(source_text, faults),

@@ -96,7 +96,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
 }
 
-/// The scenes that are asked for, drawn in parallel.
+/// The requested scenes, sampled in parallel.
 fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
     let families = chosen(&arguments.names)?;
     let numbers: Vec<u64> = arguments.trial.map_or_else(|| (0..arguments.count).collect(), |trial| vec![trial]);
@@ -108,7 +108,7 @@ fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
     in_parallel(&keys, arguments.jobs.threads(), draw, |_| ()).into_iter().collect()
 }
 
-/// The families with these names, each once, or all.
+/// The families with these names, each once, or all families.
 fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
     if let Some(name) = names.iter().find(|name| FAMILIES.iter().all(|family| family.name != **name)) {
         return Err(Failure::NoSuchFamily { name: name.clone() });
@@ -126,7 +126,7 @@ fn trial(drawn: &Drawn, policy: &Loaded<Policy>, arguments: &FamiliesArguments) 
     Ok(Trial { world: arguments.world.of(scene), inputs, ..Trial::new(scene.clone(), Arc::new(program)) })
 }
 
-/// Prints a scenario, and how it is run by itself.
+/// Prints a scenario and the command that runs it.
 fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failure> {
     let speed = format_si(draw.speed, Dimension::SPEED);
     output::text(format_args!(
@@ -135,7 +135,7 @@ fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failur
     ))
 }
 
-/// The places for all results and for pictures.
+/// The files for all results and for pictures.
 struct Report {
     pictures: Vec<Output>,
     results: Output,
@@ -148,7 +148,7 @@ impl Report {
         Ok(Self { pictures: pictures.collect::<Result<_, _>>()?, results: file("results.jsonl")? })
     }
 
-    /// Writes all results, and those pictures that there are.
+    /// Writes all results and the available pictures.
     fn write(self, runs: &[FamilyRun], pictures: Vec<Option<String>>) -> Result<(), Failure> {
         for (file, picture) in self.pictures.into_iter().zip(pictures) {
             picture.map(|picture| file.write(picture)).transpose()?;
@@ -161,7 +161,7 @@ impl Report {
     }
 }
 
-/// The runs with whether they passed, and their pictures. Tells those that did not.
+/// The runs with their verdicts, and their pictures. Reports the runs that did not pass.
 fn judged(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
     let judged = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
         let Drawn { family, number: trial, draw } = drawn;
@@ -184,7 +184,7 @@ fn tell(run: &FamilyRun, violations: &[Violation]) {
     output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {reasons}"));
 }
 
-/// What is wrong with a run, which may have given a `reason` for its end.
+/// The description of a violation, with the `reason` of the outcome if there is one.
 fn reason(violation: &Violation, reason: Option<&str>) -> String {
     match (violation, reason) {
         (Violation::Outcome { found, .. }, Some(reason)) => format!("{found}: {reason}"),
@@ -192,7 +192,7 @@ fn reason(violation: &Violation, reason: Option<&str>) -> String {
     }
 }
 
-/// What became of each family, at every speed and all together.
+/// The counts of each family, at every speed and for all speeds together.
 fn tallies(runs: &[FamilyRun]) -> Vec<FamilyTally> {
     let speeds = || SPEEDS.into_iter().map(Some).chain([None]);
     let tallies = FAMILIES.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(family.name, speed, runs)));

@@ -55,14 +55,14 @@ fn fmt_one(path: &Path, check: bool, files: &mut CommandFiles) -> Result<Exit, F
     if standard {
         output::text(formatted)?;
     } else if formatted != source.text {
-        // No other command writes to what it reads.
+        // No other command writes to its input.
         replace(path, formatted.as_bytes()).map_err(Failure::rewrite(path))?;
         output::message(format_args!("formatted {}", source.name));
     }
     Ok(Exit::Done)
 }
 
-/// A unified diff from what there is to what should be; nothing where there is no difference.
+/// A unified diff from the current to the formatted text. Empty without a difference.
 fn difference(source: &Source, formatted: &str) -> String {
     let name = printable(&source.name);
     TextDiff::from_lines(source.text.as_str(), formatted)

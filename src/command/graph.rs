@@ -47,7 +47,7 @@ enum ChartFormat {
     Dot,
 }
 
-/// So many states, some of them in others, make a picture that is wider than a screen.
+/// A picture of as many states, some of them nested, is wider than a screen.
 const MANY_STATES: usize = 20;
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {

@@ -3,7 +3,7 @@
 use super::exit::Exit;
 use super::failure::Failure;
 
-/// Serves an editor. The protocol asks for exit status 1 where the editor did not say that it is done.
+/// Serves an editor. The protocol requires exit status 1 if the editor ends without a shutdown request.
 #[cfg(feature = "lsp")]
 pub(super) fn lsp() -> Result<Exit, Failure> {
     use crate::editor::{Ended, serve};

@@ -29,7 +29,7 @@ pub(super) struct MergeArguments {
     format: Format,
 }
 
-/// How many missing runs are told by their keys.
+/// Largest number of missing runs whose keys are reported.
 const TOLD: usize = 10;
 
 pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
@@ -69,13 +69,13 @@ fn results_in(directory: &Path) -> Result<Vec<PathBuf>, Failure> {
     shards.sort();
     if shards.is_empty() {
         let whole = directory.join("results.jsonl");
-        // Whatever it is: reading it says why it will not do.
+        // Any kind of file. The error of an unsuitable one follows when it is read.
         shards.extend(whole.symlink_metadata().is_ok().then_some(whole));
     }
     Ok(shards)
 }
 
-/// Tells which runs are missing, and how to get them.
+/// Reports the missing runs, and the commands that produce them.
 fn tell_missing(missing: &[Missing]) {
     for Missing { key, shard } in missing.iter().take(TOLD) {
         output::message(format_args!("missing: {key} (shard {shard})"));

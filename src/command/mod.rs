@@ -110,7 +110,7 @@ enum Command {
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     match arguments() {
-        // A panic is a fault of the program. It has printed its place by now, and scripts know it by the exit status.
+        // A panic is a fault of the program. Its message has been printed, and scripts recognise it by the exit status.
         Ok(arguments) => catch_unwind(|| carried_out(&arguments)).unwrap_or(Exit::Internal).into(),
         Err(status) => status,
     }
@@ -148,10 +148,10 @@ fn carried_out(arguments: &Arguments) -> Exit {
     })
 }
 
-/// Reads the command line. A request for help or a mistake is answered here, and gives the status to end with.
+/// Reads the command line. Requests for help and mistakes are answered here. Then the result is the exit status.
 fn arguments() -> Result<Arguments, ExitCode> {
     Arguments::try_parse().map_err(|answer| {
-        // The answer quotes the command line and has colours of its own, so control characters are removed before.
+        // The answer quotes the command line and has its own colours, so control characters are removed before.
         let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned());
         let shown = Arguments::try_parse_from(shown).err();
         let _ = shown.as_ref().unwrap_or(&answer).print();

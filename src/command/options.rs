@@ -39,12 +39,12 @@ pub(super) struct Jobs {
 }
 
 impl Jobs {
-    /// The threads to work on: those that were asked for, or one for each processor.
+    /// The requested number of threads, or one for each processor.
     pub(super) fn threads(self) -> Threads {
         self.threads_or(processors())
     }
 
-    /// The threads to work on: those that were asked for, or so many.
+    /// The requested number of threads, or `count`.
     pub(super) fn threads_or(self, count: NonZeroUsize) -> Threads {
         static TOLD: Once = Once::new();
         let fewer = |started| {
@@ -171,7 +171,7 @@ impl Policies {
         } else {
             paths.iter().map(|path| load::policy(path, files)).collect::<Result<Vec<_>, _>>()?
         };
-        // Pictures have the names of policies.
+        // Pictures are named after policies.
         let mut names = BTreeSet::new();
         for (path, policy) in paths.iter().zip(&policies) {
             output::warnings(&policy.value);

@@ -16,13 +16,14 @@ pub(super) fn result(text: impl Display) -> Result<(), Failure> {
     written(&format!("{}\n", printable(&text.to_string())))
 }
 
-/// Prints tables, one below the other; with all their columns, or with those that fit on a line.
+/// Prints tables, one below the other. They have all columns if `wide` is true, else those that fit on a line.
 pub(super) fn tables(tables: &[Table], wide: bool) -> Result<(), Failure> {
     let texts: Vec<String> = tables.iter().map(|table| if wide { table.wide() } else { table.fitted() }).collect();
     result(texts.join("\n\n"))
 }
 
-/// Prints a text as it is, unless a terminal would obey it. A reader that has gone away, such as `head`, is no fault; a disk that is full is.
+/// Prints a text without changes, except for terminals, which would interpret control characters. A closed pipe is no
+/// error. A full disk is one.
 pub(super) fn text(text: impl Display) -> Result<(), Failure> {
     let text = text.to_string();
     written(&if stdout().is_terminal() { printable(&text) } else { text.into() })
@@ -35,7 +36,7 @@ fn written(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints documents as a list in JSON, or the tables that `tables` makes of them.
+/// Prints documents as a JSON list, or the tables of `tables`.
 pub(super) fn documents<const N: usize>(
     format: Format,
     documents: &[impl Document],
@@ -44,7 +45,7 @@ pub(super) fn documents<const N: usize>(
     if format.json { json_list(documents) } else { self::tables(&tables(), format.wide) }
 }
 
-/// Prints a document as JSON, or the tables that `tables` makes of it.
+/// Prints a document as JSON, or the tables of `tables`.
 pub(super) fn document<const N: usize>(
     format: Format,
     document: &impl Document,
@@ -68,7 +69,7 @@ pub(super) fn list(documents: &[impl Document]) -> serde_json::Result<String> {
     serde_json::to_string_pretty(&documents.iter().map(Document::versioned).collect::<Vec<_>>())
 }
 
-/// A document as a line of JSON, with its end.
+/// A document as a line of JSON, with its line end.
 pub(super) fn json_line(document: &impl Document) -> serde_json::Result<String> {
     Ok(serde_json::to_string(&document.versioned())? + "\n")
 }
@@ -78,12 +79,12 @@ pub(super) fn message(text: impl Display) {
     let _ = writeln!(stderr(), "{}", printable(&text.to_string()));
 }
 
-/// Prints what went wrong.
+/// Prints an error.
 pub(super) fn error(text: impl Display) {
     message(format_args!("error: {text}"));
 }
 
-/// Prints what is wrong with a text.
+/// Prints the diagnostics of a text.
 pub(super) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) {
     let colour =
         if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };

@@ -1,4 +1,4 @@
-//! How far many runs have come, and what is told when somebody ends them.
+//! Progress of many runs, and the message after an interruption.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -14,35 +14,35 @@ use super::output;
 /// The least time between two lines.
 const GAP: Duration = Duration::from_secs(10);
 
-/// What is left of runs when the command that does them is ended.
+/// The results that remain after an interruption.
 #[derive(Debug, Clone)]
 pub(super) enum Kept {
-    /// Nothing: what came of them is written at the end.
+    /// None, because results are written at the end.
     Nothing,
-    /// The results of those that were done, in this file, with which the same command goes on.
+    /// The results of the finished runs, in this file. The same command resumes from it.
     In(PathBuf),
 }
 
-/// How many runs are done, on standard error: as a bar on a terminal; elsewhere, as in a job's log, as a line from time to time. Ctrl-C
-/// ends the program, which then says what is kept.
+/// Number of finished runs on standard error. It is a bar on a terminal, else a line from time to time. Ctrl-C ends the
+/// program with a message about the remaining results.
 pub(super) struct Progress {
     bar: ProgressBar,
-    /// How many were done before.
+    /// Number of runs that earlier processes had finished.
     resumed: u64,
-    /// When the next line is due, since the start.
+    /// Time of the next line since the start.
     due: Duration,
 }
 
 impl Progress {
-    /// For so many `runs`, of which nothing is kept before the last is done.
+    /// Progress of `runs` runs, whose results are written at the end.
     pub(super) fn new(runs: usize) -> Self {
         Self::resumed(0, runs as u64, Kept::Nothing)
     }
 
-    /// For so many runs that are `left`, when others were done before.
+    /// Progress of the runs that are `left` after earlier processes.
     pub(super) fn resumed(resumed: u64, left: u64, kept: Kept) -> Self {
         let bar = ProgressBar::new(resumed + left).with_position(resumed);
-        // What was there before took no time, and is not to count for the rate.
+        // Earlier runs took no time in this process and must not affect the rate.
         bar.reset_eta();
         let style =
             ProgressStyle::with_template("{pos} of {len} runs {wide_bar} {per_sec}, {elapsed}, {eta} left; {msg}");
@@ -50,7 +50,7 @@ impl Progress {
             bar.set_style(style);
         }
         let shown = bar.clone();
-        // It fails where a shell that runs the program in the background has it ignore Ctrl-C; then it shall.
+        // It fails in a background process whose shell ignores Ctrl-C. This is intended.
         let _ = ctrlc::try_set_handler(move || {
             let (done, all) = (shown.position(), resumed + left);
             shown.finish_and_clear();
@@ -60,12 +60,12 @@ impl Progress {
         Self { bar, resumed, due: GAP }
     }
 
-    /// Shows what is being done.
+    /// Shows the current activity.
     pub(super) fn doing(&self, what: impl Display) {
         self.bar.set_message(printable(&what.to_string()).into_owned());
     }
 
-    /// Counts a run that is done, and shows what came of it.
+    /// Counts a finished run, and shows its result.
     pub(super) fn done(&mut self, what: impl Display) {
         self.doing(&what);
         self.bar.inc(1);
@@ -83,7 +83,7 @@ impl Progress {
     }
 }
 
-/// When the line after one at this time is due: lines get rarer, so that an hour has some 50 of them and a day 80.
+/// Time of the line after one at this time. The intervals grow, so that an hour has some 50 lines and a day 80.
 fn next(elapsed: Duration) -> Duration {
     elapsed + GAP.max(elapsed / 10)
 }
@@ -125,7 +125,7 @@ mod tests {
         assert!(lines(9).is_empty());
         let day = lines(86_400);
         assert!(day.windows(2).all(|pair| pair[1] >= pair[0] + GAP));
-        // Nobody waits longer than a tenth of what it took so far, and a run.
+        // An interval is at most a tenth of the elapsed time, plus the time of a run.
         let is_late = |pair: &[Duration]| pair[1] > pair[0] + GAP.max(pair[0] / 10) + Duration::from_secs(1);
         assert!(!day.windows(2).any(is_late));
         assert!(lines(3600).len() < 50 && day.len() < 85, "{}, {}", lines(3600).len(), day.len());

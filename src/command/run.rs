@@ -88,7 +88,7 @@ pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Resu
     let mut told = BTreeSet::new();
     let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, files, &mut told));
     let trials = trials.collect::<Result<Vec<_>, _>>()?;
-    // Reports have the names of scenarios.
+    // Reports are named after scenarios.
     for (index, trial) in trials.iter().enumerate() {
         if let Some(first) = trials[..index].iter().find(|first| first.scene.name == trial.scene.name) {
             let [first, second] = [first, trial].map(|trial| trial.inputs.scenario.clone());
@@ -121,7 +121,7 @@ fn trial(
     Ok(Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial })
 }
 
-/// Makes the directory for reports, and returns the places of the reports in it.
+/// Makes the directory for reports, and returns the files of the reports in it.
 pub(super) fn reports(
     trials: &[Trial],
     directory: Option<&Path>,
@@ -148,7 +148,7 @@ pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<Repor
     Ok(result)
 }
 
-/// Prints the results and the places of the reports.
+/// Prints the results and the paths of the reports.
 pub(super) fn show(results: &[RunResult], arguments: &RunArguments) -> Result<(), Failure> {
     output::documents(arguments.format, results, || [results_table(results)])?;
     if let (Some(directory), false) = (&arguments.out, arguments.format.json) {

@@ -1,4 +1,4 @@
-//! The written schemas of all JSON outputs, compared with what the program writes.
+//! Written schemas of all JSON outputs, compared with the output of the program.
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test may panic and open files")]
 use schemars::generate::SchemaSettings;

@@ -28,7 +28,7 @@ pub(super) struct StressArguments {
 }
 
 pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
-    // A build without MuJoCo's world has no hard cases of it; where only the library is missing, they could not but fail.
+    // A build without MuJoCo has no stress tests of it. If only its library is missing, they could only fail.
     if cfg!(feature = "sim") {
         check_world(WorldKind::Mujoco).map_err(Failure::World)?;
     }
@@ -61,7 +61,7 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     Ok(if rows.iter().all(StressRow::is_sound) { Exit::Done } else { Exit::Unexpected })
 }
 
-/// A process for cases, so that one that ends it costs no other.
+/// A process for stress tests. A crash ends only one of them.
 fn worker() -> Result<Worker, StartError> {
     Worker::start(Command::new(std::env::current_exe()?).arg("worker"), &engine_version())
 }

@@ -86,7 +86,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
 }
 
-/// A process for runs: this program once more, so that what ends it ends no other run.
+/// A process for runs: another instance of this program. A crash ends only one run.
 fn worker(arguments: &SweepArguments, fingerprint: &str) -> Result<Worker, StartError> {
     let mut command = Command::new(std::env::current_exe()?);
     command.arg("worker").arg(&arguments.file);
@@ -107,7 +107,7 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
     })
 }
 
-/// Prints what became of the runs whose results are at `path`.
+/// Prints the summary of the runs whose results are at `path`.
 pub(super) fn tell(summary: &SweepSummary, path: &Path, format: Format) -> Result<(), Failure> {
     output::document(format, summary, || [summary_table(&summary.groups)])?;
     if format.json {

@@ -42,14 +42,14 @@ pub(super) struct TestArguments {
     json: bool,
 }
 
-/// What came of one test.
+/// The result of one test.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Tested {
     file: String,
     title: String,
     passed: bool,
-    /// What was not as expected.
+    /// The expectations that do not hold.
     diagnostics: Vec<Record>,
     result: RunResult,
 }
@@ -59,7 +59,7 @@ impl Document for Tested {
 }
 
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
-    // Whatever is wrong with the last policy or scenario should show before the first has run.
+    // An error in the last policy or scenario is reported before the first run.
     let (mut prepared, mut files) = (Vec::new(), CommandFiles::new());
     for path in &arguments.policies {
         let Loaded { value: Policy { artifact, text }, hash } = load::policy(path, &mut files)?;
@@ -143,7 +143,8 @@ fn trial_of(
     Ok(Trial { world: arguments.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
 }
 
-/// Prints whether a test has passed. How the run of one ended that has, be it by a failure, is what was expected, and not told.
+/// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not
+/// reported.
 fn tell(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagnostic]) -> Result<(), Failure> {
     let verdict = if faults.is_empty() { "ok    " } else { "FAILED" };
     let RunResult { sim_s, wall_s, .. } = result;
@@ -155,7 +156,7 @@ fn tell(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagno
     Ok(())
 }
 
-/// The name of a test's report: its number keeps titles apart that differ only in what files cannot be called.
+/// The name of a test's report. Its number distinguishes titles whose characters are not valid in file names.
 fn file_name(number: usize, title: &str) -> String {
     let title: String =
         title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' }).take(60).collect();

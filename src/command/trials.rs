@@ -26,8 +26,8 @@ pub(super) struct Finished {
     pub(super) picture: Option<String>,
 }
 
-/// Runs all trials in parallel and returns their results in order. Trials are drawn if `is_drawn` is true for their violations. Standard
-/// error shows the progress.
+/// Runs all trials in parallel and returns their results in order. A trial has a picture if `is_drawn` is true for its
+/// violations. Standard error shows the progress.
 pub(super) fn run_all(
     trials: &[Trial],
     jobs: Jobs,
@@ -109,7 +109,7 @@ fn milliseconds(seconds: f64) -> u64 {
     milliseconds
 }
 
-/// The places for the picture and the result of a run.
+/// The files for the picture and the result of a run.
 pub(super) struct ReportFiles {
     picture: Output,
     result: Output,

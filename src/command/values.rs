@@ -10,16 +10,16 @@ use crate::trial::processors;
 use vibrissa_runtime::machine::NESTING_LIMIT;
 use vibrissa_runtime::units::{Dimension, parse_quantity};
 
-/// The most runs at a time for each processor. More of them only take memory.
+/// Largest number of runs at a time for each processor. More only take memory.
 const JOBS_PER_PROCESSOR: usize = 32;
-/// The most times that something is measured.
+/// Largest number of repetitions of a measurement.
 const MOST_REPEATS: usize = 1000;
-/// The most scenes of a family, and the most runs of a scenario.
+/// Largest number of scenes of a family, and of runs of a scenario.
 const MOST_RUNS: u64 = 100_000;
-/// How far starts may vary (m): farther than any scene is wide.
+/// Largest deviation of starts (m), larger than any scene.
 const MOST_JITTER: f64 = 10.0;
 
-/// How many runs to do at a time.
+/// Number of runs at a time.
 pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
     let most = processors().get().saturating_mul(JOBS_PER_PROCESSOR);
     let jobs =
@@ -27,22 +27,22 @@ pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
     Ok(NonZeroUsize::new(jobs).unwrap_or(NonZeroUsize::MIN))
 }
 
-/// How often to measure something.
+/// Number of repetitions of a measurement.
 pub(super) fn parse_repeats(text: &str) -> Result<usize, String> {
     parse_whole(text, 1..=MOST_REPEATS)
 }
 
-/// How many scenes to draw of a family, or how many runs to do of a scenario.
+/// Number of scenes of a family, or of runs of a scenario.
 pub(super) fn parse_runs(text: &str) -> Result<u64, String> {
     parse_whole(text, 1..=MOST_RUNS)
 }
 
-/// How many levels of states to show.
+/// Number of levels of states.
 pub(super) fn parse_depth(text: &str) -> Result<usize, String> {
     parse_whole(text, 1..=NESTING_LIMIT)
 }
 
-/// What tells one draw from others: a seed, or the number of a scene.
+/// A seed, or the number of a scene.
 pub(super) fn parse_seed(text: &str) -> Result<u64, String> {
     parse_whole(text, 0..=u64::MAX)
 }
@@ -58,17 +58,17 @@ pub(super) fn parse_friction(text: &str) -> Result<f64, String> {
     friction.ok_or_else(|| "write a number from 0 to 1, such as 0.3".to_owned())
 }
 
-/// How far starts may be from a scenario's (m).
+/// Largest deviation of a start from that of a scenario (m).
 pub(super) fn parse_jitter(text: &str) -> Result<f64, String> {
     parse_size(text, Dimension::LENGTH, MOST_JITTER, "from 0 to 10 m, such as \"20 mm\"")
 }
 
-/// How far headings may be from a scenario's (rad): half a turn to either side is every heading.
+/// Largest deviation of a heading from that of a scenario (rad). Half a turn to either side includes every heading.
 pub(super) fn parse_jitter_heading(text: &str) -> Result<f64, String> {
     parse_size(text, Dimension::ANGLE, PI, "from 0 to 180 deg, such as \"10 deg\"")
 }
 
-/// A quantity (SI) of this dimension from 0 to `most`, as `range` says.
+/// A quantity (SI) of this dimension from 0 to `most`. `range` describes it in messages.
 fn parse_size(text: &str, dimension: Dimension, most: f64, range: &str) -> Result<f64, String> {
     let quantity = parse_quantity(text.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     let fits = quantity.dimension == dimension && (0.0..=most).contains(&quantity.value_si);

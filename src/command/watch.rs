@@ -21,13 +21,13 @@ use super::run::{self, RunArguments};
 use super::trials::{make_directory, run_each_second, seconds};
 use crate::load::LoadError;
 
-/// Editors write a file in several steps; when nothing has happened for this long, they are done.
+/// Editors write a file in several steps. They are done if nothing has happened for this time.
 const QUIET: Duration = Duration::from_millis(15);
 
-/// Runs again and again, whenever a file changes that a run depends on. It ends only with the program.
+/// Runs again whenever an input file changes. It ends only with the program.
 pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut watch = Watch::new()?;
-    // A file that is missing can come into being later.
+    // A missing file can be created later.
     let first = arguments.scenarios.iter().chain(&arguments.policy);
     watch.add(first.cloned().collect())?;
     make_directory(arguments.out.as_deref())?;
@@ -35,7 +35,7 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
         let mut files = CommandFiles::new();
         let trials = run::trials(arguments, &mut files);
         if watch.add(files.inputs().map(Path::to_owned).collect())? {
-            // What was written to a new folder before it was watched has been missed.
+            // Files that were written to a new folder before it was watched have been missed.
             continue;
         }
         match trials.and_then(|trials| run_all(&trials, arguments, &mut files, &watch)) {
@@ -67,7 +67,7 @@ fn run_all(
     trials.iter().zip(reports).map(run).collect()
 }
 
-/// One line of how a run goes: the state at this second, and how far the tips were from the object since the last line.
+/// Prints the state of a run at this second, and the error of the tips since the last line.
 fn tell(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
     let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state?)).map_or("Failure", String::as_str);
     let now = seconds(trace);
@@ -80,7 +80,7 @@ fn tell(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
     output::result(format_args!("{} {now:>5.0} s  {state}  {error}", trial.scene.name))
 }
 
-/// Eyes on files.
+/// Watches files for changes.
 struct Watch {
     watcher: RecommendedWatcher,
     events: Receiver<notify::Result<Event>>,
@@ -91,15 +91,16 @@ struct Watch {
 impl Watch {
     fn new() -> Result<Self, Failure> {
         let (sender, events) = channel();
-        // The watcher does not tell that its thread cannot be started, and panics when it is asked for something then.
+        // The watcher does not report that its thread cannot be started, and then panics at the next request.
         let thread = std::thread::Builder::new().spawn(|| ()).map_err(Failure::NoWatch)?;
         let _ = thread.join();
-        // When the receiver is gone the program is about to end.
+        // Without a receiver the program is about to end.
         let watcher = notify::recommended_watcher(move |event| drop(sender.send(event)))?;
         Ok(Self { watcher, events, files: BTreeSet::new(), folders: BTreeSet::new() })
     }
 
-    /// Watches more files; whether a folder is new among theirs. Folders are watched, because editors replace files.
+    /// Watches more files. Returns true if one of their folders is new. Folders are watched, because editors replace
+    /// files.
     fn add(&mut self, files: BTreeSet<PathBuf>) -> Result<bool, Failure> {
         let mut is_new = false;
         for file in files {
@@ -116,7 +117,7 @@ impl Watch {
         Ok(is_new)
     }
 
-    /// Whether a file has changed since the last look.
+    /// True if a file has changed since the last call.
     fn has_changed(&self) -> bool {
         let changed = self.events.try_iter().any(|event| self.concerns(&event));
         if changed {
@@ -134,7 +135,7 @@ impl Watch {
         }
     }
 
-    /// Waits until nothing more happens to the files.
+    /// Waits until the files no longer change.
     fn settle(&self) {
         let mut until = Instant::now() + QUIET;
         while let Ok(event) = self.events.recv_timeout(until.saturating_duration_since(Instant::now())) {
@@ -144,7 +145,7 @@ impl Watch {
         }
     }
 
-    /// Whether an event is about one of the files. If events were lost, it may have been.
+    /// True if an event concerns one of the files, or if events were lost.
     fn concerns(&self, event: &notify::Result<Event>) -> bool {
         let Ok(event) = event else { return true };
         event.need_rescan() || (!event.kind.is_access() && event.paths.iter().any(|path| self.files.contains(path)))

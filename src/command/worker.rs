@@ -29,8 +29,8 @@ pub(super) struct WorkerArguments {
     prune: PruneOption,
 }
 
-/// Greets with the fingerprint of the sweep, and answers every index of a run with the run's line. Without a sweep it is the version, and the
-/// index of a hard case.
+/// Prints the fingerprint of the sweep, and then the line of each run whose index is read. Without a sweep it prints
+/// the version, and the line of each stress test.
 pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
     let Some(file) = &arguments.file else {
         let tasks = StressTask::all()?;
@@ -45,7 +45,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
     })
 }
 
-/// Greets, and answers every index with a line, until there is none or nobody asks any more.
+/// Prints a greeting and then a line for each index, until the input ends or the output is closed.
 fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>>) -> Result<Exit, Failure> {
     output::result(greeting)?;
     let (sender, requests) = channel();
@@ -55,7 +55,7 @@ fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>
                 break;
             }
         }
-        // Whoever asks is gone, also in the middle of a run: nobody waits for its result.
+        // The other process is gone, possibly during a run. Nobody waits for its result.
         std::process::exit(0);
     };
     std::thread::Builder::new().spawn(listen).map_err(StartError::Process)?;

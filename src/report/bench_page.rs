@@ -23,12 +23,13 @@ img { width: 100%; border: 1px solid #e4e7eb }
 </style>
 ";
 
-/// The columns of either table: what the thesis reports too with outliers and coverage, and the rest. Both fit on a screen of 1300 pixels.
+/// The columns of the two tables: the figures that the baseline reports too with outliers and coverage, and the rest.
+/// Both fit on a screen of 1300 pixels.
 const TABLES: [[Range<usize>; 2]; 2] = [[0..NAMES, NAMES..12], [0..OUTCOME, 12..HEADINGS.len()]];
 /// The column of the outcome.
 const OUTCOME: usize = 2;
 
-/// A page with the table of the bench and a picture (SVG) of every run: one file that needs no other.
+/// A page with the table of the bench and a picture (SVG) of every run. It needs no other file.
 #[must_use]
 pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     let passed = rows.iter().filter(|row| row.passed).count();
@@ -76,7 +77,7 @@ fn table(rows: &[BenchRow], columns: &[Range<usize>]) -> String {
                 None => {}
             }
             let text = escaped(text);
-            // The name of the scene leads to its picture.
+            // The name of the scene is a link to its picture.
             let text = if column == 0 { format!("<a href=\"#run{index}\">{text}</a>") } else { text };
             let _ = write!(table, "<td class=\"{}\">{text}</td>", classes.join(" "));
         }
@@ -89,7 +90,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A text as part of an address. Pictures are embedded so, and not as they are, because their names would be the same.
+/// A text as part of an address. Pictures are embedded as addresses because their inner names would otherwise collide.
 fn percent_encoded(text: &str) -> String {
     let mut encoded = String::with_capacity(text.len() + text.len() / 2);
     for byte in text.bytes() {

@@ -1,11 +1,11 @@
-//! Numbers for people.
+//! Numbers in tables.
 
-/// A length in mm with as many decimals as are worth reading, to a thousandth at most.
+/// A length in mm with a useful number of decimals, at most three.
 pub(crate) fn millimetres(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }
 
-/// A mean and a standard deviation in mm, with the decimals of the mean; the mean alone if there is no deviation.
+/// A mean and a standard deviation in mm, with the decimals of the mean. The mean alone without a deviation.
 pub(crate) fn mean_std(mean: f64, std: Option<f64>) -> String {
     let decimals = decimals(mean);
     let mean = format!("{mean:.decimals$}");

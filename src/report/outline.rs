@@ -1,40 +1,40 @@
-//! Paths in the making.
+//! Paths in construction.
 
 use svg::node::element::Path;
 
 use super::style::px;
 
-/// What a path goes through, in px.
+/// The commands of a path, in px.
 #[derive(Default)]
 pub(super) struct Outline(String);
 
 impl Outline {
-    /// Starts anew at a point.
+    /// Starts a new part at a point.
     pub(super) fn move_to(&mut self, (x, y): (f64, f64)) {
         self.push("M", &[x, y]);
     }
 
-    /// Goes straight to a point.
+    /// Draws a straight line to a point.
     pub(super) fn line_to(&mut self, (x, y): (f64, f64)) {
         self.push("L", &[x, y]);
     }
 
-    /// Goes to a point along an arc of at most half a circle, to the left or to the right as seen.
+    /// Draws an arc of at most half a circle to a point, to the left or to the right as seen.
     pub(super) fn arc_to(&mut self, radius: f64, left: bool, (x, y): (f64, f64)) {
         self.push("A", &[radius, radius, 0.0, 0.0, f64::from(u8::from(!left)), x, y]);
     }
 
-    /// Goes to a point along a cubic curve with these control points.
+    /// Draws a cubic curve with these control points to a point.
     pub(super) fn curve_to(&mut self, first: (f64, f64), second: (f64, f64), (x, y): (f64, f64)) {
         self.push("C", &[first.0, first.1, second.0, second.1, x, y]);
     }
 
-    /// Goes back to where it started.
+    /// Draws a line to the start of the part.
     pub(super) fn close(&mut self) {
         self.0.push('Z');
     }
 
-    /// Goes straight from point to point. Points that are not finite leave a gap.
+    /// Draws straight lines between points. Points that are not finite leave a gap.
     pub(super) fn polyline(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
         let mut drawing = false;
         for point in points {
@@ -48,7 +48,7 @@ impl Outline {
         }
     }
 
-    /// A dot, if the path is drawn by [`dots`](Self::dots).
+    /// A dot, for paths that are drawn by [`dots`](Self::dots).
     pub(super) fn dot(&mut self, point: (f64, f64)) {
         self.move_to(point);
         self.0.push_str("h0");

@@ -1,11 +1,11 @@
-//! The appearances of states: those of one outermost state have one hue, and differ by lightness and hatching.
+//! Appearances of states. The states in one outermost state have one hue, and differ by lightness and hatching.
 
 use svg::Document;
 use svg::node::element::{Definitions, Path, Pattern, Rectangle};
 
 use super::style::px;
 
-/// One light colour an outermost state, to be written on.
+/// One light colour for each outermost state, readable under text.
 const HUES: [[u8; 3]; 12] = [
     [0xd9, 0xe2, 0xec],
     [0xb8, 0xdc, 0xf0],
@@ -21,19 +21,19 @@ const HUES: [[u8; 3]; 12] = [
     [0xbd, 0xc8, 0xf5],
 ];
 
-/// How much of a colour the ink takes, from the lightest of a hue to the darkest.
+/// Shares of ink in a colour, from the lightest appearance of a hue to the darkest.
 const INKS: [f64; 3] = [0.0, 0.11, 0.22];
 
-/// How much of a hatch's colour the ink takes more than of its ground.
+/// Additional share of ink in the colour of a hatch.
 const HATCH_INK: f64 = 0.22;
 
-/// The ink that darkens.
+/// The ink.
 const INK: [u8; 3] = [0x1f, 0x29, 0x33];
 
-/// Side of the square that a hatch repeats (px).
+/// Side of the square of a hatch (px).
 const TILE: f64 = 7.0;
 
-/// Lines in that square; nothing for an even ground.
+/// Lines in that square. Empty for a plain area.
 const HATCHES: [&str; 8] = [
     "",
     "M-1 1L1 -1M0 7L7 0M6 8L8 6",
@@ -53,12 +53,12 @@ pub(super) struct Shade {
     hatch: usize,
 }
 
-/// The appearances of a machine's states, told by the state that each lies in; an outer state comes before those in it. They are
-/// all different for up to 12 outermost states, each with up to 23 in it.
+/// The appearances of a machine's states, given by the parent of each state. An outer state comes before its inner
+/// states. All are different for up to 12 outermost states with up to 23 inner states each.
 pub(super) fn shades(parents: &[Option<usize>]) -> Vec<Shade> {
     let mut hues = Vec::with_capacity(parents.len());
     let mut outermost = 0;
-    // How many states have each hue.
+    // Number of states of each hue.
     let mut counts = [0; HUES.len()];
     let mut shades = Vec::with_capacity(parents.len());
     for parent in parents {
@@ -75,7 +75,7 @@ pub(super) fn shades(parents: &[Option<usize>]) -> Vec<Shade> {
 }
 
 impl Shade {
-    /// What an area of this appearance is filled with; a hatched one needs its [pattern](define).
+    /// The fill of an area of this appearance. A hatched one needs its [pattern](define).
     pub(super) fn fill(self) -> String {
         if self.hatch == 0 { self.ground() } else { format!("url(#{})", self.id()) }
     }
@@ -97,7 +97,7 @@ impl Shade {
     }
 }
 
-/// The document with the patterns of those of some appearances that are hatched, each once.
+/// Adds the patterns of the hatched appearances to the document, each once.
 pub(super) fn define(document: Document, shades: impl IntoIterator<Item = Shade>) -> Document {
     let mut hatched: Vec<Shade> = Vec::new();
     for shade in shades {
@@ -111,7 +111,7 @@ pub(super) fn define(document: Document, shades: impl IntoIterator<Item = Shade>
     document.add(hatched.into_iter().fold(Definitions::new(), |all, shade| all.add(shade.pattern())))
 }
 
-/// A colour of which a share is ink.
+/// A colour with a share of ink.
 fn mixed(colour: [u8; 3], share: f64) -> String {
     let part = |index: usize| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn states_of_a_large_machine_all_look_different_and_those_of_one_outermost_state_have_its_hue() {
-        // Twelve outermost states, of which the third has 23 states in it, some of them in one another.
+        // Twelve outermost states. The third has 23 inner states, some of them nested.
         let mut parents: Vec<Option<usize>> = vec![None, None, None];
         parents.extend((0..23).map(|k| Some(if k < 10 { 2 } else { 3 + k % 10 })));
         parents.extend([None; 9]);

@@ -2,10 +2,10 @@
 
 use svg::node::element::{Line, Rectangle, Text, Title};
 
-/// A font that every system has.
+/// A font stack that is available on every system.
 const FONT: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
 
-/// A font for programs that every system has.
+/// A monospaced font stack that is available on every system.
 pub(super) const CODE_FONT: &str = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
 
 /// Text and outlines.
@@ -16,20 +16,20 @@ pub(super) const GREY: &str = "#616e7c";
 pub(super) const GRID: &str = "#e4e7eb";
 /// The inside of the object.
 pub(super) const SOLID: &str = "#f1f3f5";
-/// The platform and its way.
+/// The platform and its path.
 pub(super) const PLATFORM: &str = "#52606d";
-/// What of the object was not traced.
+/// The untraced parts of the object.
 pub(super) const UNTRACED: &str = "#f8c4ae";
 /// The state of failure.
 pub(super) const FAILURE: &str = "#f0846a";
-/// What has gone wrong.
+/// Errors and failures.
 pub(super) const ALARM: &str = "#c2410c";
 
-/// One colour a whisker (Okabe and Ito's, which colour-blind people can tell apart).
+/// One colour for each whisker (Okabe and Ito's, for colour-blind people too).
 pub(super) const WHISKERS: [&str; 8] =
     ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#009e73", "#8c510a", "#d55e00", "#666666"];
 
-/// Where a text stands relative to its place.
+/// Alignment of a text relative to its position.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -63,12 +63,12 @@ pub(super) fn line(from: (f64, f64), to: (f64, f64), colour: &str, width: f64) -
         .set("stroke-width", px(width))
 }
 
-/// About how wide (px) a text comes out; on the wide side, for there is no font to ask.
+/// The approximate width (px) of a text. It is an upper estimate because no font is available.
 pub(super) fn width_of(content: &str, size: f64) -> f64 {
     0.6 * size * content.chars().count() as f64
 }
 
-/// A white sheet of a width and a height (px), with a title for who cannot see what is drawn on it.
+/// A white sheet of a width and a height (px), with a title for screen readers.
 pub(super) fn sheet((width, height): (f64, f64), title: &str) -> svg::Document {
     svg::Document::new()
         .set("width", px(width))
@@ -80,13 +80,13 @@ pub(super) fn sheet((width, height): (f64, f64), title: &str) -> svg::Document {
         .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
 }
 
-/// The text without the characters that XML cannot hold.
+/// The text without the characters that XML does not permit.
 pub(super) fn printable(content: &str) -> String {
     let allowed = |c: char| !c.is_control() && c != '\u{fffe}' && c != '\u{ffff}';
     content.chars().map(|c| if allowed(c) { c } else { ' ' }).collect()
 }
 
-/// A length (px) to a hundredth, as short as it goes.
+/// A length (px) to a hundredth, in the shortest form.
 pub(super) fn px(length: f64) -> String {
     let text = format!("{length:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -2,7 +2,7 @@
 
 use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, TableStyle};
 
-/// What stands for a figure that a row does not have.
+/// The text of a missing figure.
 pub(crate) const NONE: &str = "–";
 
 /// The number of characters that fit on a line of a terminal.
@@ -12,8 +12,9 @@ const GAP: usize = 3;
 
 /// A table of texts with a heading above every column.
 ///
-/// The first columns name a row. They stand to the left and are always shown. The other columns hold one figure each, which stands to the
-/// right. They are in the order of their importance: those that do not fit on a line are left out from the right.
+/// The first columns name a row. They are left-aligned and always shown. The other columns have one figure each and are
+/// right-aligned. They are in the order of their importance: columns that do not fit on a line are omitted from the
+/// right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     caption: Option<String>,
@@ -33,7 +34,7 @@ impl Table {
         Self { caption: None, headings, names, rows: rows.into_iter().collect() }
     }
 
-    /// The same table under a line of text.
+    /// The same table with a caption above it.
     #[must_use]
     pub(crate) fn under(self, caption: impl Into<String>) -> Self {
         Self { caption: Some(caption.into()), ..self }
@@ -51,8 +52,8 @@ impl Table {
         &self.rows
     }
 
-    /// The table as text, no wider than 100 characters. The last line says how many columns are left out, if there are any. Names that are
-    /// too long together are wrapped.
+    /// The table as text of at most 100 characters in width. The last line states the number of omitted columns, if
+    /// there are any. Names that are too long together are wrapped.
     #[must_use]
     pub fn fitted(&self) -> String {
         let ends = self.widths().into_iter().scan(0, |end, width| {
@@ -68,13 +69,14 @@ impl Table {
         }
     }
 
-    /// The table as text with all its columns, as wide as it needs to be.
+    /// The table as text with all its columns, without a limit of its width.
     #[must_use]
     pub fn wide(&self) -> String {
         self.text(self.headings.len(), None)
     }
 
-    /// The first columns as text with rules above, below and under the headings; texts are wrapped where they need more than `width`.
+    /// The first columns as text with rules above, below and under the headings. Texts are wrapped if the table would
+    /// be wider than `width`.
     fn text(&self, columns: usize, width: Option<usize>) -> String {
         let mut table = self.ruled(columns);
         let headings = self.headings.iter().zip(self.widths()).take(columns);
@@ -157,7 +159,7 @@ mod tests {
         (1..4_usize, 0..20_usize, 0..5_usize).prop_flat_map(|(names, figures, rows)| table(names, figures, rows))
     }
 
-    /// A text without what wrapping adds.
+    /// A text without the effects of wrapping.
     fn letters(text: &str) -> String {
         text.chars().filter(|letter| !letter.is_whitespace() && *letter != '─').collect()
     }
@@ -170,7 +172,7 @@ mod tests {
             let said = fitted.lines().last().and_then(|line| line.split_once(" more column"));
             let left_out = said.map_or(0, |(count, _)| count.parse().unwrap());
             prop_assert!(left_out <= table.headings.len() - table.names);
-            // What is shown of a row is there in full, wrapped or not.
+            // The shown cells of a row are complete, wrapped or not.
             let shown = table.headings.len() - left_out;
             let all = |text: &str| { let mut all: Vec<char> = letters(text).chars().collect(); all.sort_unstable(); all };
             let cells = table.headings[..shown].iter().chain(table.rows.iter().flat_map(|row| &row[..shown]));

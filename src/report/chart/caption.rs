@@ -9,13 +9,13 @@ use crate::report::style::{self, Anchor, px, text};
 
 /// Size of the letters (px).
 const LETTERS: f64 = 11.0;
-/// Width of a letter (px); the fonts of programs have letters of one width, about this.
+/// Width of a letter (px), approximately that of monospaced fonts.
 const LETTER: f64 = 0.61 * LETTERS;
 /// Height of a line (px).
 const LINE_HEIGHT: f64 = 14.5;
-/// Room between the labels of a block (px).
+/// Space between the labels of a block (px).
 const GAP: f64 = 4.0;
-/// Room round the block (px): beside, above.
+/// Margins of the block (px): at the sides, above and below.
 const MARGIN: (f64, f64) = (6.0, 3.0);
 
 /// Letters in a line of an overview, lines of a guard or a reason, and labels of an arrow.
@@ -26,7 +26,7 @@ const BRIEF_LABELS: usize = 3;
 /// A block of labels, one below the other.
 pub(super) struct Caption {
     entries: Vec<Entry>,
-    /// Letters that the numbers take.
+    /// Width of the numbers in letters.
     numbers: usize,
 }
 
@@ -36,7 +36,7 @@ struct Entry {
 }
 
 impl Caption {
-    /// The block of `labels`; what they hand over is in `colour`.
+    /// The block of `labels`. Their effects have this `colour`.
     pub(super) fn new(labels: &[Label], colour: &'static str) -> Self {
         let entry = |label: &Label| {
             let guard = label.guard_lines(LINE).into_iter().map(|line| (style::INK, line));
@@ -46,13 +46,13 @@ impl Caption {
         Self::of(labels.iter().map(entry).collect())
     }
 
-    /// A block for an overview: of the first `labels` their first lines, and how many others there are.
+    /// A block for an overview: the first lines of the first `labels`, and the number of the others.
     pub(super) fn brief(labels: &[Label], colour: &'static str) -> Self {
         let entry = |label: &Label| {
             let guard = shortened(label.brief_guard_lines(BRIEF_LINE)).into_iter().map(|line| (style::INK, line));
-            // What a state is handed is a detail; why a run fails is not.
+            // The arguments of a state are a detail, the reason of a failure is not.
             let effects = if colour == style::ALARM { shortened(label.effect_lines(BRIEF_LINE)) } else { Vec::new() };
-            // Transitions of inner states have no number, so that those of the others would say little.
+            // Transitions of inner states have no number, so the numbers of the others would be of little use.
             Entry { number: None, lines: guard.chain(effects.into_iter().map(|line| (colour, line))).collect() }
         };
         let shown = if labels.len() > BRIEF_LABELS { BRIEF_LABELS - 1 } else { labels.len() };
@@ -71,7 +71,7 @@ impl Caption {
         Self { entries, numbers: digits.map_or(0, |digits| digits + 1) }
     }
 
-    /// The size of the block (px); zero if there are no labels.
+    /// The size of the block (px). Zero without labels.
     pub(super) fn size(&self) -> Size {
         if self.entries.is_empty() {
             return (0.0, 0.0);
@@ -83,7 +83,7 @@ impl Caption {
         (LETTER * (self.numbers + widest) as f64 + 2.0 * MARGIN.0, height + 2.0 * MARGIN.1)
     }
 
-    /// The block round `centre`, on a ground that interrupts the line behind it.
+    /// The block around `centre`, on a ground that covers the line behind it.
     pub(super) fn draw(&self, centre: Place) -> Group {
         if self.entries.is_empty() {
             return Group::new();
@@ -111,7 +111,7 @@ impl Caption {
     }
 }
 
-/// The first of some lines, with a sign that there are more.
+/// The first of some lines, with a sign for further ones.
 fn shortened(mut lines: Vec<String>) -> Vec<String> {
     if lines.len() > BRIEF_LINES {
         lines.truncate(BRIEF_LINES);

@@ -5,11 +5,11 @@ use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
 
-/// The node that marks where a run starts. No state's name has a blank in it.
+/// The node for the start of a run. The blanks in it distinguish it from names of states.
 const START: &str = "start of the run";
 
-/// The chart in Graphviz's language, to be drawn by `dot`. A transition's text stands on its arrow; a failure's reason, or the
-/// values that a state is entered with, follow a `/`.
+/// The chart in Graphviz's language, for the layout program `dot`. The text of a transition is on its arrow. The reason
+/// of a failure, or the arguments of a state, follow a `/`.
 #[must_use]
 pub fn chart_dot(chart: &Chart) -> String {
     let mut lines = Lines::default();
@@ -39,7 +39,7 @@ pub fn chart_dot(chart: &Chart) -> String {
     lines.finish()
 }
 
-/// The states that lie in `parent`, each with those that lie in it.
+/// The inner states of `parent`, with their own inner states.
 fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     for (index, state) in chart.inside(parent) {
         let node = format!("{} [label={}]", quoted(&state.name), quoted(&titled(state)));
@@ -61,7 +61,7 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     }
 }
 
-/// A label in lines that begin below one another.
+/// A label in left-aligned lines.
 fn label(label: &Label) -> String {
     let mut lines = label.guard_lines(LINE);
     lines.extend(label.effect_lines(LINE));
@@ -76,7 +76,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", escaped(text))
 }
 
-/// A text in which nothing has a meaning of its own: Graphviz knows escapes and, in labels, XML's entities.
+/// An escaped text. Graphviz interprets escapes and, in labels, XML's entities.
 fn escaped(text: &str) -> String {
     printable(text).replace('\\', "\\\\").replace('"', "\\\"").replace('&', "&amp;")
 }

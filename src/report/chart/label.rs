@@ -1,24 +1,24 @@
-//! What is written on a transition, and where in a chart it stands.
+//! Labels of transitions.
 
 use super::wrap::wrapped;
 use crate::policy::chart::{Argument, Chart, Guard, State, Target, Transition};
 
-/// What stands for "every state".
+/// The label of "every state".
 pub(super) const ANY_STATE: &str = "any state";
 
-/// What stands for the end of a run in failure.
+/// The label of the end of a run in failure.
 pub(super) const FAILURE: &str = "Failure";
 
 /// Letters in a line.
 pub(super) const LINE: usize = 40;
 
-/// What is written on a transition.
+/// The label of a transition.
 pub(super) struct Label {
-    /// As the how manyth of its origin it is tried, from 1; `None` if it is the only one.
+    /// The position among the transitions of its origin, from 1. `None` if it is the only one.
     pub(super) number: Option<usize>,
-    /// When it is taken.
+    /// Its guard.
     pub(super) guard: String,
-    /// What it hands over: the target's arguments, or the reason of the failure.
+    /// Its effects: the arguments of the target, or the reason of the failure.
     pub(super) effects: Vec<String>,
 }
 
@@ -29,18 +29,18 @@ impl Label {
         Self { number: transition.number, guard: guard(transition), effects: effects(chart, transition) }
     }
 
-    /// The label of the arrow to an initial state: nothing but what that is entered with.
+    /// The label of the arrow to an initial state, with the arguments of the state.
     pub(super) fn of_initial(chart: &Chart, state: usize) -> Self {
         let effects = given(chart, state, &chart.states[state].values).collect();
         Self { number: None, guard: String::new(), effects }
     }
 
-    /// Whether there is nothing to be written.
+    /// True if there is no text.
     pub(super) fn is_empty(&self) -> bool {
         self.guard.is_empty() && self.effects.is_empty()
     }
 
-    /// All of it on one line.
+    /// The label in one line.
     pub(super) fn line(&self) -> String {
         let number = self.number.map(|number| number.to_string());
         let effects = (!self.effects.is_empty()).then(|| format!("/ {}", self.effects.join(", ")));
@@ -48,23 +48,23 @@ impl Label {
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
-    /// The guard in lines of so many letters.
+    /// The guard in lines of `width` letters.
     pub(super) fn guard_lines(&self, width: usize) -> Vec<String> {
         wrapped(&clauses(&self.guard), width)
     }
 
-    /// The same without its first word, where that is one that most guards begin with.
+    /// The same without the first word, if that is the first word of most guards.
     pub(super) fn brief_guard_lines(&self, width: usize) -> Vec<String> {
         wrapped(&clauses(self.guard.strip_prefix("when ").unwrap_or(&self.guard)), width)
     }
 
-    /// What it hands over in lines of so many letters.
+    /// The effects in lines of `width` letters.
     pub(super) fn effect_lines(&self, width: usize) -> Vec<String> {
         wrapped(&listed(&self.effects), width)
     }
 }
 
-/// The clauses of a guard, which read best on a line each.
+/// The clauses of a guard, one for each line if possible.
 fn clauses(guard: &str) -> Vec<String> {
     let mut clauses = vec![String::new()];
     for word in guard.split_whitespace() {
@@ -79,7 +79,7 @@ fn clauses(guard: &str) -> Vec<String> {
     clauses
 }
 
-/// The effects with the signs that stand between them.
+/// The effects with their separators.
 fn listed(effects: &[String]) -> Vec<String> {
     let last = effects.len().saturating_sub(1);
     let sign = |index| if index < last { "," } else { "" };
@@ -92,13 +92,13 @@ pub(super) fn signature(state: &State) -> String {
     if state.arguments.is_empty() { state.name.clone() } else { format!("{}({})", state.name, arguments(state)) }
 }
 
-/// How many states in a state are not shown; nothing if all are.
+/// The number of inner states that are not shown. `None` if all are shown.
 pub(super) fn hidden(state: &State) -> Option<String> {
     let plural = if state.hidden == 1 { "" } else { "s" };
     (state.hidden > 0).then(|| format!("+ {} state{plural} in it", state.hidden))
 }
 
-/// A state's name and arguments, and how many states in it are not shown.
+/// The name and arguments of a state, and the number of inner states that are not shown.
 pub(super) fn titled(state: &State) -> String {
     [Some(signature(state)), hidden(state)].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
@@ -129,7 +129,7 @@ fn effects(chart: &Chart, transition: &Transition) -> Vec<String> {
     }
 }
 
-/// The values that a state is given, with the names of its arguments.
+/// The argument values of a state, with the names of the arguments.
 fn given<'c>(chart: &'c Chart, state: usize, values: &'c [String]) -> impl Iterator<Item = String> + use<'c> {
     let arguments = chart.states[state].arguments.iter();
     arguments.zip(values).map(|(argument, value)| format!("{} = {value}", argument.name))

@@ -1,11 +1,11 @@
-//! Lines of text, indented.
+//! Indented lines of text.
 
 use std::fmt::Write;
 
-/// Blanks of a level.
+/// Number of blanks for each level.
 const INDENT: usize = 2;
 
-/// Lines in the making.
+/// Lines in construction.
 #[derive(Default)]
 pub(super) struct Lines {
     text: String,
@@ -19,7 +19,7 @@ impl Lines {
         let _ = writeln!(self.text, "{:indent$}{line}", "", indent = INDENT * self.depth);
     }
 
-    /// Adds a line that ends in `{`, what is inside, and a line that closes it.
+    /// Adds a line that ends in `{`, the lines of `inside`, and a closing line.
     pub(super) fn block(&mut self, head: &str, inside: impl FnOnce(&mut Self)) {
         self.push(&format!("{head} {{"));
         self.depth += 1;

@@ -5,8 +5,8 @@ use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
 
-/// The chart as a `stateDiagram-v2` of Mermaid. A transition's text stands on its arrow; a failure's reason, or the values that
-/// a state is entered with, follow a `/`.
+/// The chart as a `stateDiagram-v2` of Mermaid. The text of a transition is on its arrow. The reason of a failure, or
+/// the arguments of a state, follow a `/`.
 #[must_use]
 pub fn chart_mermaid(chart: &Chart) -> String {
     let mut lines = Lines::default();
@@ -35,7 +35,7 @@ pub fn chart_mermaid(chart: &Chart) -> String {
     lines.finish()
 }
 
-/// The states that lie in `parent`, each with those that lie in it.
+/// The inner states of `parent`, with their own inner states.
 fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     for (index, state) in chart.inside(parent) {
         let head = format!("state \"{}\" as {}", escaped(&titled(state)), id(index));
@@ -52,13 +52,13 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
     }
 }
 
-/// Names are no identifiers: some of them, such as `note`, are words of Mermaid's.
+/// The identifier of a state. Some names, such as `note`, are keywords of Mermaid.
 fn id(state: usize) -> String {
     format!("s{state}")
 }
 
-/// A text in which nothing has a meaning of its own. Mermaid ends a text at `:` and `;`, and takes it for Markdown and HTML;
-/// but it knows entities, with `#` instead of `&#`.
+/// An escaped text. Mermaid ends a text at `:` and `;`, and interprets Markdown and HTML. Its entities begin with `#`
+/// instead of `&#`.
 fn escaped(text: &str) -> String {
     let escape = |c: char| match c {
         '"' => "#quot;".to_owned(),

@@ -1,37 +1,40 @@
-//! The layout of states in states: each state that holds others is laid out by itself, and is a box to what is around it.
+//! The layout of nested states. The inside of each state with inner states has its own layout, and is a box in the
+//! layout around it.
 //!
-//! Arrows that leave a box pass through its upper or lower edge, just as they lead on around it. So what is inside can be laid
-//! out before its place is known; where the arrows pass the edge comes from there.
+//! Arrows that leave a box pass through its upper or lower side, and continue outside in the same direction. Therefore
+//! the inside can be laid out before the position of the box is known. The positions at which arrows pass the side
+//! follow from the inside.
 
 use super::layout::{Arrow, Edge, Layout, Node, Place, Size, Way, layout, ranks};
 use super::symbol::Symbol;
 use crate::policy::chart::Chart;
 
-/// Room between a box and what is in it (px).
+/// Margin between a box and its inside (px).
 const MARGIN: f64 = 14.0;
 
-/// An arrow between two symbols, neither of which is in the other.
+/// An arrow between two symbols. Neither contains the other.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
-    /// Index of the symbol that it leaves.
+    /// Index of the symbol at its start.
     pub(super) from: usize,
-    /// Index of the symbol that it leads to.
+    /// Index of the symbol at its end.
     pub(super) to: usize,
     /// The size of its label.
     pub(super) label: Size,
 }
 
-/// Where everything is; the upper left corner of all is the origin.
+/// Positions of all symbols and arrows. The origin is the upper left corner.
 pub(super) struct Arrangement {
     /// The centre and the size of each symbol.
     pub(super) symbols: Vec<(Place, Size)>,
-    /// Each arrow's way.
+    /// The path of each arrow.
     pub(super) ways: Vec<Way>,
-    /// The size of all.
+    /// The size of the arrangement.
     pub(super) size: Size,
 }
 
-/// Arranges `symbols`, those at which ways begin first, each with the room that it takes `beside` it, and `spans`.
+/// Arranges `symbols` and `spans`. The symbols at which paths begin come first. `beside` is the space to the right of
+/// each symbol.
 pub(super) fn arrange(chart: &Chart, symbols: &[Symbol], beside: &[Size], spans: &[Span]) -> Arrangement {
     let nest = Nest { chart, symbols, beside, spans };
     let inside = nest.lay_out(None, &[]);
@@ -57,25 +60,25 @@ struct Nest<'a> {
     spans: &'a [Span],
 }
 
-/// An arrow that passes an edge of a box.
+/// An arrow that passes a side of a box.
 #[derive(Clone, Copy)]
 struct Passage {
     span: usize,
     edge: Edge,
 }
 
-/// What is in a box, relative to its upper left corner.
+/// The inside of a box, relative to its upper left corner.
 struct Inside {
     size: Size,
     symbols: Vec<(usize, Place, Size)>,
-    /// The ways, or parts of them, of the arrows in it.
+    /// The paths of the arrows in it, or parts of them.
     ways: Vec<(usize, Way)>,
-    /// How far to the right each passage is.
+    /// The horizontal position of each passage.
     passages: Vec<f64>,
 }
 
 impl Nest<'_> {
-    /// Lays out what lies in a state, or in none, with the arrows that come in or go out.
+    /// Lays out the inner states of a state, or the outermost states, with the arrows that enter or leave.
     fn lay_out(&self, container: Option<usize>, passages: &[Passage]) -> Inside {
         let members: Vec<usize> =
             (0..self.symbols.len()).filter(|&index| self.symbols[index].container(self.chart) == container).collect();
@@ -97,7 +100,7 @@ impl Nest<'_> {
             members.iter().map(|_| None).chain(at_edge.clone().chain(title).map(|node| node.edge)).collect();
         let ranks = ranks(&edges, &spans.iter().map(|&(_, from, to)| (from, to)).collect::<Vec<_>>());
 
-        // Where an arrow leaves this or a symbol of this as a box, it goes the same way as around it.
+        // An arrow leaves a box in the same direction as it continues around it.
         let mut inner_passages: Vec<Vec<Passage>> = vec![Vec::new(); members.len()];
         for &(span, from, to) in &spans {
             let leads_down = ranks[from] < ranks[to];
@@ -150,7 +153,7 @@ impl Nest<'_> {
         Self::put_together(container.is_some(), layout, &nodes, &members, passages, &spans, inner)
     }
 
-    /// The box of a symbol that holds others.
+    /// The inside of a symbol with inner states.
     fn box_of(&self, symbol: usize, passages: &[Passage]) -> Option<Inside> {
         match self.symbols[symbol] {
             Symbol::State(state) if self.chart.inside(Some(state)).next().is_some() => {
@@ -160,7 +163,7 @@ impl Nest<'_> {
         }
     }
 
-    /// Which of the members of a container a symbol is or lies in.
+    /// The member of a container that is a symbol or contains it.
     fn member(&self, symbol: usize, container: Option<usize>, members: &[usize]) -> Option<usize> {
         let mut symbol = self.symbols[symbol];
         while symbol.container(self.chart) != container {
@@ -169,7 +172,7 @@ impl Nest<'_> {
         members.iter().position(|&member| self.symbols[member] == symbol)
     }
 
-    /// Moves what is in boxes to where these are, and joins the parts of ways.
+    /// Moves the insides to the positions of their boxes, and joins the parts of paths.
     fn put_together(
         is_box: bool,
         layout: Layout,
@@ -190,7 +193,7 @@ impl Nest<'_> {
         };
         for (&span, way) in spans.iter().zip(layout.ways) {
             let mut points: Vec<Place> = way.points.into_iter().map(moved).collect();
-            // What passes an edge goes all the way to it.
+            // An arrow that passes a side extends to it.
             if let Some(passage) = passages.iter().find(|passage| passage.span == span) {
                 let y = if passage.edge == Edge::Top { 0.0 } else { size.1 };
                 let is_at = |point: Option<&Place>| point.map_or(f64::INFINITY, |point| (point.1 - y).abs());
@@ -225,7 +228,7 @@ impl Nest<'_> {
     }
 }
 
-/// Joins a part of a way to the end of the rest at which it goes on.
+/// Appends a part of a path to the end of the rest at which it continues.
 fn join(points: &mut Vec<Place>, part: Vec<Place>) {
     let distance = |a: Option<&Place>, b: Option<&Place>| match (a, b) {
         (Some(a), Some(b)) => (a.0 - b.0).hypot(a.1 - b.1),

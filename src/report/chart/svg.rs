@@ -14,18 +14,18 @@ use crate::report::style::{self, Anchor, px, text, width_of};
 
 /// The most states and the most transitions that a picture shows.
 const LIMITS: (usize, usize) = (100, 400);
-/// Room round the chart, and above it, for the title (px).
+/// Margins of the chart, and the height of the title (px).
 const MARGIN: f64 = 24.0;
 const HEAD: f64 = 84.0;
 /// Size of the title's letters and of the remark's under it (px).
 const TITLE: f64 = 22.0;
 const REMARK: f64 = 13.0;
-/// How far a transition from a state to itself reaches out, and half of how high it is (px).
+/// Horizontal extent of a transition from a state to itself, and half of its height (px).
 const LOOP: (f64, f64) = (26.0, 8.0);
 /// Length and half the width of an arrow's head (px).
 const ARROWHEAD: (f64, f64) = (8.0, 4.0);
 
-/// Why there is no picture of a chart.
+/// The error of a chart that is too large for a picture.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{states} states and {transitions} transitions are too many for a picture, which shows {} and {} at most; \
@@ -34,9 +34,9 @@ const ARROWHEAD: (f64, f64) = (8.0, 4.0);
     LIMITS.1
 )]
 pub struct ChartTooLarge {
-    /// How many states the chart has.
+    /// Number of states of the chart.
     pub states: usize,
-    /// How many transitions it has.
+    /// Number of its transitions.
     pub transitions: usize,
 }
 
@@ -45,7 +45,7 @@ pub struct ChartTooLarge {
 /// Transitions with the same ends share an arrow. States have the colours that they have in the picture of a run.
 ///
 /// # Errors
-/// [`ChartTooLarge`] if nobody could make out anything.
+/// [`ChartTooLarge`] if the picture would not be readable.
 pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     let (states, transitions) = (chart.states.len(), chart.transitions.len());
     if states > LIMITS.0 || transitions > LIMITS.1 {
@@ -67,7 +67,7 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     let (width, height) = (layout.size.0.max(least) + 2.0 * MARGIN, layout.size.1 + HEAD + MARGIN);
     let mut drawing = Group::new();
     drawing = drawing.set("transform", format!("translate({} {})", px(0.5 * (width - layout.size.0)), px(HEAD)));
-    // A frame lies behind all that is in it.
+    // A frame is behind its inside.
     let holds_others =
         |symbol: Symbol| matches!(symbol, Symbol::State(state) if chart.inside(Some(state)).next().is_some());
     for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| holds_others(**symbol)) {
@@ -103,7 +103,7 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     Ok(document.to_string())
 }
 
-/// What is left out, or what the numbers mean, if there are any.
+/// A remark about omitted parts, or about the numbers, if there are any.
 fn remark(chart: &Chart) -> &'static str {
     if chart.is_overview {
         return "inner states are left out, and details of transitions: --state NAME shows those of one state";
@@ -112,7 +112,7 @@ fn remark(chart: &Chart) -> &'static str {
     if is_numbered { "numbers: the order in which transitions of one state are tried" } else { "" }
 }
 
-/// The symbols of a chart; the layout begins with the first.
+/// The symbols of a chart, in the order of the layout.
 fn symbols(chart: &Chart) -> Vec<Symbol> {
     let has_start = chart.states.iter().any(|state| state.initial && state.parent.is_none());
     let mut symbols: Vec<Symbol> = has_start.then_some(Symbol::Start(None)).into_iter().collect();
@@ -131,8 +131,8 @@ fn symbols(chart: &Chart) -> Vec<Symbol> {
     symbols
 }
 
-/// The symbols that a transition leads from and to. What leads from a state into it, or out of those in it into it, is drawn
-/// within it.
+/// The symbols at both ends of a transition. Transitions between a state and its inner states are drawn inside the
+/// state.
 fn ends(chart: &Chart, transition: &Transition) -> (Symbol, Symbol) {
     match (transition.origin, &transition.target) {
         (Origin::AnyState, Target::State { state, .. }) => (Symbol::AnyState(None), Symbol::State(*state)),
@@ -147,7 +147,7 @@ fn ends(chart: &Chart, transition: &Transition) -> (Symbol, Symbol) {
     }
 }
 
-/// All transitions from one symbol to another, or what leads to an initial state.
+/// All transitions between two symbols, or the arrow to an initial state.
 struct Link {
     from: usize,
     to: usize,
@@ -178,7 +178,7 @@ fn links(chart: &Chart, symbols: &[Symbol]) -> Vec<Link> {
     bundles.into_iter().filter_map(link).collect()
 }
 
-/// A line through points, in all of which it is vertical.
+/// A curve through points. It is vertical at all of them.
 fn curve(points: &[Place]) -> Outline {
     let mut curve = Outline::default();
     let mut before: Option<Place> = None;
@@ -197,7 +197,7 @@ fn line(outline: Outline) -> Path {
     outline.stroked(style::PLATFORM, 1.3)
 }
 
-/// The head of an arrow that reaches `tip` in a direction (a unit vector).
+/// The head of an arrow with its end at `tip` in a direction (a unit vector).
 fn arrowhead(tip: Place, direction: Place) -> Path {
     let (length, half) = ARROWHEAD;
     let back = (tip.0 - length * direction.0, tip.1 - length * direction.1);

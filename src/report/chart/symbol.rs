@@ -1,4 +1,4 @@
-//! What a chart's arrows lead to and leave from.
+//! Symbols of a statechart.
 
 use svg::node::element::{Circle, Group, Rectangle};
 
@@ -14,29 +14,29 @@ const REMARK: f64 = 11.0;
 /// Height of a box with a name only, and of a further line (px).
 const HEIGHT: f64 = 34.0;
 const LINE: f64 = 16.0;
-/// Least width of a box and room beside its texts (px).
+/// Least width of a box, and space beside its texts (px).
 const LEAST_WIDTH: f64 = 96.0;
 const BESIDE: f64 = 14.0;
-/// Diameter of the mark where a run starts (px).
+/// Diameter of the start symbol (px).
 const START: f64 = 14.0;
 
 /// A symbol of a statechart.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Symbol {
-    /// Where a run starts, or a state that others lie in.
+    /// Start of a run, or of a state with inner states.
     Start(Option<usize>),
     /// The state with this index.
     State(usize),
-    /// Every state, or every one in a state.
+    /// All states, or all states within a state.
     AnyState(Option<usize>),
-    /// For those in it: the state with this index, which is left and entered anew.
+    /// The state with this index, which one of its inner states leaves and enters again.
     Anew(usize),
     /// The end in failure.
     Failure,
 }
 
 impl Symbol {
-    /// The state that it lies in.
+    /// The state that contains it.
     pub(super) fn container(self, chart: &Chart) -> Option<usize> {
         match self {
             Self::Start(container) | Self::AnyState(container) => container,
@@ -46,12 +46,12 @@ impl Symbol {
         }
     }
 
-    /// The size of its title, if it is a state that others lie in (px).
+    /// The size of its title, if it is a state with inner states (px).
     pub(super) fn title_size(self, chart: &Chart) -> Size {
         (width_of(&self.title(chart), NAME), LINE)
     }
 
-    /// The frame of a state that others lie in, and its title.
+    /// The frame of a state with inner states, and its title.
     pub(super) fn draw_frame(self, chart: &Chart, (x, y): Place, (width, height): Size) -> Group {
         let (left, top) = (x - 0.5 * width, y - 0.5 * height);
         let frame = Rectangle::new().set("x", px(left)).set("y", px(top)).set("rx", 10);
@@ -69,7 +69,7 @@ impl Symbol {
         }
     }
 
-    /// Its size, if nothing lies in it (px).
+    /// Its size without inner states (px).
     pub(super) fn size(self, chart: &Chart) -> Size {
         if matches!(self, Self::Start(_)) {
             return (START, START);
@@ -80,7 +80,7 @@ impl Symbol {
         (width.max(LEAST_WIDTH), HEIGHT + LINE * remarks.len() as f64)
     }
 
-    /// The symbol round `centre`, as wide as told.
+    /// The symbol around `centre`, with this `width`.
     pub(super) fn draw(self, chart: &Chart, (x, y): Place, width: f64) -> Group {
         if matches!(self, Self::Start(_)) {
             let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", px(0.5 * START));
@@ -98,7 +98,7 @@ impl Symbol {
             Self::AnyState(_) | Self::Anew(_) => {
                 group.add(frame(0.0).set("fill", "#ffffff").set("stroke-dasharray", "5 3"))
             }
-            // The final state of a statechart has two lines round it.
+            // The final state of a statechart has a double frame.
             Self::Failure => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5).set("fill", style::FAILURE)),
             Self::State(index) => {
                 group.add(frame(0.0).set("fill", shades(&chart.parents)[chart.states[index].index].fill()))
@@ -126,7 +126,7 @@ impl Symbol {
         }
     }
 
-    /// What stands under the name.
+    /// The texts under the name.
     fn remarks(self, chart: &Chart) -> Vec<String> {
         match self {
             Self::State(index) => {

@@ -1,15 +1,15 @@
-//! Texts in lines.
+//! Wrapped texts.
 
-/// Letters by which a line that goes on is indented.
+/// Indentation of continued lines in letters.
 const INDENT: usize = 2;
 
-/// About how many letters wide a text is: those of the scripts of East Asia, and pictures, are twice as wide.
+/// Approximate width of a text in letters. East Asian letters and pictograms have double width.
 pub(super) fn letters(content: &str) -> usize {
     content.chars().map(|c| if c < '\u{1100}' { 1 } else { 2 }).sum()
 }
 
-/// Parts of a text in lines of so many letters, broken between the parts if that suffices, or else at blanks where there are any. All lines but
-/// the first are indented.
+/// Parts of a text in lines of `width` letters. Lines are broken between the parts if that suffices, else at blanks.
+/// All lines except the first are indented.
 pub(super) fn wrapped(parts: &[String], width: usize) -> Vec<String> {
     let mut lines = Lines { done: Vec::new(), line: String::new(), width };
     for part in parts {
@@ -19,7 +19,7 @@ pub(super) fn wrapped(parts: &[String], width: usize) -> Vec<String> {
     lines.done
 }
 
-/// Lines in the making.
+/// Lines in construction.
 struct Lines {
     done: Vec<String>,
     line: String,
@@ -28,7 +28,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// Adds a part, on the same line if there is room.
+    /// Adds a part, on the same line if it fits.
     fn add(&mut self, part: &str) {
         let fits_alone = INDENT + letters(part) <= self.width;
         if self.fits(part) {
@@ -39,7 +39,7 @@ impl Lines {
         } else if part.contains(char::is_whitespace) {
             part.split_whitespace().for_each(|word| self.add(word));
         } else {
-            // At least the beginning of it has room behind what is on the line.
+            // The beginning of the part fits behind the text of the line.
             if letters(&self.line) + 2 < self.width && !self.line.trim().is_empty() {
                 self.line.push(' ');
             }

@@ -1,13 +1,13 @@
 //! Classes of errors by fixed limits, the same in every picture.
 
-/// The limits between the classes (mm), two in a decade. What equals a limit is below it.
+/// The limits between the classes (mm), two in a decade. An error equal to a limit belongs to the class below.
 pub(super) const LIMITS: [f64; 7] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0];
 
 /// One colour a class: blue up to 0.1 mm, yellow and orange up to 1 mm, dark red and darker beyond.
 pub(super) const COLOURS: [&str; LIMITS.len() + 1] =
     ["#a5d8f7", "#3f9fdd", "#1a5fc0", "#ffd000", "#ea7a10", "#b80f1e", "#650a45", "#0d0d0d"];
 
-/// The index of the class of an error (m). What is not a number is in the last one.
+/// The index of the class of an error (m). Errors that are not numbers belong to the last class.
 pub(super) fn class(error: f64) -> usize {
     let millimetres = error * 1e3;
     LIMITS.iter().position(|limit| millimetres <= *limit).unwrap_or(LIMITS.len())
@@ -18,8 +18,8 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
 
-    /// What people see of linear RGB: with full colour vision, and without the cones for long, medium and short waves. The matrices
-    /// are those of Machado, Oliveira and Fernandes (2009) for severity 1.
+    /// Perceived linear RGB with full colour vision, and without the cones for long, medium and short waves. The
+    /// matrices are those of Machado, Oliveira and Fernandes (2009) for severity 1.
     const VISIONS: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152_286, 1.052_583, -0.204_868], [0.114_503, 0.786_281, 0.099_216], [-0.003_882, -0.048_116, 1.051_998]],
@@ -34,7 +34,7 @@ mod tests {
         matrix.map(|[x, y, z]| x * a + y * b + z * c)
     }
 
-    /// A colour in CIE L*a*b*, in which distances are about as large as they seem.
+    /// A colour in CIE L*a*b*, whose distances are approximately perceived differences.
     fn lab(colour: &str, vision: [[f64; 3]; 3]) -> [f64; 3] {
         let part = |k: usize| f64::from(u8::from_str_radix(&colour[k..k + 2], 16).unwrap()) / 255.0;
         let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
@@ -54,7 +54,7 @@ mod tests {
         for vision in VISIONS {
             for (index, one) in COLOURS.iter().enumerate() {
                 for other in COLOURS[..index].iter().chain(["#ffffff"].iter()) {
-                    // A distance of 2.3 can just be noticed.
+                    // The least noticeable distance is 2.3.
                     let distance = distance(lab(one, vision), lab(other, vision));
                     assert!(distance > 20.0, "{one} and {other}: {distance}");
                 }

@@ -1,4 +1,4 @@
-//! What costs how much, and how far off it is.
+//! Picture of cost against error, with the Pareto-optimal points.
 
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Path};
@@ -6,16 +6,16 @@ use svg::node::element::{Circle, Group, Path};
 use super::scale::Scale;
 use crate::report::style::{self, Anchor, line, px, text};
 
-/// One of several things of which each has a cost and an error by either of two measures.
+/// A point with a cost and an error by either of two measures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FrontPoint {
-    /// What it is.
+    /// Name of the point.
     pub(super) name: String,
-    /// The index of its kind, which gives its colour.
+    /// Index of its kind, which determines its colour.
     pub(super) kind: usize,
-    /// What it costs, above 0.
+    /// Its cost, above 0.
     pub(super) cost: f64,
-    /// Its errors, above 0; with whether it is on the front of all, and whether on that of its like.
+    /// Its errors, above 0. The flags are true if it is Pareto-optimal among all points, and among those of its group.
     pub(super) errors: [Option<(f64, bool, bool)>; 2],
 }
 
@@ -28,11 +28,12 @@ const TOP: f64 = 100.0;
 const COLUMNS: usize = 4;
 const LINE: f64 = 20.0;
 const DOT: f64 = 4.5;
-/// Size of a number beside a point (px), and how far from it it may be.
+/// Size of a number beside a point (px), and its largest distance from the point.
 const NUMBER: f64 = 11.0;
 
-/// A picture of cost against error, both on logarithmic scales: a panel for either error, with the front of all as a line and
-/// points that are on the front of their like filled. The first point has a ring. A self-contained SVG.
+/// A picture of cost against error, both on logarithmic scales. It has one panel for each error. A line connects the
+/// Pareto-optimal points, and points that are Pareto-optimal in their group are filled. The first point has a ring. A
+/// self-contained SVG.
 pub(super) fn front_picture(
     title: &str,
     subtitle: &str,
@@ -65,7 +66,7 @@ struct Panel {
 }
 
 impl Panel {
-    /// The panel of an error; `None` if no point has any.
+    /// The panel of an error. `None` if no point has it.
     fn new(measure: usize, points: &[FrontPoint]) -> Option<Self> {
         let known = || points.iter().filter_map(|point| Some((point.cost, point.errors[measure]?.0)));
         let left = LEFT[measure];
@@ -112,7 +113,7 @@ impl Panel {
         Some((self.x.at(point.cost.log10()), self.y.at(error.log10())))
     }
 
-    /// The steps of what can be had for a cost.
+    /// The step curve of the least error for each cost.
     fn front(&self, points: &[FrontPoint]) -> Path {
         let is_on = |point: &&FrontPoint| point.errors[self.measure].is_some_and(|(_, is_on, _)| is_on);
         let mut places: Vec<(f64, f64)> = points.iter().filter(is_on).filter_map(|point| self.place(point)).collect();
@@ -133,7 +134,7 @@ impl Panel {
     }
 }
 
-/// A place beside a point (px) for its number: the nearest that is free, or else the first.
+/// A position beside a point (px) for its number: the nearest free one, or else the first.
 fn free_place((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
     let around = |radius: f64| {
         (0..12).map(move |k| {
@@ -148,7 +149,7 @@ fn free_place((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
     places.find(is_free).unwrap_or((x + 14.0, y))
 }
 
-/// The scale of the logarithms of some numbers above 0, with room at both ends; `None` if there are none.
+/// The scale of the logarithms of some numbers above 0, with margins. `None` without numbers.
 fn logarithmic(values: impl Iterator<Item = f64>, places: (f64, f64)) -> Option<Scale> {
     const ROOM: f64 = 0.08;
     let logarithms = values.map(f64::log10).filter(|value| value.is_finite());
@@ -158,7 +159,7 @@ fn logarithmic(values: impl Iterator<Item = f64>, places: (f64, f64)) -> Option<
     (low <= high).then_some(Scale { values: (low - room, high + room), places })
 }
 
-/// The numbers 1, 2 and 5 times powers of ten that are on a logarithmic scale: their places and texts.
+/// The numbers 1, 2 and 5 times powers of ten on a logarithmic scale: their positions and texts.
 fn round_values(scale: &Scale) -> Vec<(f64, String)> {
     let (low, high) = scale.values;
     #[expect(clippy::cast_possible_truncation, reason = "the exponents of what has been measured")]
@@ -177,7 +178,7 @@ fn colour(kind: usize) -> &'static str {
     style::WHISKERS[kind % style::WHISKERS.len()]
 }
 
-/// What the colours mean.
+/// The legend of the colours.
 fn kind_line(kinds: &[&str], y: f64) -> Group {
     let mut x = LEFT[0];
     kinds.iter().enumerate().fold(Group::new(), |group, (kind, name)| {
@@ -188,7 +189,7 @@ fn kind_line(kinds: &[&str], y: f64) -> Group {
     })
 }
 
-/// The names by their numbers, column by column.
+/// The names by their numbers in columns.
 fn names(points: &[FrontPoint], top: f64) -> Group {
     let lines = points.len().div_ceil(COLUMNS);
     let breadth = (WIDTH - LEFT[0]) / COLUMNS as f64;

@@ -1,4 +1,4 @@
-//! What the map's marks mean, and the run's figures.
+//! Legend of the map, and the run's figures.
 
 use svg::Node;
 use svg::node::element::{Group, Path, Rectangle};
@@ -16,20 +16,20 @@ use vibrissa_runtime::machine::Mark;
 /// Height of a line (px).
 const LINE: f64 = 22.0;
 
-/// Room before a heading (px).
+/// Space before a heading (px).
 const GAP: f64 = 10.0;
 
 /// Height of the bar of error classes (px).
 const BAR: f64 = 12.0;
 
-/// Room for a mark (px).
+/// Width of a mark (px).
 const MARK: f64 = 34.0;
 
-/// What the Hausdorff distance is of, if some of the outline is farther from the estimate than any estimate from the outline, and if not.
+/// Descriptions of the Hausdorff distance, which is either that of a point of the outline or that of an estimate.
 const OUTLINE_FARTHEST: &str = "of the outline's farthest untraced point";
 const ESTIMATE_FARTHEST: &str = "of the farthest estimate";
 
-/// The column beside the map, in the making.
+/// The column beside the map in construction.
 pub(super) struct Legend {
     group: Group,
     left: f64,
@@ -39,7 +39,8 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    /// The whole column, `width` (px) wide, from (`left`, `top`) down; `scale` is the map's, px a metre.
+    /// The whole column, `width` (px) wide, with its upper left corner at (`left`, `top`). `scale` is that of the map
+    /// (px per metre).
     pub(super) fn draw(
         (left, top): (f64, f64),
         width: f64,
@@ -132,7 +133,7 @@ impl Legend {
         }
         if let Some(hausdorff) = score.hausdorff {
             self.figure("Hausdorff distance", &format!("{} mm", millimetres(hausdorff * 1e3)));
-            // It is the greater of two, and so close to the greatest error only where all of the outline was traced.
+            // The distance is the greater of two. It is the greatest error only if the whole outline was traced.
             let of_outline = score.error.as_ref().is_some_and(|error| hausdorff > error.max);
             let meaning = if of_outline { OUTLINE_FARTHEST } else { ESTIMATE_FARTHEST };
             self.add(text(self.left, self.y - 5.0, Anchor::Start, 11.0, style::GREY, meaning));

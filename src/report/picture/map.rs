@@ -25,28 +25,28 @@ pub(super) const DOT: f64 = 5.0;
 /// Width of an outline (px).
 pub(super) const OUTLINE: f64 = 0.7;
 
-/// Width of a stretch that was not traced (px).
+/// Width of an untraced section (px).
 pub(super) const UNTRACED: f64 = 12.0;
 
 /// Half the width of the diamond of a mark (px).
 pub(super) const MARK: f64 = 5.0;
 
-/// Poses of the platform that are drawn between the first and the last.
+/// Number of poses of the platform between the first and the last.
 const POSES_BETWEEN: usize = 5;
 
-/// The panel of the map: where it is, and how the world is laid out on it.
+/// The panel of the map with its position and scales.
 pub(super) struct Map {
     x: Scale,
     y: Scale,
-    /// px a metre.
+    /// Scale (px per metre).
     pub(super) scale: f64,
     /// Height of the panel (px).
     pub(super) height: f64,
 }
 
 impl Map {
-    /// A panel of `width` (px) with its upper left corner at (`left`, `top`), on which the objects and the platform's way have
-    /// room; its height is between `least` and `most`.
+    /// A panel of `width` (px) with its upper left corner at (`left`, `top`). It contains the objects and the path of
+    /// the platform. Its height is between `least` and `most`.
     pub(super) fn new(
         scene: &Scene,
         trace: &Trace,
@@ -69,7 +69,7 @@ impl Map {
         }
     }
 
-    /// The panel with all that is on it.
+    /// The panel with its content.
     pub(super) fn draw(&self, scene: &Scene, trace: &Trace, untraced: &[Untraced<'_>], tips: &[Tip]) -> Group {
         let frame = || {
             Rectangle::new()
@@ -85,7 +85,7 @@ impl Map {
             inside = inside.add(self.stretches(contour, stretches).stroked(style::UNTRACED, UNTRACED));
         }
         inside = inside.add(self.platform(&scene.rig, trace));
-        // The largest errors come last, so that nothing hides them.
+        // The largest errors are drawn last, so that they stay visible.
         for (index, colour) in COLOURS.into_iter().enumerate() {
             let mut dots = Outline::default();
             let of_class = tips.iter().filter(|tip| class(tip.error) == index);
@@ -117,7 +117,7 @@ impl Map {
         (self.x.at(point.x), self.y.at(point.y))
     }
 
-    /// Whether a place is on the panel. Tips can be anywhere.
+    /// True if a position is on the panel. Tips can be anywhere.
     fn shows(&self, (x, y): (f64, f64)) -> bool {
         (self.x.places.0..=self.x.places.1).contains(&x) && (self.y.places.1..=self.y.places.0).contains(&y)
     }
@@ -144,7 +144,7 @@ impl Map {
         outline
     }
 
-    /// Stretches of a contour, close enough to it for a wide line.
+    /// Sections of a contour, as polylines that are accurate enough for a wide line.
     fn stretches(&self, contour: &Contour, stretches: &[Range<f64>]) -> Outline {
         let mut outline = Outline::default();
         for stretch in stretches {
@@ -174,7 +174,7 @@ impl Map {
         }
         let mut kept: Vec<(f64, f64)> = Vec::new();
         for place in way(trace).map(|point| self.place(point)) {
-            // What is closer than a pixel cannot be seen.
+            // Distances below a pixel are not visible.
             if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= 1.0) {
                 kept.push(place);
             }
@@ -221,7 +221,7 @@ impl Map {
     }
 }
 
-/// The outline of the platform at one of `count` poses: filled at the first, heavy at the last.
+/// The outline of the platform at one of `count` poses: filled at the first, bold at the last.
 pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node::element::Path {
     if index == 0 {
         body.stroked(style::PLATFORM, 1.2).set("fill", "#cbd2d9")
@@ -232,7 +232,7 @@ pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node
     }
 }
 
-/// Diamonds that stand for marks: hollow where an edge was lost, full where contact was found again.
+/// Diamonds for marks: hollow at lost edges, filled at points where contact was found again.
 pub(super) fn mark_style(diamonds: Outline, mark: Mark) -> svg::node::element::Path {
     match mark {
         Mark::Lost => diamonds.stroked(style::ALARM, 1.5).set("fill", "#ffffff"),
@@ -240,12 +240,12 @@ pub(super) fn mark_style(diamonds: Outline, mark: Mark) -> svg::node::element::P
     }
 }
 
-/// Where the platform's centre of mass went.
+/// The path of the platform's centre of mass.
 fn way(trace: &Trace) -> impl Iterator<Item = Point2> {
     trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body.position)
 }
 
-/// The ticks in which the platform is drawn: the first, the last, and some at equal times between.
+/// The ticks in which the platform is drawn: the first, the last, and some at equal time intervals between.
 fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
     let ticks: Vec<_> = trace.ticks.iter().filter(|tick| has_place(tick)).collect();
     let Some(last) = ticks.len().checked_sub(1) else { return ticks };
@@ -255,7 +255,7 @@ fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
     chosen.into_iter().map(|index| ticks[index]).collect()
 }
 
-/// A platform further off than this (m) has lost its place; a scale that shows it would show nothing else.
+/// Limit of drawn positions (m). A diverged platform would otherwise determine the scale.
 const HORIZON: f64 = 1e6;
 
 fn has_place(tick: &TickRecord) -> bool {
@@ -263,7 +263,7 @@ fn has_place(tick: &TickRecord) -> bool {
     within(tick.body.position.x) && within(tick.body.position.y) && tick.body.heading.is_finite()
 }
 
-/// The points that bound what is drawn of a rig (world).
+/// The points that bound the drawing of a rig (world frame).
 fn footprint(rig: &Rig, pose: &Pose) -> Vec<Point2> {
     let tips =
         rig.whiskers.iter().map(|whisker| whisker.base_body + whisker.shaft.length * unit(whisker.direction_body));

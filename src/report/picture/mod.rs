@@ -32,25 +32,25 @@ use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};
 const WIDTH: f64 = 1200.0;
 /// Width of the map (px).
 const MAP_WIDTH: f64 = 800.0;
-/// Least and greatest height of the map (px); the least is what the legend beside it needs.
+/// Least and greatest height of the map (px). The legend needs the least height.
 const MAP_HEIGHT: (f64, f64) = (560.0, 820.0);
-/// What the legend needs more where there are marks (px).
+/// Additional height of the legend if there are marks (px).
 const MARKS_HEIGHT: f64 = 110.0;
-/// Where the map and the strips start, and where the picture's content ends (px).
+/// Left side of the map and the strips, and right side of the picture's content (px).
 const SIDES: (f64, f64) = (66.0, 1170.0);
-/// Where the legend starts (px).
+/// Left side of the legend (px).
 const LEGEND: f64 = 898.0;
 /// Characters in a line of the subtitle.
 const LINE: usize = 130;
 
-/// A picture of `run`, the run of `scene` under the policy named so, that got this `score`: a self-contained SVG.
+/// A picture of `run`, the run of `scene` under the policy named `policy`, with its `score`: a self-contained SVG.
 ///
-/// Above, the scene from above: the exact outlines, the tip estimates, the platform's way and some of its poses,
-/// with whiskers bent as their base angles and their tips say.
-/// The colour of an estimate tells the class of its error; the classes are the same in every picture. Below, along time: the
-/// state, the error, the deflections. The appearance of a state depends on the machine alone.
+/// The upper part shows the scene from above: the exact outlines, the tip estimates, the path of the platform and some
+/// of its poses. Whiskers are bent according to their base angles and tips. The colour of an estimate is the class of
+/// its error. The classes are equal in all pictures. The lower part shows state, error and base angles over time. The
+/// appearance of a state depends only on the machine.
 ///
-/// The same run gives the same picture, byte for byte: nothing in it depends on the clock.
+/// The same run gives the same picture, byte for byte. Nothing in it depends on the clock.
 #[must_use]
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
     let trace = &run.trace;
@@ -73,7 +73,7 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     document.add(map.draw(scene, trace, &untraced, &tips)).add(legend).add(strips).to_string()
 }
 
-/// The stretches of a reference contour (arc lengths in m) that a run did not trace.
+/// The sections of a reference contour (arc lengths in m) that a run did not trace.
 struct Untraced<'s> {
     contour: &'s Contour,
     stretches: Vec<Range<f64>>,
@@ -91,7 +91,7 @@ fn untraced<'s>(scene: &'s Scene, trace: &Trace) -> Vec<Untraced<'s>> {
     scene.truth.reference.contours().map(of_contour).filter(|untraced| !untraced.stretches.is_empty()).collect()
 }
 
-/// The title and what is told of the run under it, and where the map may start.
+/// The title with a description of the run, and the upper side of the map.
 fn heading(scene: &Scene, policy: &str, run: &Run) -> (Vec<Text>, f64) {
     let left = SIDES.0;
     let colour = if run.outcome == Outcome::Completed { style::INK } else { style::ALARM };
@@ -109,7 +109,7 @@ fn heading(scene: &Scene, policy: &str, run: &Run) -> (Vec<Text>, f64) {
     (lines, y + 40.0)
 }
 
-/// A text in lines of at most [`LINE`] characters, broken at spaces where there are any.
+/// A text in lines of at most [`LINE`] characters, broken at spaces if possible.
 fn wrapped(content: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in content.split_whitespace() {

@@ -3,12 +3,13 @@
 use super::front::{FrontPoint, front_picture};
 use crate::study::pareto::{Pareto, ParetoRow};
 
-/// What settings change, in the order of the picture's colours.
+/// Kinds of changes, in the order of the picture's colours.
 const AXES: [&str; 8] =
     ["links", "step", "contacts", "integrator", "solver", "world", "tip model", "default, fine, or several"];
 
-/// A picture of run time against error: on the left against the exact contour, on the right against the fine run. Lines are the fronts of all
-/// settings; filled points are on the front of their world. Settings that did not complete are not there. A self-contained SVG.
+/// A picture of run time against error: on the left against the exact contour, on the right against the fine run. Lines
+/// connect the Pareto-optimal settings. Filled points are Pareto-optimal in their world. Settings that did not complete
+/// are omitted. A self-contained SVG.
 #[must_use]
 pub fn pareto_picture(pareto: &Pareto) -> String {
     let points: Vec<FrontPoint> = pareto.settings.iter().filter_map(point).collect();
@@ -18,7 +19,7 @@ pub fn pareto_picture(pareto: &Pareto) -> String {
     front_picture(&title, subtitle, "run time over that of the default", errors, &AXES, &points)
 }
 
-/// The point of a setting that completed. What is off by nothing has no place on the scale.
+/// The point of a setting that completed. An error of zero has no position on a logarithmic scale.
 fn point(row: &ParetoRow) -> Option<FrontPoint> {
     let cost = row.relative_time.filter(|time| *time > 0.0)?;
     let error = |error: Option<f64>, on: bool, on_of_world: bool| {

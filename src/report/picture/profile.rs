@@ -1,4 +1,4 @@
-//! A whisker's deflection profile: where it was touched, and which base angle that made.
+//! Deflection profile of a whisker: positions of contacts with their base angles.
 
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Path};
@@ -13,14 +13,14 @@ const SIZE: (f64, f64) = (900.0, 620.0);
 const FRAME: [f64; 4] = [70.0, 70.0, 860.0, 560.0];
 /// Colours from the least base angle to the greatest.
 const COLOURS: [&str; 6] = ["#440154", "#3b528b", "#21918c", "#35a05a", "#90b020", "#d0a000"];
-/// Lines of equal base angle.
+/// Number of lines of equal base angle.
 const LEVELS: f64 = 8.0;
-/// Cells of the plot, either way, in which such a line is straight.
+/// Number of cells of the plot in either direction. A line is straight within a cell.
 const CELLS: usize = 120;
 
-/// A picture of the sets that a whisker was calibrated by, all as bends to the left, and of what was fitted to them: the tip's place
-/// in the frame of the base, coloured by the base angle, with lines of equal base angle by `z = f(x, y)` and the curve of one
-/// channel. The thesis's figure 3.5 is of this kind. A self-contained SVG.
+/// A picture of the sets of a calibration and of the fits to them. All sets are shown as bends to the left. Positions
+/// of the tip in the frame of the base are coloured by base angle. Lines of equal base angle are those of the fit `z =
+/// f(x, y)`, and a curve is that of one channel. The thesis has such a picture in figure 3.5. A self-contained SVG.
 #[must_use]
 pub fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
     let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();
@@ -41,7 +41,7 @@ pub fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibratio
     document.to_string()
 }
 
-/// Where places of the base's frame are in the picture.
+/// Conversion of positions in the frame of the base to the picture.
 struct Plot {
     x: Scale,
     y: Scale,
@@ -53,7 +53,7 @@ impl Plot {
     fn new(length: f64, sets: &[ContactSet]) -> Self {
         let highest = sets.iter().map(|set| set.contact_base.y).fold(0.3 * length, f64::max);
         let [left, top, right, bottom] = FRAME;
-        // One scale for both, so that the shaft is as long as it is.
+        // One scale for both directions.
         let breadth = (1.1 * length).max(1.1 * highest * (right - left) / (bottom - top));
         let height = breadth * (bottom - top) / (right - left);
         Self {
@@ -127,7 +127,7 @@ impl Plot {
         Path::new().set("d", data).set("fill", "none").set("stroke", colour).set("stroke-width", px(width))
     }
 
-    /// Lines of equal base angle, where the polynomial holds: straight across every cell that they cross.
+    /// Lines of equal base angle within the range of the polynomial, straight within each cell.
     fn levels(&self, surface: &AngleSurface) -> Group {
         let between = |(low, high): (f64, f64), index: usize| low + (high - low) * index as f64 / CELLS as f64;
         let corner = |column, row| Vector2::new(between(self.x.values, column), between(self.y.values, row));

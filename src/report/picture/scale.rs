@@ -1,27 +1,27 @@
 //! Linear scales with round ticks.
 
-/// From values to px.
+/// A linear scale from values to px.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
-    /// The value at the first place and the value at the last.
+    /// The values at both ends.
     pub(super) values: (f64, f64),
-    /// The first place and the last (px).
+    /// The positions of both ends (px).
     pub(super) places: (f64, f64),
 }
 
 impl Scale {
-    /// The place of a value.
+    /// The position of a value (px).
     pub(super) fn at(&self, value: f64) -> f64 {
         let (low, high) = self.values;
         self.places.0 + (value - low) / (high - low) * (self.places.1 - self.places.0)
     }
 
-    /// Round values on the scale, about `wanted` of them, with their texts.
+    /// About `wanted` round values on the scale, with their texts.
     pub(super) fn ticks(&self, wanted: f64) -> Vec<(f64, String)> {
         let (low, high) = self.values;
         let step = round_step((high - low) / wanted);
         let first = (low / step - 1e-9).ceil();
-        // As many as fit, but never without end where the steps drown in the values.
+        // A bound, because steps can be below the resolution of the values.
         (0..100)
             .map(|k| (first + f64::from(k)) * step)
             .take_while(|&value| value <= high + 1e-9 * step)
@@ -36,7 +36,7 @@ pub(super) fn round_step(least: f64) -> f64 {
     [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|&step| step >= 0.999 * least).unwrap_or(10.0 * power)
 }
 
-/// A value that is a multiple of `step`, with the decimals that it takes.
+/// The text of a multiple of `step`, with the decimals of `step`.
 fn label(value: f64, step: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
     let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;

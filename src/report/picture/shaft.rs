@@ -1,4 +1,4 @@
-//! How a whisker's shaft is bent.
+//! Shape of a whisker's shaft.
 
 use nalgebra::Vector2;
 
@@ -7,26 +7,28 @@ use crate::run::{TickRecord, Trace};
 use vibrissa_runtime::mechanics::{Elastica, ShaftShape};
 use vibrissa_runtime::rig::Whisker;
 
-/// The force's directions (degrees, frame of the base) among which the one is sought that brings the tip to where it was perceived.
+/// Directions of the force (degrees, frame of the base) among which the one is searched that brings the tip to its
+/// estimated position.
 const DIRECTIONS: (f64, f64) = (60.0, 210.0);
-/// Steps of the search, each within one step of the one before; the last is 0.1 mm of the tip's place.
+/// Step sizes of the search (degrees). Each search is within one step of the previous result. The last one corresponds
+/// to 0.1 mm at the tip.
 const STEPS: [f64; 3] = [10.0, 2.0, 0.5];
 
-/// The shaft of a `whisker` as it stands in a tick, as a cubic curve: its ends and, between them, its control points (body frame). It is
-/// straight where nothing is known to bend it.
+/// The shape of a `whisker`'s shaft in a tick as a cubic curve: its ends and, between them, its control points (body
+/// frame). It is straight without a known bend.
 pub(super) fn shaft_body(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> [Point2; 4] {
     let bend = bend(whisker, trace, tick).unwrap_or_else(|| Elastica::new(whisker).straight());
     curve_base(whisker, &bend).map(|place| whisker.base_body + rotate(place, whisker.direction_body))
 }
 
-/// The same in the frame of the base. A cubic is just what a uniform shaft bends to under a small force at its tip.
+/// The same in the frame of the base. A uniform shaft under a small force at its tip has exactly a cubic shape.
 fn curve_base(whisker: &Whisker, bend: &ShaftShape) -> [Vector2<f64>; 4] {
     let third = whisker.shaft.length / 3.0;
     let tip = bend.tip_base;
     [Vector2::zeros(), third * unit(bend.base_angle), tip - third * unit(bend.tip_angle), tip]
 }
 
-/// The elastica with the base angle that was sensed whose tip is nearest to where it was perceived. `None` if it touches nothing.
+/// The elastica with the measured base angle whose tip is nearest to the estimated position. `None` without contact.
 fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<ShaftShape> {
     let index = trace.whiskers.iter().position(|name| *name == whisker.name)?;
     let (base_angle, touch) = (tick.deflections[index], tick.touches[index]);
@@ -39,8 +41,8 @@ fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<ShaftShap
     bend_to(whisker, base_angle, place_base)
 }
 
-/// The same for a base angle (rad) and a place of the touch (m, frame of the base). Without one the surface is taken to be parallel to the
-/// heading.
+/// The same for a base angle (rad) and a contact position (m, frame of the base). Without a position the surface is
+/// assumed to be parallel to the heading.
 fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>) -> Option<ShaftShape> {
     if base_angle < 0.0 {
         let mirrored = touch_base.map(|place| Vector2::new(place.x, -place.y));
@@ -78,7 +80,7 @@ mod tests {
     use vibrissa_runtime::mechanics::ShaftChain;
     use vibrissa_runtime::rig::Rig;
 
-    /// Where the ends of a chain's links are when it has the base angle of `bend` under a force in the same direction.
+    /// The ends of a chain's links for the base angle of `bend` and a force in the same direction.
     fn chain(whisker: &Whisker, bend: &ShaftShape) -> Vec<Vector2<f64>> {
         let shaft = &whisker.shaft;
         let stiffnesses: Vec<f64> = shaft.joint_stiffnesses().collect();

@@ -1,4 +1,4 @@
-//! The run along time: states, errors, deflections.
+//! States, errors and base angles of a run over time.
 
 use std::iter;
 use std::ops::Range;
@@ -13,7 +13,7 @@ use crate::report::style::{self, Anchor, line, px, text, width_of};
 use crate::run::Trace;
 use crate::score::{ErrorFigures, Tip};
 
-/// Room for a strip's heading (px).
+/// Height of a strip's heading (px).
 const HEADING: f64 = 24.0;
 /// Height of the band of states (px).
 const BAND: f64 = 24.0;
@@ -21,12 +21,12 @@ const BAND: f64 = 24.0;
 const STRIP: f64 = 120.0;
 /// Least width of a state in the band (px).
 const SHORTEST: f64 = 3.0;
-/// Decades of error that are shown at most.
+/// Largest number of decades of error.
 const DECADES: f64 = 4.0;
-/// Room between strips (px).
+/// Space between strips (px).
 const GAP: f64 = 16.0;
 
-/// The strips, in the making.
+/// The strips in construction.
 pub(super) struct Timeline<'a> {
     trace: &'a Trace,
     time: Scale,
@@ -36,7 +36,7 @@ pub(super) struct Timeline<'a> {
 }
 
 impl<'a> Timeline<'a> {
-    /// Strips between the places `left` and `right` from `top` down; gives them and their lower edge.
+    /// Draws strips between `left` and `right`, from `top` downwards. Returns them with their lower side.
     pub(super) fn draw(
         trace: &'a Trace,
         tips: &[Tip],
@@ -68,15 +68,15 @@ impl<'a> Timeline<'a> {
         for (state, ticks) in intervals {
             let ticks = &self.trace.ticks[ticks];
             let (Some(first), Some(last)) = (ticks.first(), ticks.last()) else { continue };
-            // A tick's state lasts until the next tick; the first one's is shown from the start.
+            // A tick's state lasts until the next tick. The first one's is shown from the start.
             let from = if first.time > self.trace.period { first.time } else { 0.0 };
             let to = (last.time + self.trace.period).min(self.time.values.1);
             let (from, to) = (self.time.at(from), self.time.at(to));
-            // The last state may have had no time, as a failure does.
+            // The last state may have no duration, for instance a failure.
             let from = from.min(to - SHORTEST);
             let band = Rectangle::new().set("x", px(from)).set("y", px(top)).set("width", px(to - from));
             self.add(band.set("height", px(BAND)).set("fill", fill(state)));
-            // The name, or the number before it in the heading, if there is room for either.
+            // The name, or the number in front of it in the heading, if there is space.
             let label = [name(self.trace, state).to_owned(), number(state)];
             if let Some(label) = label.iter().find(|label| width_of(label, 12.0) + 6.0 < to - from) {
                 self.add(text(0.5 * (from + to), top + 16.5, Anchor::Middle, 12.0, style::INK, label));
@@ -89,7 +89,7 @@ impl<'a> Timeline<'a> {
         self.heading("Error (mm)", &[("mean".to_owned(), style::GREY.to_owned())], 1.0);
         let (values, ticks) = decades(tips);
         let scale = self.strip(values, ticks);
-        // Errors below the scale stand on its lower edge.
+        // Errors below the scale are drawn at its lower end.
         let place = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
         let Some(error) = error.filter(|error| error.mean.is_finite()) else { return };
         let (left, right) = self.time.places;
@@ -114,7 +114,7 @@ impl<'a> Timeline<'a> {
         let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
         let span = if high > low && (high - low).is_finite() { high - low } else { 1.0 };
         let step = round_step(span / 4.0);
-        // What reaches beyond a tick by less than can be seen gets no room of its own.
+        // A value beyond a tick by less than a visible distance does not extend the scale.
         let values = ((low / step + 0.01).floor() * step, ((low + span) / step - 0.01).ceil() * step);
         let ticks = Scale { values, places: (0.0, 1.0) }.ticks(4.0);
         let scale = self.strip(values, ticks);
@@ -126,7 +126,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// The frame and the grid of a strip on which `values` have room, with `ticks`; gives the scale of its values.
+    /// The frame and the grid of a strip for `values`, with `ticks`. Returns the scale of its values.
     fn strip(&mut self, values: (f64, f64), ticks: Vec<(f64, String)>) -> Scale {
         let (left, right) = self.time.places;
         let (top, bottom) = (self.y, self.y + STRIP);
@@ -143,7 +143,8 @@ impl<'a> Timeline<'a> {
         scale
     }
 
-    /// A heading with names and their colours behind it, in as many rows as they need; a name's mark is so high (px).
+    /// A heading with names and their colours, in as many rows as necessary. The mark of a name has a height of `mark`
+    /// (px).
     fn heading(&mut self, content: &str, names: &[(String, String)], mark: f64) {
         let (left, right) = self.time.places;
         self.add(text(left, self.y + 12.0, Anchor::Start, 13.0, style::INK, content).set("font-weight", 600));
@@ -178,7 +179,7 @@ impl<'a> Timeline<'a> {
     }
 }
 
-/// Powers of ten (of mm) that the errors of `tips` lie between, and a tick at each.
+/// The powers of ten (mm) around the errors of `tips`, and a tick at each.
 fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
     let powers = tips.iter().map(|tip| (tip.error * 1e3).log10()).filter(|power| power.is_finite());
     let (least, greatest) =
@@ -205,7 +206,7 @@ fn name(trace: &Trace, state: Option<usize>) -> &str {
     state.and_then(|state| trace.states.get(state)).map_or("Failure", String::as_str)
 }
 
-/// The number of a state: its place in the machine, from 1. A failure has none.
+/// The number of a state: its index in the machine plus 1. A failure has none.
 fn number(state: Option<usize>) -> String {
     state.map_or_else(String::new, |state| (state + 1).to_string())
 }
@@ -215,7 +216,7 @@ fn numbered(trace: &Trace, state: Option<usize>) -> String {
     format!("{} {}", number(state), name(trace, state)).trim_start().to_owned()
 }
 
-/// What the area of a state is filled with.
+/// The fill of a state's area.
 fn fill(shades: &[Shade], state: Option<usize>) -> String {
     state.and_then(|state| shades.get(state)).map_or_else(|| style::FAILURE.to_owned(), |shade| shade.fill())
 }

@@ -33,13 +33,14 @@ pub(in crate::report) const HEADINGS: [&str; 21] = [
     "sim s",
 ];
 
-/// A table of the bench with a row for every run. It tells whether a figure is worse than the thesis's, which stands beside it.
+/// A table of the bench with a row for every run. A cell shows whether a figure is worse than the baseline's, which is
+/// in the next column.
 #[must_use]
 pub fn bench_table(rows: &[BenchRow]) -> Table {
     Table::new(NAMES, HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()))
 }
 
-/// A line for every policy: how many tips it recorded in all scenes together, which share of them are outliers, and which lies within
+/// A line for every policy over all scenes: the number of recorded tips, the share of outliers, and the share within
 /// the 95 % interval that the tips report.
 #[must_use]
 pub fn pooled_tips(rows: &[BenchRow]) -> String {
@@ -63,7 +64,7 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
     policies.into_iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The cells of a row, with the verdict that a cell bears.
+/// The cells of a row, with the verdict on each figure that the baseline reports.
 pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
@@ -102,7 +103,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
     ]
 }
 
-/// Whether the figures that the thesis reports are better, or which of them are worse.
+/// The comparison with the baseline: whether all its figures are better, or the names of those that are worse.
 fn against_thesis(row: &BenchRow) -> Option<String> {
     let verdicts = row.figures().map(|(.., verdict)| verdict);
     let worse = ["error", "retrieval", "axis"].into_iter().zip(verdicts);

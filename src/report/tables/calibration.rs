@@ -3,7 +3,7 @@
 use super::super::table::Table;
 use crate::calibration::HeldOut;
 
-/// A table of how well fits hold.
+/// A table of the errors of fits.
 #[must_use]
 pub fn held_out_table(rows: &[HeldOut]) -> Table {
     let cells = rows.iter().map(|row| {

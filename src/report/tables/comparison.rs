@@ -6,7 +6,8 @@ use crate::study::compare::{Comparison, Outlook};
 const HEADINGS: [&str; 9] =
     ["figure", "policy", "which is", "mean", "first", "difference", "95 % interval", "wins", "pairs"];
 
-/// A comparison as two tables: how many runs did not complete, and the figures with their differences from the first policy.
+/// A comparison as two tables: the numbers of runs that did not complete, and the figures with their differences from
+/// the first policy.
 #[must_use]
 pub fn comparison_tables(comparison: &Comparison) -> [Table; 2] {
     let runs = comparison
@@ -44,7 +45,7 @@ pub fn comparison_tables(comparison: &Comparison) -> [Table; 2] {
     ]
 }
 
-/// A number with as many decimals as are worth reading.
+/// A number with a useful number of decimals.
 fn number(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }

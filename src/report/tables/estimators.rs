@@ -7,8 +7,8 @@ use super::super::table::{NONE, Table};
 use crate::results::TipShares;
 use crate::study::estimators::EstimatorRow;
 
-/// Two tables. The first has a row for every scene and noise, with the mean error (mm) of every tip model. The second has a row for every
-/// tip model and noise, with its figures over all scenes.
+/// Two tables. The first has a row for every scene and noise, with the mean error (mm) of every contact estimator. The
+/// second has a row for every estimator and noise, with its figures over all scenes.
 #[must_use]
 pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
     let of = |row: &EstimatorRow| (row.scenario.clone(), row.noise.to_bits());

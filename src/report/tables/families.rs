@@ -4,7 +4,8 @@ use super::super::table::Table;
 use super::tally;
 use crate::family::FamilyTally;
 
-/// A table with a row for every tally. Errors are means over the runs that completed; outliers and intervals are shares of the tips of all runs.
+/// A table with a row for every tally. Errors are means over the completed runs. Outliers and intervals are shares of
+/// the tips of all runs.
 #[must_use]
 pub fn families_table(tallies: &[FamilyTally]) -> Table {
     let headings = ["family", "cm/s"].into_iter().chain(tally::HEADINGS);

@@ -17,8 +17,9 @@ const HEADINGS: [&str; 10] = [
     "greatest time",
 ];
 
-/// A table with a row for every setting. It tells whether the setting is on a front of time against error. Errors are against the exact
-/// contour and against the fine run. Times are over that of the default. The caption says how far the fine run is reproducible.
+/// A table with a row for every setting. It shows whether the setting is Pareto-optimal by either error. Errors are
+/// against the exact contour and against the fine run. Times are relative to the default. The caption states the
+/// reproducibility of the fine run.
 #[must_use]
 pub fn pareto_table(pareto: &Pareto) -> Table {
     let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));

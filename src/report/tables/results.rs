@@ -4,7 +4,7 @@ use super::super::number::{mean_std, millimetres};
 use super::super::table::{NONE, Table, percent};
 use crate::results::{MeanStd, RunResult};
 
-/// A column: its heading, what it shows of a run, and whether it is there even if no run has it.
+/// A column: its heading, its text for a run, and whether it is shown even if no run has the figure.
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
@@ -33,7 +33,8 @@ const COLUMNS: [Column; 22] = [
     ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
 ];
 
-/// A table of results with a row for each. What not every run has, such as corners, has a column if one run has it.
+/// A table of results with a row for each. A figure that some runs lack, such as corners, has a column if one run has
+/// it.
 #[must_use]
 pub fn results_table(results: &[RunResult]) -> Table {
     let shown = |&&(_, text, always): &&Column| always || results.iter().any(|result| text(result).is_some());

@@ -1,9 +1,9 @@
-//! Hard cases as tables.
+//! Stress tests as tables.
 
 use super::super::table::{NONE, Table};
 use crate::study::stress::StressRow;
 
-/// Two tables: how every case ended, and the largest stable step of every setting.
+/// Two tables: the outcome of every case, and the largest stable step of every setting.
 #[must_use]
 pub fn stress_tables(rows: &[StressRow]) -> [Table; 2] {
     let cases = rows.iter().filter_map(|row| match row {

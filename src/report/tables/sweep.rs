@@ -5,7 +5,7 @@ use super::tally;
 use crate::results::Tally;
 use crate::sweep::SweepGroup;
 
-/// A heading, and the count that stands under it.
+/// A heading with its count.
 type Ends = (&'static str, fn(&Tally) -> usize);
 
 /// A table with a row for every group. Crashed and refused runs have columns if there are any.

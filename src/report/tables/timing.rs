@@ -3,7 +3,8 @@
 use super::super::table::{NONE, Table};
 use crate::study::timing::TimingRow;
 
-/// A table with a row for every scene and policy: simulated time over processor time (median, least, greatest), and the times of a control tick.
+/// A table with a row for every scene and policy. It has the ratio of simulated to processor time (median, least,
+/// greatest), and the times of a control tick.
 #[must_use]
 pub fn timing_table(rows: &[TimingRow]) -> Table {
     let headings = [

@@ -17,8 +17,9 @@ const HEADINGS: [&str; 11] = [
     "p95 moment µN m",
 ];
 
-/// A table with a line for every scene, policy and simulation: how far tips and moments are from the reference's, mean and 95th percentile, what
-/// share of the moment that is; how far contours are apart; what share of the ticks was left out, and how the policy's run ended.
+/// A table with a row for every scene, policy and simulation. It has the differences of tips and moments from the
+/// reference (mean, 95th percentile), the former also as a share of the moment. It also has the distance of the
+/// contours, the share of ticks that are not compared, and the outcome of the policy's run.
 #[must_use]
 pub fn worlds_table(rows: &[WorldsRow]) -> Table {
     let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);

@@ -1,5 +1,5 @@
-//! A layout in layers, after Sugiyama, Tagawa and Toda (1981): every arrow leads from layer to layer, and its label stands in a
-//! layer of labels between, as a node would. So nothing can lie on anything, whatever the chart.
+//! A layered layout after Sugiyama, Tagawa and Toda (1981). Every arrow leads from layer to layer. Its label is in a
+//! layer of labels between them, like a node. Therefore no two elements overlap.
 
 mod net;
 mod order;
@@ -12,53 +12,53 @@ pub(super) use rank::ranks;
 /// A size: width, height (px).
 pub(super) type Size = (f64, f64);
 
-/// A place: to the right, down (px).
+/// A position: to the right, down (px).
 pub(super) type Place = (f64, f64);
 
-/// An edge of all that is laid out, where arrows come in and go out.
+/// A side of the layout at which arrows enter and leave.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Edge {
     Top,
     Bottom,
 }
 
-/// A box that arrows lead to and leave from, or a place at an edge.
+/// A box with arrows, or a point at a side of the layout.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
-    /// The edge at which it is; what is at the top and has a size comes first there, on the left.
+    /// The side of the layout at which it is. A node at the top with a size is the leftmost there.
     pub(super) edge: Option<Edge>,
-    /// Its size; it may come out wider, so that its arrows have room.
+    /// Its size. The layout may increase its width for its arrows.
     pub(super) size: Size,
-    /// The room beside it, to the right, for arrows to itself and their label; zero if there are none.
+    /// The space to the right for arrows from the node to itself and their label. Zero if there are none.
     pub(super) beside: Size,
 }
 
 /// An arrow from one node to another.
 #[derive(Clone, Copy)]
 pub(super) struct Arrow {
-    /// Index of the node that it leaves.
+    /// Index of the node at its start.
     pub(super) from: usize,
-    /// Index of another node, that it leads to.
+    /// Index of the node at its end, another one.
     pub(super) to: usize,
-    /// The size of its label; zero if it has none.
+    /// The size of its label. Zero without a label.
     pub(super) label: Size,
-    /// Where it leaves and where it reaches its nodes, to the right of their axes (px), if that is given.
+    /// Given offsets of its start and its end from the axes of its nodes, to the right positive (px).
     pub(super) ports: [Option<f64>; 2],
 }
 
-/// Where everything is; the upper left corner of all is the origin.
+/// Positions of all nodes and arrows. The origin is the upper left corner.
 pub(super) struct Layout {
     /// The centre and the width of each node.
     pub(super) nodes: Vec<(Place, f64)>,
-    /// Each arrow's way.
+    /// The path of each arrow.
     pub(super) ways: Vec<Way>,
-    /// The size of all.
+    /// The size of the layout.
     pub(super) size: Size,
 }
 
-/// The way of an arrow.
+/// The path of an arrow.
 pub(super) struct Way {
-    /// Where it goes through, from its start to its end. It leaves and reaches every point vertically.
+    /// The points of the path from its start to its end. It is vertical at every point.
     pub(super) points: Vec<Place>,
     /// The centre of its label.
     pub(super) label: Place,

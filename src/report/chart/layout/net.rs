@@ -1,30 +1,30 @@
-//! From nodes and arrows to places.
+//! Positions of nodes and arrows.
 
 use super::order::order;
 use super::settle::{Wish, settle};
 use super::{Arrow, Edge, Layout, Node, Place, Way};
 
-/// Least room between what stands side by side (px).
+/// Least distance between neighbours in a layer (px).
 const BESIDE: f64 = 22.0;
-/// Least room between two lines side by side (px).
+/// Least distance between two lines in a layer (px).
 const LINES: f64 = 14.0;
-/// Least and greatest room between layers (px).
+/// Least and greatest distance between layers (px).
 const BETWEEN: (f64, f64) = (16.0, 64.0);
-/// Room between layers for a px that a line goes sideways there (px).
+/// Additional distance between layers for each px of horizontal motion of a line.
 const SLOPE: f64 = 0.2;
-/// Room between ends of arrows on one side of a node: what they have at least, and what they take if they can (px).
+/// Distances between the ends of arrows on one side of a node: the least and the preferred one (px).
 const PORTS: (f64, f64) = (14.0, 36.0);
-/// Passes in which places settle.
+/// Number of passes of the horizontal positions.
 const PASSES: usize = 60;
-/// Rounds in which lines are straightened.
+/// Number of rounds in which lines are straightened.
 const ROUNDS: usize = 3;
-/// How much straighter a line is to be where it passes between nodes than where it reaches one.
+/// Weight of the straightness of a line between nodes, relative to that at its ends.
 const STIFFNESS: f64 = 8.0;
 
-/// What stands in a layer: a node, a label, or a line that passes.
+/// An element of a layer: a node, a label, or a line that passes through the layer.
 struct Vertex {
     layer: usize,
-    /// What it takes up to the left and to the right of its axis (px).
+    /// Its extent to the left and to the right of its axis (px).
     reach: (f64, f64),
     height: f64,
     x: f64,
@@ -35,34 +35,34 @@ impl Vertex {
         self.height == 0.0
     }
 
-    /// The least distance from the axis to that of a vertex to the right.
+    /// The least distance between its axis and that of its right neighbour.
     fn distance(&self, right: &Self) -> f64 {
         let room = if self.is_line() && right.is_line() { LINES } else { BESIDE };
         self.reach.1 + room + right.reach.0
     }
 }
 
-/// A piece of an arrow, from a layer to the next.
+/// A part of an arrow between two consecutive layers.
 struct Segment {
     upper: usize,
     lower: usize,
-    /// Where it is attached, to the right of the axis of the upper and of the lower (px).
+    /// Its offsets from the axes of the upper and the lower vertex, to the right positive (px).
     ports: (f64, f64),
-    /// Whether that is given.
+    /// True if the offset is given.
     fixed: (bool, bool),
 }
 
-/// An arrow as vertices, from top to bottom: its upper node, what stands for it between, its lower node.
+/// An arrow as vertices from top to bottom: its upper node, the vertices between, its lower node.
 struct Chain {
     vertices: Vec<usize>,
     /// Index of its first segment.
     first: usize,
-    /// Which of the vertices is the label.
+    /// Index of the label among the vertices.
     label: usize,
     leads_up: bool,
 }
 
-/// Lays out `nodes` in layers that `ranks` gives, and `arrows`.
+/// The layout of `nodes` in the layers of `ranks`, with `arrows`.
 pub(in crate::report::chart) fn layout(nodes: &[Node], arrows: &[Arrow], ranks: &[usize]) -> Layout {
     let mut net = Net::new(nodes, arrows, ranks);
     net.attach(nodes);
@@ -75,7 +75,7 @@ struct Net {
     vertices: Vec<Vertex>,
     segments: Vec<Segment>,
     chains: Vec<Chain>,
-    /// The vertices of each layer, from left to right. Nodes stand in the even ones.
+    /// The vertices of each layer, from left to right. Nodes are in the even layers.
     layers: Vec<Vec<usize>>,
 }
 
@@ -104,7 +104,7 @@ impl Net {
         let end =
             |&Segment { upper, lower, ports, .. }: &Segment| (upper, lower, (at(upper, ports.0), at(lower, ports.1)));
         net.layers = order(layers, &net.segments.iter().map(end).collect::<Vec<_>>());
-        // What has a size at the top is a title: the line of text begins with it.
+        // A node with a size at the top is a title, which is the leftmost.
         let is_title =
             |&vertex: &usize| nodes.get(vertex).is_some_and(|node| node.edge == Some(Edge::Top) && node.size.1 > 0.0);
         if let Some(top) = net.layers.first_mut() {
@@ -113,7 +113,8 @@ impl Net {
         net
     }
 
-    /// Puts vertices into the layers between an arrow's nodes. The label stands next to the node that the arrow leaves.
+    /// Inserts vertices into the layers between an arrow's nodes. The label is in the layer next to the start of the
+    /// arrow.
     fn thread(&mut self, arrow: &Arrow) {
         let leads_up = self.vertices[arrow.from].layer > self.vertices[arrow.to].layer;
         let (upper, lower) = if leads_up { (arrow.to, arrow.from) } else { (arrow.from, arrow.to) };
@@ -139,13 +140,13 @@ impl Net {
         self.chains.push(chain);
     }
 
-    /// Whether a segment reaches a node, from above or from below, at a place that is not given.
+    /// True if a segment reaches a node from above or from below at an offset that is not given.
     fn is_free(&self, segment: usize, node: usize, from_above: bool) -> bool {
         let Segment { upper, lower, fixed, .. } = self.segments[segment];
         if from_above { lower == node && !fixed.1 } else { upper == node && !fixed.0 }
     }
 
-    /// Spreads the arrows' ends along the sides of the nodes, in the order of where they lead.
+    /// Distributes the ends of the arrows along the sides of the nodes, in the order of their other ends.
     fn attach(&mut self, nodes: &[Node]) {
         let mut places = vec![0; self.vertices.len()];
         for layer in &self.layers {
@@ -174,9 +175,9 @@ impl Net {
         }
     }
 
-    /// Finds the place of every vertex within its layer: as near as can be to where its segments are straight.
+    /// Computes the position of every vertex within its layer, with segments as straight as possible.
     fn spread(&mut self) {
-        // For each vertex, its neighbours, what would be between the two if the segment were straight, and its stiffness.
+        // For each vertex: its neighbours, the offset between the two for a straight segment, and the weight.
         let mut pulls: Vec<Vec<(usize, f64, f64)>> = self.vertices.iter().map(|_| Vec::new()).collect();
         for &Segment { upper, lower, ports, .. } in &self.segments {
             let lines = [upper, lower].iter().filter(|&&end| self.vertices[end].is_line()).count();
@@ -193,7 +194,7 @@ impl Net {
                 self.settle_layer(layer, &pulls);
             }
         }
-        // What one arrow makes room for, another may use.
+        // The space for one arrow can be useful for another.
         for _ in 0..ROUNDS {
             self.straighten();
         }
@@ -225,7 +226,7 @@ impl Net {
         }
     }
 
-    /// Makes each arrow's way between its nodes vertical, as far as what stands beside it allows.
+    /// Makes the path of each arrow vertical between its nodes, as far as its neighbours permit.
     fn straighten(&mut self) {
         let mut beside = vec![(None, None); self.vertices.len()];
         for pair in self.layers.iter().flat_map(|layer| layer.windows(2)) {
@@ -242,7 +243,7 @@ impl Net {
                     let right = beside[index].1.map(|right| &self.vertices[right]);
                     let least = left.map_or(low, |left| low.max(left.x + left.distance(vertex)));
                     let most = right.map_or(high, |right| high.min(right.x - vertex.distance(right)));
-                    // The vertex itself is in its place, so that the first one always passes, but for rounding.
+                    // The current position of the vertex is always possible, except for rounding errors.
                     if least > most && count > 0 {
                         break;
                     }
@@ -269,7 +270,7 @@ impl Net {
         }
     }
 
-    /// The upper and the lower edge of each layer, and the height of all.
+    /// The upper and the lower side of each layer, and the total height.
     fn bands(&self) -> (Vec<(f64, f64)>, f64) {
         let mut sideways = vec![0.0_f64; self.layers.len()];
         for segment in &self.segments {
@@ -296,7 +297,7 @@ impl Net {
             points.push((upper.x + from, bands[upper.layer].1));
             points.push((lower.x + to, bands[lower.layer].0));
         }
-        // Within its layer a node may be lower than the layer.
+        // A node may be lower than its layer.
         let edge = |index: usize, side: f64| {
             let (top, bottom) = bands[self.vertices[index].layer];
             match nodes[index].edge {

@@ -1,14 +1,14 @@
-//! In which order the vertices of a layer stand.
+//! Order of the vertices in each layer.
 
-/// Sweeps over all layers in search of fewer crossings.
+/// Number of sweeps over all layers that reduce crossings.
 const SWEEPS: usize = 24;
 
-/// Segments between vertices of neighbouring layers: the upper, the lower, and where each is attached there, from -0.5 at the left
-/// end of the vertex to 0.5 at its right end.
+/// Segments between vertices of neighbouring layers: the upper vertex, the lower vertex, and the offset at each, from
+/// -0.5 at the left end of the vertex to 0.5 at its right end.
 type Segments = [(usize, usize, (f64, f64))];
 
-/// Orders the vertices of each layer, so that few of `segments` cross: by barycentres, layer by layer, down and up in turns, and
-/// by exchanging neighbours. Gives the best order that was met.
+/// Orders the vertices of each layer so that few of `segments` cross. It uses barycentres, layer by layer, alternately
+/// down and up, and exchanges of neighbours. Returns the best order.
 pub(super) fn order(mut layers: Vec<Vec<usize>>, segments: &Segments) -> Vec<Vec<usize>> {
     let count = layers.iter().map(Vec::len).sum();
     let mut neighbours = vec![[Vec::new(), Vec::new()]; count];
@@ -46,7 +46,7 @@ const ABOVE: usize = 0;
 /// Index of the neighbours below.
 const BELOW: usize = 1;
 
-/// A vertex and where on it a segment is attached.
+/// A vertex and the offset of a segment at it.
 type End = (usize, f64);
 
 /// The neighbours of each vertex, above and below.
@@ -56,7 +56,7 @@ fn place((vertex, at): End, places: &[usize]) -> f64 {
     places[vertex] as f64 + at
 }
 
-/// Exchanges vertices that stand side by side, where that saves crossings.
+/// Exchanges neighbouring vertices if that reduces the number of crossings.
 fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [usize]) {
     for layer in layers {
         for left in 0..layer.len().saturating_sub(1) {
@@ -75,7 +75,7 @@ fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [us
     }
 }
 
-/// How many segments to the neighbours `of_left` cross one to the neighbours `of_right` of a vertex further right.
+/// Number of crossings between the segments to `of_left` and the segments to `of_right` of a vertex further right.
 fn inversions(of_left: &[End], of_right: &[End], places: &[usize]) -> usize {
     let crossed = |a: End| of_right.iter().filter(|&&b| place(b, places) < place(a, places)).count();
     of_left.iter().map(|&a| crossed(a)).sum()
@@ -92,7 +92,7 @@ fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {
     layers.iter().map(of_layer).sum()
 }
 
-/// The place of each vertex in its layer.
+/// The position of each vertex in its layer.
 fn places(layers: &[Vec<usize>], count: usize) -> Vec<usize> {
     let mut places = vec![0; count];
     for layer in layers {

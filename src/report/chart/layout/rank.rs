@@ -1,9 +1,9 @@
-//! Which layer a node stands in.
+//! Layers of the nodes.
 
 use super::Edge;
 
-/// The layer of each node, from 0 at the top, with those at the edges in layers of their own. Arrows (from, to) are those
-/// between nodes that are at no edge.
+/// The layer of each node, from 0 at the top. Nodes at the sides of the layout have layers of their own. `arrows` are
+/// the arrows (from, to) between all other nodes.
 pub(in crate::report::chart) fn ranks(edges: &[Option<Edge>], arrows: &[(usize, usize)]) -> Vec<usize> {
     let mut ranks = rank(edges.len(), arrows);
     let below_top = usize::from(edges.contains(&Some(Edge::Top)));
@@ -19,15 +19,15 @@ pub(in crate::report::chart) fn ranks(edges: &[Option<Edge>], arrows: &[(usize, 
     ranks
 }
 
-/// The layer of each of `count` nodes, from 0 at the top, so that the ends of every arrow (from, to) stand in different layers.
+/// The layer of each of `count` nodes, from 0 at the top. The ends of every arrow (from, to) are in different layers.
 ///
-/// Arrows lead down where they can: an arrow that leads back to a node from which the search for ways, begun at the first node,
-/// came, leads up. Nodes stand as high as what leads to them allows, unless more arrows leave a node than lead there: such a
-/// node stands as low as what it leads to allows, so that its arrows are short. No arrow may have one node for both ends.
+/// Arrows lead down if possible. An arrow leads up if a depth-first search from the first node finds that it closes a
+/// cycle. Nodes are as high as their incoming arrows permit. A node with more outgoing than incoming arrows is as low
+/// as its outgoing arrows permit, so that its arrows are short. No arrow may have one node for both ends.
 fn rank(count: usize, arrows: &[(usize, usize)]) -> Vec<usize> {
     let arrows = without_cycles(count, arrows);
     let mut ranks = vec![0_usize; count];
-    // Without cycles, the longest way has fewer arrows than there are nodes.
+    // Without cycles, the longest path has fewer arrows than there are nodes.
     for _ in 0..count {
         for &(from, to) in &arrows {
             ranks[to] = ranks[to].max(ranks[from] + 1);
@@ -37,7 +37,7 @@ fn rank(count: usize, arrows: &[(usize, usize)]) -> Vec<usize> {
     ranks
 }
 
-/// The arrows, with those turned round that would close a cycle.
+/// The arrows. Those that close a cycle are reversed.
 fn without_cycles(count: usize, arrows: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut search = Search { arrows, progress: vec![Progress::New; count], turned: vec![false; arrows.len()] };
     for node in 0..count {
@@ -54,7 +54,7 @@ enum Progress {
     Done,
 }
 
-/// A search for ways, as deep as there are nodes at most.
+/// A depth-first search, whose depth is at most the number of nodes.
 struct Search<'a> {
     arrows: &'a [(usize, usize)],
     progress: Vec<Progress>,
@@ -77,7 +77,8 @@ impl Search<'_> {
     }
 }
 
-/// Moves nodes down that more arrows leave than reach. Every move makes the arrows shorter in sum, so that there is an end.
+/// Moves nodes with more outgoing than incoming arrows down. Every move reduces the total length of the arrows, so the
+/// loop ends.
 fn tighten(ranks: &mut [usize], arrows: &[(usize, usize)]) {
     loop {
         let mut moved = false;

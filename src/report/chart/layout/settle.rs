@@ -1,24 +1,25 @@
-//! Places on a line for things that want to be somewhere and keep each other off.
+//! Positions on a line with preferred values and least distances.
 
-/// A thing on a line.
+/// A preferred position of an element on a line.
 #[derive(Clone, Copy)]
 pub(super) struct Wish {
-    /// Where it wants to be.
+    /// The preferred position.
     pub(super) place: f64,
-    /// How much.
+    /// The weight.
     pub(super) weight: f64,
-    /// The least distance to the thing before it.
+    /// The least distance to the previous element.
     pub(super) distance: f64,
 }
 
-/// The places, in the order given and at least their distances apart, that make the weighted squares of what they are off the
-/// wishes least in sum.
+/// The positions with the least weighted sum of squared deviations from the preferred positions. They are in the given
+/// order and at least at their distances.
 ///
-/// Less the distances, places must not decrease: an isotonic regression, solved by pooling neighbours that violate the order.
+/// After subtraction of the distances, positions must not decrease. This is an isotonic regression, solved by pooling
+/// adjacent violators.
 pub(super) fn settle(wishes: &[Wish]) -> Vec<f64> {
     let mut offset = 0.0;
     let mut offsets = Vec::with_capacity(wishes.len());
-    // Pools of neighbours at one place: the place, the weight, how many.
+    // Pools of neighbours: the position, the weight, the number of elements.
     let mut pools: Vec<(f64, f64, usize)> = Vec::new();
     for (index, wish) in wishes.iter().enumerate() {
         offset += if index == 0 { 0.0 } else { wish.distance };
