@@ -17,7 +17,7 @@ pub struct EllipticArc {
     /// The centre (m).
     pub centre: Point2,
     /// Two conjugate radii `u` and `v` (m), such as the semi-axes. At `centre + u` the direction is `v`, at
-    /// `centre + v` it is `−u`. A linear map of the ellipse maps the radii in the same way.
+    /// `centre + v` it is `−u`. A linear map of the ellipse maps the radii too.
     pub radii: [Vector2; 2],
     /// The start angle (rad).
     pub start_angle: f64,

@@ -72,7 +72,7 @@ pub enum UnionError {
 /// ```
 ///
 /// # Errors
-/// [`UnionError`] when outlines enclose a hole together, or what they make cannot be told.
+/// [`UnionError`] when outlines enclose a hole together, or when their union cannot be determined.
 pub fn unite(outlines: &[Contour]) -> Result<Vec<United>, UnionError> {
     let mut united = Vec::with_capacity(outlines.len());
     for group in groups(outlines)? {

@@ -16,7 +16,7 @@ use crate::solid::Part;
 /// reduces the effect by this ratio. `impratio` keeps the creep of a sticking tip unchanged.
 const SLIDING: f64 = 20.0;
 
-/// The way in which a model declares contacts. Only links or the platform can touch a part of a solid.
+/// The form in which a model declares contacts. Only links or the platform can touch a part of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contacts {
     /// Explicit pairs. With masks, the engine would test every pair of bodies in every step, which takes a seventh of

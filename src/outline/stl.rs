@@ -58,7 +58,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
 }
 
 /// Returns the bytes in a form in which the reader recognises the file type, by `solid ` at the beginning. A text file
-/// may lack the blank, and a binary file may begin in this way too. The length of the file decides.
+/// may lack the blank, and a binary file may begin so too. The length of the file decides.
 fn with_type_marker(bytes: &[u8]) -> Vec<u8> {
     let count = bytes.first_chunk::<HEADER>().map(|&[.., a, b, c, d]| u32::from_le_bytes([a, b, c, d]));
     let length = count.and_then(|count| usize::try_from(count).ok()?.checked_mul(TRIANGLE)?.checked_add(HEADER));

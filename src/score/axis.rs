@@ -8,7 +8,7 @@ use super::{Moments, Statistics};
 
 /// The distance of the estimated midpoints from the axis of the tunnel (m): the baseline's axis error (section 5.3).
 ///
-/// A midpoint is half-way between the tips that a tick recorded on the left and on the right of the body. Several tips
+/// A midpoint is in the middle between the tips that a tick recorded on the left and on the right of the body. Several tips
 /// on a side are averaged. Only ticks count in which both walls were recorded, starting with the first. The transition
 /// at the start is part of the baseline's figure. With several tunnels, the nearest axis counts. Midpoints before the
 /// beginning and beyond the end of all axes do not count.

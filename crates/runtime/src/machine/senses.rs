@@ -81,7 +81,7 @@ pub enum WhiskerScalar {
     Yaw,
     /// −1 for a whisker on the right, +1 for one on the left.
     Side,
-    /// +1 if bent as by forward motion, −1 if bent the other way, 0 without contact.
+    /// +1 if bent as by forward motion, −1 if bent oppositely, 0 without contact.
     Sense,
     /// Length of the shaft (m).
     Length,

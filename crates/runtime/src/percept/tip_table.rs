@@ -14,7 +14,7 @@ use crate::rig::{Hinge, Shaft, Whisker};
 /// equilibria of the whisker's chain of links, with cubic interpolation through four of them in each direction.
 ///
 /// Angles are in the frame of the base, for a counter-clockwise bend. The other bend is the mirror image. A force
-/// beyond head-on (180°) still bends an already bent whisker the same way. For small base angles there is no such
+/// beyond head-on (180°) still bends an already bent whisker in the same direction. For small base angles there is no such
 /// equilibrium.
 #[derive(Debug, Clone)]
 pub struct TipTable {
