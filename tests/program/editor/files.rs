@@ -179,6 +179,6 @@ fn a_name_that_another_file_needs_as_it_is_keeps_it_and_says_which() {
     editor.hear();
     let answer = ask(&mut editor, &root, "main.fsm", "rename", ("wait(r0", "pause"));
     let message = answer["error"]["message"].as_str().unwrap();
-    assert!(message.contains("other.fsm") && message.contains("fault of syntax"), "{message}");
+    assert!(message.contains("other.fsm") && message.contains("syntax error"), "{message}");
     assert_eq!(editor.leave().code(), Some(0));
 }
