@@ -71,7 +71,6 @@
 //! | many runs | [`study`], [`family`], [`sweep`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
-//! | access to files | [`file`] |
 //!
 //! Lengths are in metres, angles in radians, times in seconds and forces in newtons. Only input texts and reports have
 //! other units.
@@ -111,7 +110,7 @@ pub mod diagnostic;
 #[cfg(feature = "lsp")]
 mod editor;
 pub mod family;
-pub mod file;
+mod file;
 pub mod geometry;
 mod load;
 pub mod mujoco;

@@ -37,7 +37,7 @@ pub struct HeldOut {
 }
 
 /// The fewest positions of tip contacts for a fit.
-pub const FEWEST_PLACES: usize = 50;
+pub(crate) const FEWEST_PLACES: usize = 50;
 /// Number of parts into which the positions are divided.
 const FOLDS: usize = 5;
 /// Standard deviation of the angle between a surface and the heading (rad) for the fit of one channel. The weight of a

@@ -7,6 +7,7 @@ mod hinge_fit;
 mod stage;
 
 pub use contact_sets::{SetsError, read_sets, write_sets};
-pub use fit::{FEWEST_PLACES, Fitted, HeldOut, fit};
+pub(crate) use fit::FEWEST_PLACES;
+pub use fit::{Fitted, HeldOut, fit};
 #[cfg(feature = "sim")]
 pub use stage::{StageError, simulated_sets};

@@ -108,6 +108,7 @@ enum Command {
 }
 
 /// Runs the program with the arguments of the process.
+#[must_use]
 pub fn main() -> ExitCode {
     match arguments() {
         // A panic is a fault of the program. Its message has been printed, and scripts recognise it by the exit status.

@@ -70,7 +70,7 @@ impl Diagnostic {
 
     /// Adds a related position with a note.
     #[must_use]
-    pub fn note(mut self, span: Span, text: impl Into<String>) -> Self {
+    pub(crate) fn note(mut self, span: Span, text: impl Into<String>) -> Self {
         self.secondary.push(Label { span, text: text.into() });
         self
     }

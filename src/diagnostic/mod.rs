@@ -8,9 +8,10 @@ mod terminal;
 mod utf8;
 
 pub use kind::{Diagnostic, FAULT_LIMIT, Label, Severity};
-pub use printable::{printable, printable_json};
+pub(crate) use printable::{printable, printable_json};
 pub use record::{Record, RecordLabel, records};
 pub use source::{Source, Span};
 pub use terminal::{Colour, terminal};
-pub use utf8::{NotUtf8, utf8};
+pub use utf8::NotUtf8;
+pub(crate) use utf8::utf8;
 pub use vibrissa_runtime::machine::Position;

@@ -13,13 +13,13 @@ use std::borrow::Cow;
 /// assert_eq!(printable("a\u{1b}[31m.fsm"), "a\\u{1b}[31m.fsm");
 /// ```
 #[must_use]
-pub fn printable(text: &str) -> Cow<'_, str> {
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| letter.escape_unicode().to_string())
 }
 
 /// Same as [`printable`], for JSON. It uses JSON's own escapes, so a reader of the JSON gets the original text.
 #[must_use]
-pub fn printable_json(json: &str) -> Cow<'_, str> {
+pub(crate) fn printable_json(json: &str) -> Cow<'_, str> {
     // All of these are below 2^16.
     replaced(json, |letter| format!("\\u{:04x}", u32::from(letter)))
 }

@@ -21,7 +21,7 @@ impl NotUtf8 {
 ///
 /// # Errors
 /// [`NotUtf8`] with the position of the first invalid byte.
-pub fn utf8(bytes: &[u8]) -> Result<&str, NotUtf8> {
+pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, NotUtf8> {
     std::str::from_utf8(bytes).map_err(|fault| {
         let good = fault.valid_up_to();
         let before = String::from_utf8_lossy(bytes.get(..good).unwrap_or_default());

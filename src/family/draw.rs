@@ -49,7 +49,7 @@ impl Family {
     ///
     /// # Errors
     /// As [`draw`](Self::draw).
-    pub fn draw_at(&self, seed: u64, trial: u64, speed: Option<f64>) -> Result<Draw, NoDraw> {
+    pub(crate) fn draw_at(&self, seed: u64, trial: u64, speed: Option<f64>) -> Result<Draw, NoDraw> {
         let seed = scene_seed(self.name, seed, trial);
         let mut dice = Dice::new(seed);
         let layout = (self.lay)(&mut dice);

@@ -20,8 +20,8 @@ mod two_objects;
 mod zigzag_tunnel;
 
 pub use draw::{Draw, NoDraw, SPEEDS};
-pub use run::FamilyRun;
-pub use tally::FamilyTally;
+pub(crate) use run::FamilyRun;
+pub(crate) use tally::FamilyTally;
 
 use dice::Dice;
 use layout::Layout;

@@ -8,7 +8,7 @@ use crate::results::RunResult;
 /// A run in one scene of a family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct FamilyRun {
+pub(crate) struct FamilyRun {
     /// The family.
     pub family: &'static str,
     /// Number of the scene within the family.

@@ -9,7 +9,7 @@ use super::run::FamilyRun;
 /// Counts over the runs of one family, or over those at one speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct FamilyTally {
+pub(crate) struct FamilyTally {
     /// The family.
     pub family: &'static str,
     /// The speed (m/s). `None` for all speeds together.
@@ -22,7 +22,7 @@ pub struct FamilyTally {
 impl FamilyTally {
     /// Counts the runs of a family at one speed, or at all speeds.
     #[must_use]
-    pub fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
+    pub(crate) fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
         let is_counted =
             |run: &&FamilyRun| run.family == family && speed.is_none_or(|speed| (run.speed - speed).abs() < 1e-9);
         let figures = runs.iter().filter(is_counted).map(|run| Figures::new(&run.result, run.passed));

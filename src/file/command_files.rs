@@ -12,7 +12,7 @@ use super::special;
 
 /// The inputs and outputs of one command. No file is both, and no file is written twice, under any name or link.
 #[derive(Debug)]
-pub struct CommandFiles {
+pub(crate) struct CommandFiles {
     /// All requested inputs in the order of the requests, including those that do not exist.
     inputs: Vec<PathBuf>,
     uses: HashMap<Identity, Use>,
@@ -45,8 +45,7 @@ struct IsOutput(String);
 impl CommandFiles {
     /// The files of a command that has not begun.
     #[must_use]
-    #[expect(clippy::new_without_default, reason = "it looks at the program's streams")]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             inputs: Vec::new(),
             uses: HashMap::new(),
@@ -58,7 +57,7 @@ impl CommandFiles {
     ///
     /// # Errors
     /// The file is not regular, cannot be read, or is an output of the command.
-    pub fn read(&mut self, path: &Path, limit: usize) -> Result<Vec<u8>> {
+    pub(crate) fn read(&mut self, path: &Path, limit: usize) -> Result<Vec<u8>> {
         self.open(path).and_then(|file| read_at_most(file, limit))
     }
 
@@ -66,7 +65,7 @@ impl CommandFiles {
     ///
     /// # Errors
     /// It cannot be read, or the messages or results of the command go to the same file.
-    pub fn read_standard(&mut self, limit: usize) -> Result<Vec<u8>> {
+    pub(crate) fn read_standard(&mut self, limit: usize) -> Result<Vec<u8>> {
         // A terminal is all three streams.
         if let Some((identity, true)) = stream_identity(&stdin()) {
             self.read_once(identity, Path::new("standard input"))?;
@@ -78,7 +77,7 @@ impl CommandFiles {
     ///
     /// # Errors
     /// Those of [`Self::read`].
-    pub fn open(&mut self, path: &Path) -> Result<File> {
+    pub(crate) fn open(&mut self, path: &Path) -> Result<File> {
         self.inputs.push(path.to_owned());
         let file = regular::open(path)?;
         for identity in Identity::of(path) {
@@ -101,7 +100,7 @@ impl CommandFiles {
     }
 
     /// The paths of all inputs until now, including those that do not exist.
-    pub fn inputs(&self) -> impl Iterator<Item = &Path> {
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = &Path> {
         self.inputs.iter().map(PathBuf::as_path)
     }
 
@@ -109,7 +108,7 @@ impl CommandFiles {
     ///
     /// # Errors
     /// [`OutputError`] if the file cannot be written, is an input, or is already an output.
-    pub fn output(&mut self, argument: &'static str, path: &Path) -> std::result::Result<Output, OutputError> {
+    pub(crate) fn output(&mut self, argument: &'static str, path: &Path) -> std::result::Result<Output, OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
         let method = match self.output_kind(path).map_err(unwritable)? {
             OutputKind::Regular => {
@@ -126,7 +125,7 @@ impl CommandFiles {
     ///
     /// # Errors
     /// [`OutputError`] as of [`Self::output`], and if the file is not regular or receives a stream of the program.
-    pub fn growing(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
+    pub(crate) fn growing(&mut self, argument: &'static str, path: &Path) -> std::result::Result<(), OutputError> {
         let unwritable = |cause| OutputError::Unwritable { argument, path: path.to_owned(), cause };
         match self.output_kind(path).map_err(unwritable)? {
             OutputKind::Regular => self.write_once(argument, path),

@@ -38,7 +38,7 @@ impl Identity {
 
 /// True if an open file is still the one at a path. Another file may have replaced it.
 #[must_use]
-pub fn is_at(file: &File, path: &Path) -> bool {
+pub(crate) fn is_at(file: &File, path: &Path) -> bool {
     let inode = |about: Result<Metadata>| about.ok().and_then(|about| Identity::inode(&about));
     !cfg!(unix) || inode(file.metadata()) == inode(path.metadata())
 }

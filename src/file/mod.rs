@@ -10,8 +10,8 @@ mod regular;
 mod replace;
 mod special;
 
-pub use command_files::CommandFiles;
-pub use identity::is_at;
-pub use output::{Output, OutputError};
-pub use regular::{append, open, read, read_at_most};
-pub use replace::{replace, sync_name};
+pub(crate) use command_files::CommandFiles;
+pub(crate) use identity::is_at;
+pub(crate) use output::{Output, OutputError};
+pub(crate) use regular::{append, open, read};
+pub(crate) use replace::{replace, sync_name};

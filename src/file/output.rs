@@ -10,7 +10,7 @@ use super::replace::replace;
 /// An output file of a command. The command neither reads it nor writes another output to it.
 /// [`CommandFiles`](super::CommandFiles) creates outputs.
 #[derive(Debug)]
-pub struct Output {
+pub(crate) struct Output {
     argument: &'static str,
     path: PathBuf,
     method: Method,
@@ -45,7 +45,7 @@ impl fmt::Display for Stream {
 
 /// The error for an output that cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub enum OutputError {
+pub(crate) enum OutputError {
     /// The file cannot be written.
     #[error("cannot write {}: {cause}; give another place with {argument}", path.display())]
     Unwritable {
@@ -87,7 +87,7 @@ impl Output {
 
     /// The path on the command line.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
@@ -95,7 +95,7 @@ impl Output {
     ///
     /// # Errors
     /// [`OutputError::Unwritable`].
-    pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
+    pub(crate) fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
         let content = content.as_ref();
         let Self { argument, path, method } = self;
         let written = match method {

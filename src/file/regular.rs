@@ -13,7 +13,7 @@ struct NotRegular((&'static str, &'static str));
 ///
 /// # Errors
 /// The file cannot be opened or is not regular. Reading a pipe or a device may wait for ever or never end.
-pub fn open(path: &Path) -> Result<File> {
+pub(crate) fn open(path: &Path) -> Result<File> {
     check(path.metadata()?.file_type())?;
     File::open(path)
 }
@@ -22,7 +22,7 @@ pub fn open(path: &Path) -> Result<File> {
 ///
 /// # Errors
 /// Those of [`open`], or the file cannot be written.
-pub fn append(path: &Path) -> Result<File> {
+pub(crate) fn append(path: &Path) -> Result<File> {
     match path.metadata() {
         Ok(about) => check(about.file_type())?,
         Err(cause) if cause.kind() == ErrorKind::NotFound => {}
@@ -35,7 +35,7 @@ pub fn append(path: &Path) -> Result<File> {
 ///
 /// # Errors
 /// Those of [`open`], or the file cannot be read.
-pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>> {
+pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>> {
     read_at_most(open(path)?, limit)
 }
 
@@ -43,7 +43,7 @@ pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn read_at_most(from: impl Read, limit: usize) -> Result<Vec<u8>> {
+pub(super) fn read_at_most(from: impl Read, limit: usize) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     Ok(bytes)

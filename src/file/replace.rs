@@ -21,7 +21,7 @@ const RANDOM: usize = 12;
 /// # Errors
 /// The file or its folder may not be written, or the disk is full. Then the old content is there. If only the
 /// synchronisation of the folder failed, the new content may be there.
-pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
+pub(crate) fn replace(path: &Path, content: &[u8]) -> Result<()> {
     let path = resolve_links(path)?;
     let folder = folder(&path);
     // Renaming does not ask for permission to write the file. Opening does, and changes nothing.
@@ -79,7 +79,7 @@ fn keep_mode(old: &File, new: &File) -> Result<()> {
 /// # Errors
 /// The folder of the file cannot be synchronised.
 #[cfg(unix)]
-pub fn sync_name(path: &Path) -> Result<()> {
+pub(crate) fn sync_name(path: &Path) -> Result<()> {
     match File::open(folder(path)).and_then(|folder| folder.sync_all()) {
         // Some file systems cannot synchronise a folder, and a folder that may be written need not be one that may be
         // opened.

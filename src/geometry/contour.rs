@@ -11,7 +11,7 @@ use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, sim
 pub const JOIN_TOLERANCE: f64 = 1e-9;
 
 /// The smallest length (m) of a piece. A shorter piece cannot be distinguished from a gap.
-pub const MIN_PIECE_LENGTH: f64 = 1e-8;
+pub(crate) const MIN_PIECE_LENGTH: f64 = 1e-8;
 
 /// A curve of contiguous segments and circular arcs. It neither crosses nor touches itself.
 ///

@@ -29,7 +29,8 @@ mod union;
 pub use arc::Arc;
 pub use bezier::Bezier;
 pub use bounding_box::BoundingBox;
-pub use contour::{Contour, JOIN_TOLERANCE, MIN_PIECE_LENGTH};
+pub(crate) use contour::MIN_PIECE_LENGTH;
+pub use contour::{Contour, JOIN_TOLERANCE};
 pub use contour_set::ContourSet;
 pub use corner::Corner;
 pub use distance::Nearest;
@@ -40,9 +41,10 @@ pub use offset::OffsetError;
 pub use piece::Piece;
 pub use sample::ContourPoint;
 pub use segment::Segment;
+pub(crate) use shapes::polar_curve_pieces;
 pub use shapes::{
-    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve,
-    polar_curve_pieces, polygon, regular_polygon, rounded_rectangle,
+    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve, polygon,
+    regular_polygon, rounded_rectangle,
 };
 pub use strip::{Side, Strip, StripError};
 pub use union::{TOUCHING, UnionError, United, unite};

@@ -39,7 +39,7 @@ impl Piece {
 
     /// One or two pieces from the same start to another end (m), near its own: a segment, or arcs with the same sweep.
     #[must_use]
-    pub fn ending_at(&self, end: Point2) -> Vec<Self> {
+    pub(crate) fn ending_at(&self, end: Point2) -> Vec<Self> {
         match self {
             Self::Segment(segment) => vec![Self::segment(segment.start, end)],
             Self::Arc(arc) if arc.sweep.abs() <= PI => vec![Self::arc_between(arc.start(), end, arc.sweep)],
@@ -153,7 +153,7 @@ impl Piece {
     /// The signed area (m²) swept by the ray from `origin` to a point that moves along the piece, positive
     /// counter-clockwise. It is half the integral of x dy − y dx about `origin`.
     #[must_use]
-    pub fn swept_area(&self, origin: Point2) -> f64 {
+    pub(crate) fn swept_area(&self, origin: Point2) -> f64 {
         let (start, end) = (self.start(), self.end());
         let triangle = 0.5 * (start - origin).perp(&(end - start));
         match self {

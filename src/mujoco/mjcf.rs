@@ -54,7 +54,7 @@ pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> Stri
 /// Writes the part of the model that is in `scope`. A rigid whisker is one body without joints and geoms. The other
 /// names are the same.
 #[must_use]
-pub fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, scope: &Scope) -> String {
+pub(crate) fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, scope: &Scope) -> String {
     let parts = named_parts(solids, scope);
     let mut xml = String::new();
     // Writing to a string cannot fail.
@@ -71,7 +71,7 @@ fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)
 }
 
 /// The names of the geoms of the parts in `scope`, ascending by the parts' indices.
-pub fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
+pub(crate) fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
     named_parts(solids, scope).into_iter().map(|(name, _)| name)
 }
 

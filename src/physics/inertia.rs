@@ -3,7 +3,7 @@
 use vibrissa_runtime::rig::Shaft;
 
 /// The smallest moment of inertia (kg m²) of a link. MuJoCo rejects smaller ones.
-pub const MIN_INERTIA: f64 = 1e-15;
+pub(crate) const MIN_INERTIA: f64 = 1e-15;
 
 /// The moment of inertia (kg m²) of a link about a transverse axis through its centre. It is that of a slender rod,
 /// `m l² / 12`.
@@ -11,6 +11,6 @@ pub const MIN_INERTIA: f64 = 1e-15;
 /// The model uses the same value for all axes. A link rotates only about the vertical axis, and the axial moment of
 /// inertia of a thin shaft would be below [`MIN_INERTIA`].
 #[must_use]
-pub fn link_inertia(shaft: &Shaft, link: usize) -> f64 {
+pub(crate) fn link_inertia(shaft: &Shaft, link: usize) -> f64 {
     shaft.link_mass(link) * shaft.link_length().powi(2) / 12.0
 }

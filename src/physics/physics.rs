@@ -31,7 +31,7 @@ impl Physics {
     /// The number of steps that a calm step replaces, out of `steps_per_sample`. It is the largest divisor for which
     /// the calm step is not too long. It is 1 with friction, which is stable only in short steps.
     #[must_use]
-    pub fn steps_in_calm(&self, steps_per_sample: usize) -> usize {
+    pub(crate) fn steps_in_calm(&self, steps_per_sample: usize) -> usize {
         // The tolerance for a calm step equals that for a rounded step.
         let fits = |&steps: &usize| {
             steps_per_sample.is_multiple_of(steps) && steps as f64 * self.step < 1.002 * self.calm_step

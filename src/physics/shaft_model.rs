@@ -14,7 +14,7 @@ pub enum ShaftModel {
 impl ShaftModel {
     /// Degrees of freedom of a shaft with this number of links.
     #[must_use]
-    pub fn degrees_of_freedom(self, links: usize) -> usize {
+    pub(crate) fn degrees_of_freedom(self, links: usize) -> usize {
         match self {
             Self::Chain => links,
             Self::Cable => 3 * links.saturating_sub(1),

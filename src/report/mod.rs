@@ -12,9 +12,11 @@ mod tables;
 
 pub use bench_page::bench_page;
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
-pub use picture::{pareto_picture, picture, profile_picture};
+pub(crate) use picture::profile_picture;
+pub use picture::{pareto_picture, picture};
 pub use table::Table;
 pub use tables::{
-    bench_table, comparison_tables, estimators_tables, families_table, held_out_table, pareto_table, pooled_tips,
-    results_table, stress_tables, summary_table, timing_table, worlds_table,
+    bench_table, comparison_tables, estimators_tables, pareto_table, pooled_tips, results_table, stress_tables,
+    timing_table, worlds_table,
 };
+pub(crate) use tables::{families_table, held_out_table, summary_table};

@@ -81,20 +81,20 @@ pub struct TipShares {
 impl TipShares {
     /// The counts of one run, by its shares (0 to 1) of `count` tips.
     #[must_use]
-    pub fn of_run(count: usize, outliers: Option<f64>, within_band: Option<f64>) -> Self {
+    pub(crate) fn of_run(count: usize, outliers: Option<f64>, within_band: Option<f64>) -> Self {
         let count = count as f64;
         Self { count, outliers: count * outliers.unwrap_or(0.0), within_band: count * within_band.unwrap_or(0.0) }
     }
 
     /// Share of outliers among all tips, 0 to 1. `None` without a tip.
     #[must_use]
-    pub fn outlier_share(&self) -> Option<f64> {
+    pub(crate) fn outlier_share(&self) -> Option<f64> {
         (self.count > 0.0).then(|| self.outliers / self.count)
     }
 
     /// Share of tips within the 95 % interval that they report, 0 to 1. `None` without a tip.
     #[must_use]
-    pub fn within_band_share(&self) -> Option<f64> {
+    pub(crate) fn within_band_share(&self) -> Option<f64> {
         (self.count > 0.0).then(|| self.within_band / self.count)
     }
 }

@@ -25,7 +25,7 @@ pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<
 
 /// The diagnostic for a file that cannot be read, at the reference to it.
 #[must_use]
-pub fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
+pub(crate) fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
     let message = format!("cannot read `{}`", file.path.display());
     let fault = Diagnostic::error(fault::FILE, message, file.span, reason);
     fault.hint("a path leads from the folder of this file to the other")

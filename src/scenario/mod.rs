@@ -33,7 +33,7 @@ pub use calibration::{CalibrationError, read_calibration, write_calibration};
 pub(crate) use change::{Change, quoted, read as read_changed};
 pub(crate) use fields::Fields;
 pub(crate) use file::reference;
-pub use file::unreadable;
+pub(crate) use file::unreadable;
 pub(crate) use node::{Entry, Node, Placed};
 pub(crate) use reader::Reader;
 pub(crate) use scene::{name, root_place};

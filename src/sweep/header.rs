@@ -11,7 +11,7 @@ use super::shard::Shard;
 /// The first line of a file of results: everything that the results depend on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Header {
+pub(crate) struct Header {
     /// The name of the sweep.
     pub sweep: String,
     /// The part of the sweep.
@@ -29,13 +29,13 @@ impl Document for Header {
 impl Header {
     /// The header of another part.
     #[must_use]
-    pub fn of_shard(&self, shard: Shard) -> Self {
+    pub(crate) fn of_shard(&self, shard: Shard) -> Self {
         Self { shard, ..self.clone() }
     }
 
     /// A hash of the header without the part.
     #[must_use]
-    pub fn fingerprint(&self) -> String {
+    pub(crate) fn fingerprint(&self) -> String {
         let hash = Sha256::new().chain_update(&self.text);
         let hash = self.inputs.iter().fold(hash, |hash, (name, value)| hash.chain_update(format!("\0{name}\0{value}")));
         hash.finalize().iter().fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"))
@@ -43,7 +43,7 @@ impl Header {
 
     /// A description of the difference from `other`. `None` if both are of the same sweep.
     #[must_use]
-    pub fn difference(&self, other: &Self) -> Option<String> {
+    pub(crate) fn difference(&self, other: &Self) -> Option<String> {
         if self.sweep != other.sweep {
             return Some(format!("the sweep `{}`, this one is `{}`", self.sweep, other.sweep));
         }

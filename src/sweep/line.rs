@@ -13,7 +13,7 @@ use crate::sweep::SweepRun;
 /// The result of a run of a sweep. Its serialised form is a line of the results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct SweepLine {
+pub(crate) struct SweepLine {
     /// Hash of its key, in hexadecimal digits.
     run: String,
     /// Its key.
@@ -54,19 +54,19 @@ enum End {
 impl SweepLine {
     /// The line of a run that took place. `about` describes the scene.
     #[must_use]
-    pub fn ran(run: &SweepRun<'_>, about: String, passed: bool, result: RunResult) -> Self {
+    pub(crate) fn ran(run: &SweepRun<'_>, about: String, passed: bool, result: RunResult) -> Self {
         Self::new(run, passed, End::Result { about, result: Box::new(result) })
     }
 
     /// The line of a run that could not begin.
     #[must_use]
-    pub fn refused(run: &SweepRun<'_>, reason: String) -> Self {
+    pub(crate) fn refused(run: &SweepRun<'_>, reason: String) -> Self {
         Self::without_result(run, Ending::Refused, reason)
     }
 
     /// The line of a run whose process crashed.
     #[must_use]
-    pub fn crashed(run: &SweepRun<'_>, reason: String) -> Self {
+    pub(crate) fn crashed(run: &SweepRun<'_>, reason: String) -> Self {
         Self::without_result(run, Ending::Crashed, reason)
     }
 
@@ -116,7 +116,7 @@ struct Collisions {
 ///
 /// # Errors
 /// If it is not the line of a run.
-pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
+pub(crate) fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
     let Counted { key, passed, outcome: ending, error_mm, collisions } = serde_json::from_str(line)?;
     let collided = collisions.is_some_and(|collisions| collisions.count > 0);
     let tips = error_mm

@@ -17,7 +17,7 @@ use crate::sweep::Sweep;
 
 /// The results of all parts of a sweep.
 #[derive(Debug)]
-pub struct Merged {
+pub(crate) struct Merged {
     /// The header, with the part of the first file.
     pub header: Header,
     /// The sweep.
@@ -30,7 +30,7 @@ pub struct Merged {
 
 /// A run without a result.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Missing {
+pub(crate) struct Missing {
     /// Its key.
     pub key: String,
     /// Its part of the sweep.
@@ -41,7 +41,7 @@ pub struct Missing {
 ///
 /// # Errors
 /// [`ResultsError`] if they are not results of the same sweep, or if a run has two results.
-pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merged>, ResultsError> {
+pub(crate) fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merged>, ResultsError> {
     let (mut merged, mut indices): (Option<Merged>, _) = (None, HashMap::new());
     let mut owners = BTreeMap::new();
     for path in paths {
@@ -90,12 +90,12 @@ impl Merged {
     ///
     /// # Errors
     /// [`ResultsError`] if the file has other content, or if a sweep is writing to it.
-    pub fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
+    pub(crate) fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
         check_place(path, &self.header.of_shard(Shard::WHOLE))
     }
 
     /// The runs without a result.
-    pub fn missing(&self) -> impl Iterator<Item = Missing> {
+    pub(crate) fn missing(&self) -> impl Iterator<Item = Missing> {
         let missing = self.sweep.runs().filter(|run| !self.lines.contains_key(&run.index));
         missing.map(|run| {
             let key = run.key();
@@ -107,7 +107,7 @@ impl Merged {
     ///
     /// # Errors
     /// If the header cannot be written as JSON, which would be a fault of the program.
-    pub fn text(&self) -> serde_json::Result<String> {
+    pub(crate) fn text(&self) -> serde_json::Result<String> {
         let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned())?;
         for line in self.lines.values() {
             text.push('\n');

@@ -16,7 +16,7 @@ use crate::sweep::Sweep;
 
 /// The error of a file of results.
 #[derive(Debug, thiserror::Error)]
-pub enum ResultsError {
+pub(crate) enum ResultsError {
     /// The file cannot be read or written.
     #[error("cannot use {}: {cause}", path.display())]
     File {
@@ -91,7 +91,7 @@ pub(super) fn indices(sweep: &Sweep) -> HashMap<String, u64> {
 
 /// A file of results that is open for writing.
 #[derive(Debug)]
-pub struct Results {
+pub(crate) struct Results {
     path: PathBuf,
     file: File,
 }
@@ -103,7 +103,11 @@ impl Results {
     /// # Errors
     /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
     /// `header`.
-    pub fn open(path: &Path, header: &Header, sweep: &Sweep) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
+    pub(crate) fn open(
+        path: &Path,
+        header: &Header,
+        sweep: &Sweep,
+    ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let failed = ResultsError::file(path);
         let file = locked(path)?;
         let indices = indices(sweep);
@@ -137,7 +141,7 @@ impl Results {
     ///
     /// # Errors
     /// [`ResultsError::File`] if it cannot be written.
-    pub fn add(&mut self, line: &str) -> Result<(), ResultsError> {
+    pub(crate) fn add(&mut self, line: &str) -> Result<(), ResultsError> {
         // One write, so that a line is complete or the incomplete end of the file.
         let line = format!("{}\n", line.trim_end());
         let written = if line.len() > LINE_LIMIT {

@@ -11,7 +11,7 @@ use crate::sweep::{Sweep, SweepRun};
 /// Summary of a sweep, or of a part of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct SweepSummary {
+pub(crate) struct SweepSummary {
     /// The name of the sweep.
     pub sweep: String,
     /// Number of runs that earlier processes had finished.
@@ -27,7 +27,7 @@ impl Document for SweepSummary {
 /// The runs of one family or scenario under one policy, with one value of every axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct SweepGroup {
+pub(crate) struct SweepGroup {
     /// The family or the scenario.
     pub scenes: String,
     /// The values of the axes as written in the sweep.
@@ -42,7 +42,7 @@ pub struct SweepGroup {
 impl SweepSummary {
     /// Counts runs of `sweep` by their indices. `resumed` of them are from earlier processes.
     #[must_use]
-    pub fn new(sweep: &Sweep, runs: &BTreeMap<u64, Figures>, resumed: usize) -> Self {
+    pub(crate) fn new(sweep: &Sweep, runs: &BTreeMap<u64, Figures>, resumed: usize) -> Self {
         let mut groups: BTreeMap<_, (SweepRun<'_>, Vec<Figures>)> = BTreeMap::new();
         for (&index, &figures) in runs {
             if let Some(run) = sweep.run(index) {
@@ -60,7 +60,7 @@ impl SweepSummary {
 
     /// Number of runs that crashed or could not begin.
     #[must_use]
-    pub fn without_result(&self) -> usize {
+    pub(crate) fn without_result(&self) -> usize {
         self.groups.iter().map(|group| group.tally.crashed + group.tally.refused).sum()
     }
 }

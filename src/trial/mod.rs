@@ -10,11 +10,14 @@ mod trial;
 mod worker;
 mod worlds;
 
-pub use policy_test::violations;
+pub(crate) use policy_test::violations;
 pub(crate) use processor_time::processor_time;
 pub use recording::Recording;
-pub use threads::{Threads, in_parallel, processors, stream_in_parallel};
-pub use trial::{Inputs, Trial, TrialResult, short_hash};
+pub(crate) use threads::{Threads, stream_in_parallel};
+pub use threads::{in_parallel, processors};
+pub(crate) use trial::short_hash;
+pub use trial::{Inputs, Trial, TrialResult};
 pub use worker::{Answer, StartError, Worker, answer};
 pub(crate) use worlds::build_world;
-pub use worlds::{ExecuteError, check_world, engine_hash, engine_version};
+pub(crate) use worlds::check_world;
+pub use worlds::{ExecuteError, engine_version};

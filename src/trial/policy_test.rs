@@ -10,7 +10,7 @@ use vibrissa_runtime::machine::Program;
 
 /// The expectations of a `test` that do not hold for the `result` of `program`. Empty if the test passed.
 #[must_use]
-pub fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) -> Vec<Diagnostic> {
+pub(crate) fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) -> Vec<Diagnostic> {
     let figure = |wanted| figure(wanted, program, &result.run, &result.score);
     test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
 }

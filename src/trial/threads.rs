@@ -56,7 +56,7 @@ pub fn in_parallel<T: Sync, R: Send>(
 /// work. Then only the tasks that have begun are finished. Tasks begin in their order. Each thread has its own `tool`.
 ///
 /// If the system starts fewer threads, they execute all tasks. If it starts none, the calling thread does.
-pub fn stream_in_parallel<T: Sync, S, R: Send>(
+pub(crate) fn stream_in_parallel<T: Sync, S, R: Send>(
     tasks: &[T],
     threads: impl Into<Threads>,
     tool: impl Fn() -> S + Sync,

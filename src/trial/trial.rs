@@ -177,6 +177,6 @@ impl Trial {
 
 /// The first sixteen hexadecimal digits of a hash, enough to distinguish files.
 #[must_use]
-pub fn short_hash(hash: &[u8]) -> String {
+pub(crate) fn short_hash(hash: &[u8]) -> String {
     hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -53,7 +53,7 @@ pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result
 ///
 /// # Errors
 /// [`ExecuteError`] if this build does not have it, or if the library of its simulator cannot be loaded.
-pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
+pub(crate) fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
     match kind {
         #[cfg(feature = "sim")]
         WorldKind::Mujoco => {
@@ -82,7 +82,7 @@ fn simulator() -> &'static str {
 /// A hash of everything except scenario and policy that a run in a world depends on: the versions of this program and
 /// of the simulator, the model, and the pruning.
 #[must_use]
-pub fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
+pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     let engine = match world.kind {
         WorldKind::Mujoco => simulator(),
         WorldKind::QuasiStatic => world.kind.name(),

@@ -61,7 +61,7 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
 /// An upper bound of the number of pieces of [`polar_curve`]. It is a few times too large. It is meaningless if the
 /// curve does not exist.
 #[must_use]
-pub fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
+pub(crate) fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
     let derivatives = |angle: f64| {
         let mut distance = [radius, 0.0, 0.0, 0.0];
         for &Harmonic { order, amplitude, phase } in harmonics {

@@ -117,7 +117,7 @@ impl CentreLine {
     /// An upper bound of the number of pieces of both walls' outlines, for a `width` (m) between their centre lines. It
     /// is a few times too large, and meaningless if the tunnel does not exist.
     #[must_use]
-    pub fn most_pieces(&self, width: f64) -> usize {
+    pub(crate) fn most_pieces(&self, width: f64) -> usize {
         // Two sides and two ends.
         let wall = |pieces: usize| pieces.saturating_mul(2).saturating_add(2);
         match self {

@@ -56,7 +56,7 @@ impl TunnelAxis {
     /// # Ok::<(), vibrissa::geometry::ContourError>(())
     /// ```
     #[must_use]
-    pub fn arc_length_between(&self, point: Point2) -> Option<f64> {
+    pub(crate) fn arc_length_between(&self, point: Point2) -> Option<f64> {
         let left_of = |wall: &Contour| {
             let nearest = wall.nearest(point);
             perpendicular(wall.tangent_at(nearest.arc_length)).dot(&(point - nearest.point))

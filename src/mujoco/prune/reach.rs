@@ -52,14 +52,14 @@ impl Reach {
 
     /// True if a model contains only the parts near the platform.
     #[must_use]
-    pub fn is_windowed(&self) -> bool {
+    pub(crate) fn is_windowed(&self) -> bool {
         self.boxes.size() > MANY_PARTS
     }
 
     /// The indices of the parts in reach while the platform's centre of mass is in the window about `centre`,
     /// ascending.
     #[must_use]
-    pub fn parts_about(&self, centre: Point2) -> Vec<usize> {
+    pub(crate) fn parts_about(&self, centre: Point2) -> Vec<usize> {
         self.boxes_near([centre], self.extent + WINDOW)
     }
 
@@ -92,7 +92,7 @@ impl Reach {
 
     /// An upper bound of the displacement (m) between two poses of any point that is fixed to the platform.
     #[must_use]
-    pub fn motion_bound(&self, from: &Pose, to: &Pose) -> f64 {
+    pub(crate) fn motion_bound(&self, from: &Pose, to: &Pose) -> f64 {
         (to.position - from.position).norm() + (to.heading - from.heading).abs() * self.extent
     }
 
@@ -173,7 +173,7 @@ pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bo
 /// from the centre of mass. A whisker of mass `m` and length `L` exerts at most the moment `m L (a + α (r + L)) / 2` on
 /// its hinge, and twice that while it swings.
 #[must_use]
-pub fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vector2, yaw_rate: f64) -> bool {
+pub(crate) fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vector2, yaw_rate: f64) -> bool {
     let shaft = &whisker.shaft;
     let mass: f64 = (0..shaft.links).map(|link| shaft.link_mass(link)).sum();
     let radius = whisker.base_body.coords.norm() + shaft.length;

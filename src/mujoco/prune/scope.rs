@@ -24,13 +24,13 @@ impl Scope {
 
     /// Replaces the parts, given by their indices, ascending.
     #[must_use]
-    pub fn with_parts(self, parts: Vec<usize>) -> Self {
+    pub(crate) fn with_parts(self, parts: Vec<usize>) -> Self {
         Self { parts, ..self }
     }
 
     /// Sets a whisker, by its index in the rig, to rigid or flexible.
     #[must_use]
-    pub fn with_rigid(mut self, whisker: usize, rigid: bool) -> Self {
+    pub(crate) fn with_rigid(mut self, whisker: usize, rigid: bool) -> Self {
         self.rigid[whisker] = rigid;
         self
     }
@@ -43,42 +43,42 @@ impl Scope {
 
     /// The capacity for pairs; `None` if all pairs are declared.
     #[must_use]
-    pub fn capacity(&self) -> Option<usize> {
+    pub(crate) fn capacity(&self) -> Option<usize> {
         self.capacity
     }
 
     /// The number of parts.
-    #[must_use]
-    pub fn part_count(&self) -> usize {
+    #[cfg(test)]
+    pub(crate) fn part_count(&self) -> usize {
         self.parts.len()
     }
 
     /// The position of a part, by its index, in the list of parts. `None` if it is not in the scope.
     #[must_use]
-    pub fn rank_of_part(&self, index: usize) -> Option<usize> {
+    pub(crate) fn rank_of_part(&self, index: usize) -> Option<usize> {
         self.parts.binary_search(&index).ok()
     }
 
     /// True if the part with this index is in the scope.
     #[must_use]
-    pub fn has_part(&self, index: usize) -> bool {
+    pub(crate) fn has_part(&self, index: usize) -> bool {
         self.rank_of_part(index).is_some()
     }
 
     /// True if both scopes differ only in their rigid whiskers.
     #[must_use]
-    pub fn is_like(&self, other: &Self) -> bool {
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.parts == other.parts && self.capacity == other.capacity
     }
 
     /// True if a whisker, by its index in the rig, is rigid.
     #[must_use]
-    pub fn is_rigid(&self, whisker: usize) -> bool {
+    pub(crate) fn is_rigid(&self, whisker: usize) -> bool {
         self.rigid[whisker]
     }
 
     /// The flexible whiskers with their indices in the rig.
-    pub fn flexible<'r>(&self, rig: &'r Rig) -> impl Iterator<Item = (usize, &'r Whisker)> {
+    pub(crate) fn flexible<'r>(&self, rig: &'r Rig) -> impl Iterator<Item = (usize, &'r Whisker)> {
         rig.whiskers.iter().enumerate().filter(|(index, _)| !self.rigid[*index])
     }
 }

@@ -36,7 +36,7 @@ impl Chart {
 
     /// True if there are global transitions.
     #[must_use]
-    pub fn has_any_state(&self) -> bool {
+    pub(crate) fn has_any_state(&self) -> bool {
         self.transitions.iter().any(|transition| transition.origin == Origin::AnyState)
     }
 

@@ -11,7 +11,7 @@ mod shaft;
 mod timeline;
 
 pub use pareto::pareto_picture;
-pub use profile::profile_picture;
+pub(crate) use profile::profile_picture;
 
 use std::iter;
 use std::ops::Range;

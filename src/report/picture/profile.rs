@@ -22,7 +22,7 @@ const CELLS: usize = 120;
 /// of the tip in the frame of the base are coloured by base angle. Lines of equal base angle are those of the fit `z =
 /// f(x, y)`, and a curve is that of one channel. The thesis has such a picture in figure 3.5. A self-contained SVG.
 #[must_use]
-pub fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
+pub(crate) fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
     let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();
     let plot = Plot::new(length, &sets);
     let mut document = style::sheet(SIZE, title)

@@ -5,7 +5,7 @@ use crate::calibration::HeldOut;
 
 /// A table of the errors of fits.
 #[must_use]
-pub fn held_out_table(rows: &[HeldOut]) -> Table {
+pub(crate) fn held_out_table(rows: &[HeldOut]) -> Table {
     let cells = rows.iter().map(|row| {
         vec![
             row.model.to_owned(),

@@ -7,7 +7,7 @@ use crate::family::FamilyTally;
 /// A table with a row for every tally. Errors are means over the completed runs. Outliers and intervals are shares of
 /// the tips of all runs.
 #[must_use]
-pub fn families_table(tallies: &[FamilyTally]) -> Table {
+pub(crate) fn families_table(tallies: &[FamilyTally]) -> Table {
     let headings = ["family", "cm/s"].into_iter().chain(tally::HEADINGS);
     Table::new(2, headings, tallies.iter().map(cells))
 }

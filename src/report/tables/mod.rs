@@ -14,13 +14,13 @@ mod timing;
 mod worlds;
 
 pub use bench::{bench_table, pooled_tips};
-pub use calibration::held_out_table;
+pub(crate) use calibration::held_out_table;
 pub use comparison::comparison_tables;
 pub use estimators::estimators_tables;
-pub use families::families_table;
+pub(crate) use families::families_table;
 pub use pareto::pareto_table;
 pub use results::results_table;
 pub use stress::stress_tables;
-pub use sweep::summary_table;
+pub(crate) use sweep::summary_table;
 pub use timing::timing_table;
 pub use worlds::worlds_table;

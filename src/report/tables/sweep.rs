@@ -10,7 +10,7 @@ type Ends = (&'static str, fn(&Tally) -> usize);
 
 /// A table with a row for every group. Crashed and refused runs have columns if there are any.
 #[must_use]
-pub fn summary_table(groups: &[SweepGroup]) -> Table {
+pub(crate) fn summary_table(groups: &[SweepGroup]) -> Table {
     let settings: Vec<&str> =
         groups.first().into_iter().flat_map(|group| group.settings.keys().map(String::as_str)).collect();
     let crashed: Ends = ("crashed", |tally| tally.crashed);

@@ -27,7 +27,7 @@ const PENETRATION_LIMIT: f64 = 3e-3;
 impl Conditions {
     /// True without friction and noise.
     #[must_use]
-    pub fn are_ideal(self) -> bool {
+    pub(crate) fn are_ideal(self) -> bool {
         self == Self::default()
     }
 

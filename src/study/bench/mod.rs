@@ -6,4 +6,4 @@ mod thesis;
 
 pub use conditions::Conditions;
 pub use row::{BenchRow, Verdict, Verdicts};
-pub use thesis::{Reported, THESIS, ThesisFigures, thesis_figures};
+pub use thesis::{Reported, THESIS, ThesisFigures};

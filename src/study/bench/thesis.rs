@@ -44,7 +44,7 @@ pub const THESIS: [ThesisFigures; 10] = [
 
 /// The baseline's results in the scene with this name. `None` for a scene that the baseline does not have.
 #[must_use]
-pub fn thesis_figures(scenario: &str) -> Option<&'static ThesisFigures> {
+pub(super) fn thesis_figures(scenario: &str) -> Option<&'static ThesisFigures> {
     THESIS.iter().find(|figures| figures.scenario == scenario)
 }
 
