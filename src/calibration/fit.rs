@@ -48,7 +48,7 @@ const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
 const LEAST_WEIGHT: f64 = 0.1;
 
 /// Fits everything that can be fitted to contact sets of a whisker. Contacts of the shaft are omitted. Sets with a bend
-/// to the right are mirrored. There are no fits with fewer than [`MIN_POSITIONS`] positions, and no fit with too few
+/// to the right are mirrored. There are no fits with fewer than `FEWEST_PLACES` positions, and no fit with too few
 /// positions within its range.
 #[must_use]
 pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {

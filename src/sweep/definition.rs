@@ -23,7 +23,7 @@ impl Sweep {
     /// Reads a sweep.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as [`scenario::read`](super::scenario::read) tells it.
+    /// Everything that is wrong with it, as [`scenario::read`](crate::scenario::read) tells it.
     ///
     /// ```
     /// use vibrissa::diagnostic::Source;

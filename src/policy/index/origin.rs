@@ -31,7 +31,7 @@ impl Index {
     ///
     /// # Errors
     /// The name cannot be changed, or not to `name`.
-    pub(crate) fn rename_to(&self, origin: &Origin, name: &str) -> Result<Vec<Span>, RenameError> {
+    pub fn rename_to(&self, origin: &Origin, name: &str) -> Result<Vec<Span>, RenameError> {
         self.given_at(origin).map_or(Ok(Vec::new()), |index| self.renamed(index, name))
     }
 
