@@ -21,7 +21,7 @@ pub struct SetsError {
 const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
 const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
 /// Largest distance of a contact from the base (mm), and the largest base angle (µrad): half a turn of the hinge.
-const FARTHEST: f64 = 1e4;
+const MAX_DISTANCE: f64 = 1e4;
 const GREATEST_ANGLE: f64 = 1e6 * PI;
 /// Largest magnitude of a direction (degrees).
 const FULL_TURN: f64 = 360.0;
@@ -83,7 +83,7 @@ fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Resul
         "shaft" => true,
         other => return Err(format!("`contact` must be `tip` or `shaft`, and is `{other}`")),
     };
-    let contact_base = Vector2::new(number("x_mm", FARTHEST)?, number("y_mm", FARTHEST)?) * 1e-3;
+    let contact_base = Vector2::new(number("x_mm", MAX_DISTANCE)?, number("y_mm", MAX_DISTANCE)?) * 1e-3;
     let base_angle = number("base_angle_urad", GREATEST_ANGLE)? * 1e-6;
     Ok(ContactSet { contact_base, base_angle, normal, on_shaft })
 }

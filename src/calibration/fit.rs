@@ -37,15 +37,15 @@ pub struct HeldOut {
 }
 
 /// The fewest positions of tip contacts for a fit.
-pub(crate) const FEWEST_PLACES: usize = 50;
+pub const MIN_POSITIONS: usize = 50;
 /// Number of parts into which the positions are divided.
 const FOLDS: usize = 5;
 /// Standard deviation of the angle between a surface and the heading (rad) for the fit of one channel. The weight of a
 /// set follows a normal distribution of this angle.
-const SURFACE_SPREAD: f64 = 10.0 * PI / 180.0;
+const SURFACE_DEVIATION: f64 = 10.0 * PI / 180.0;
 
 /// Sets of less weight are omitted.
-const LEAST_WEIGHT: f64 = 0.1;
+const MIN_WEIGHT: f64 = 0.1;
 
 /// Fits everything that can be fitted to contact sets of a whisker. Contacts of the shaft are omitted. Sets with a bend
 /// to the right are mirrored. There are no fits with fewer than `FEWEST_PLACES` positions, and no fit with too few
@@ -56,8 +56,8 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
         sets.iter().filter(|set| !set.on_shaft && set.base_angle != 0.0).map(|set| set.to_left()).collect();
     let mut calibration = Calibration::new(about);
     let mut held_out = Vec::new();
-    let places = places(&sets);
-    if places.iter().max().is_none_or(|last| last + 1 < FEWEST_PLACES) {
+    let positions = positions(&sets);
+    if positions.iter().max().is_none_or(|last| last + 1 < MIN_POSITIONS) {
         return Fitted { calibration, held_out };
     }
 
@@ -70,7 +70,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
             is_meant.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
         };
         let range = format!("{:.0} to {:.0} urad, surface within 10 deg", 1e6 * range[0], 1e6 * range[1]);
-        held_out.extend(hold_out("one_channel", (&sets, &places), curve, miss, range));
+        held_out.extend(hold_out("one_channel", (&sets, &positions), curve, miss, range));
     }
 
     calibration.recursive = AngleSurface::fit(&sets);
@@ -81,7 +81,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
             is_within.then(|| (base_angle - set.base_angle).abs() / gradient.norm())
         };
         let range = format!("between places within {:.1} mm", 1e3 * surface.reach);
-        held_out.extend(hold_out("recursive", (&sets, &places), AngleSurface::fit, miss, range));
+        held_out.extend(hold_out("recursive", (&sets, &positions), AngleSurface::fit, miss, range));
     }
 
     let hinge = HingeFit::new(whisker);
@@ -90,26 +90,26 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
         let miss = |stiffness: &f64, set: &ContactSet| hinge.miss(set, *stiffness);
         let range = format!("base hinge {stiffness:.4} N m/rad");
         let fit = |sets: &[ContactSet]| hinge.fit(sets);
-        held_out.extend(hold_out("sliding, moment_and_shear", (&sets, &places), fit, miss, range));
+        held_out.extend(hold_out("sliding, moment_and_shear", (&sets, &positions), fit, miss, range));
     }
     Fitted { calibration, held_out }
 }
 
 /// Weight of a set for the fit of one channel.
 fn weight(whisker: &Whisker, set: &ContactSet) -> f64 {
-    let off = set.normal.map_or(0.0, |normal| (normal - whisker.usual_normal()) / SURFACE_SPREAD);
+    let off = set.normal.map_or(0.0, |normal| (normal - whisker.usual_normal()) / SURFACE_DEVIATION);
     (-0.5 * off * off).exp()
 }
 
 /// The curve of one channel, fitted to the sets with sufficient weight.
 fn near_heading(whisker: &Whisker, sets: &[ContactSet]) -> Option<ContactCurve> {
-    let weighted = sets.iter().map(|set| (*set, weight(whisker, set))).filter(|(_, weight)| *weight > LEAST_WEIGHT);
+    let weighted = sets.iter().map(|set| (*set, weight(whisker, set))).filter(|(_, weight)| *weight > MIN_WEIGHT);
     ContactCurve::fit(&weighted.collect::<Vec<_>>())
 }
 
 /// The index of each set's position, in the order in which the positions occur. Sets of one position are similar: if
 /// some were fitted to, the errors of the others would be too small.
-fn places(sets: &[ContactSet]) -> Vec<usize> {
+fn positions(sets: &[ContactSet]) -> Vec<usize> {
     let mut numbers = BTreeMap::new();
     let number = |set: &ContactSet| {
         let next = numbers.len();
@@ -121,14 +121,14 @@ fn places(sets: &[ContactSet]) -> Vec<usize> {
 /// Fits repeatedly without a part of the sets, selected by position, and evaluates the fit on that part.
 fn hold_out<F>(
     model: &'static str,
-    (sets, places): (&[ContactSet], &[usize]),
+    (sets, positions): (&[ContactSet], &[usize]),
     fit: impl Fn(&[ContactSet]) -> Option<F>,
     miss: impl Fn(&F, &ContactSet) -> Option<f64>,
     range: String,
 ) -> Option<HeldOut> {
     let mut misses = Vec::with_capacity(sets.len());
     for fold in 0..FOLDS {
-        let is_held = |index: &usize| places[*index] % FOLDS == fold;
+        let is_held = |index: &usize| positions[*index] % FOLDS == fold;
         let part = |held: bool| (0..sets.len()).filter(move |index| is_held(index) == held).map(|index| sets[index]);
         let fitted = fit(&part(false).collect::<Vec<_>>())?;
         misses.extend(part(true).filter_map(|set| miss(&fitted, &set)));

@@ -19,7 +19,7 @@ const SPAN: (f64, f64) = (0.2, 5.0);
 const AT_END: f64 = 1e-3;
 /// Number of tried values in that range, and of golden-section steps, which reduce the interval between neighbours to a
 /// millionth.
-const TRIES: u32 = 16;
+const TRIED_VALUES: u32 = 16;
 const STEPS: usize = 27;
 /// Directions of the normal (degrees) among which the best is searched if it is not known.
 const DIRECTIONS: std::ops::RangeInclusive<u32> = 60..=220;
@@ -45,8 +45,8 @@ impl HingeFit {
         };
         let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
         // With a wrong hinge, all sets beyond the range have the same error, and the gradient is zero.
-        let step = (SPAN.1 / SPAN.0).ln() / f64::from(TRIES);
-        let tried = (0..=TRIES).map(|index| SPAN.0.ln() + step * f64::from(index));
+        let step = (SPAN.1 / SPAN.0).ln() / f64::from(TRIED_VALUES);
+        let tried = (0..=TRIED_VALUES).map(|index| SPAN.0.ln() + step * f64::from(index));
         let best = tried.map(|log| (log, cost(log))).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
         let (mut low, mut high) = ((best - step).max(SPAN.0.ln()), (best + step).min(SPAN.1.ln()));
         let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
@@ -70,7 +70,7 @@ impl HingeFit {
     /// Distance between the position of a set and the computed position (m), with its normal, or with the best normal
     /// if it is not known.
     pub(super) fn miss(&self, set: &ContactSet, stiffness: f64) -> Option<f64> {
-        let off = |normal| Some((self.place(set.base_angle, normal, stiffness)? - set.contact_base).norm());
+        let off = |normal| Some((self.position(set.base_angle, normal, stiffness)? - set.contact_base).norm());
         if let Some(normal) = set.normal {
             return off(normal);
         }
@@ -79,8 +79,8 @@ impl HingeFit {
         let (mut normal, mut least) = tried.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         for _ in 0..ITERATIONS {
             let turn = 1e-5;
-            let here = self.place(set.base_angle, normal, stiffness)?;
-            let slope = (self.place(set.base_angle, normal + turn, stiffness)? - here) / turn;
+            let here = self.position(set.base_angle, normal, stiffness)?;
+            let slope = (self.position(set.base_angle, normal + turn, stiffness)? - here) / turn;
             normal -= slope.dot(&(here - set.contact_base)) / slope.norm_squared();
             least = off(normal)?.min(least);
         }
@@ -89,7 +89,7 @@ impl HingeFit {
 
     /// The computed position of the tip (m, frame of the base) on a surface with this normal (rad), for a hinge of this
     /// stiffness.
-    fn place(&self, base_angle: f64, normal: f64, stiffness: f64) -> Option<Vector2> {
+    fn position(&self, base_angle: f64, normal: f64, stiffness: f64) -> Option<Vector2> {
         // The same moment rotates another hinge by another angle, and the bent shaft with it.
         let as_in_table = base_angle * stiffness / self.stiffness;
         let turn = base_angle - as_in_table;

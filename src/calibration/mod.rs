@@ -4,10 +4,9 @@ mod contact_sets;
 mod fit;
 mod hinge_fit;
 #[cfg(feature = "sim")]
-mod stage;
+mod simulated_rig;
 
 pub use contact_sets::{SetsError, read_sets, write_sets};
-pub(crate) use fit::FEWEST_PLACES;
-pub use fit::{Fitted, HeldOut, fit};
+pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 #[cfg(feature = "sim")]
-pub use stage::{StageError, simulated_sets};
+pub use simulated_rig::{CalibrationRigError, simulated_sets};

@@ -58,7 +58,7 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
     for (Finished { result, violations, picture }, conditions) in finished.into_iter().zip(conditions) {
         let row = BenchRow::new(result, violations.is_empty()).under(conditions);
-        tell(&row, &violations);
+        report_row(&row, &violations);
         rows.push(row);
         pictures.push(picture.unwrap_or_default());
     }
@@ -103,7 +103,7 @@ pub(super) fn bench_trials(
 }
 
 /// Reports the reason of an incomplete run, and the expectations that do not hold without friction and noise.
-fn tell(row: &BenchRow, violations: &[Violation]) {
+fn report_row(row: &BenchRow, violations: &[Violation]) {
     let RunResult { policy, outcome, reason, .. } = &row.result;
     let scene = row.scene();
     if *outcome != Outcome::Completed {

@@ -101,7 +101,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     if let Some(report) = report {
         report.write(whisker, &sets, &fitted)?;
     }
-    tell_missing(&fitted);
+    report_missing(&fitted);
     if arguments.format.json {
         let held_out = &fitted.held_out;
         output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
@@ -116,7 +116,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
 }
 
 /// Reports the fits that were not possible, and the sets that they need.
-fn tell_missing(Fitted { calibration, .. }: &Fitted) {
+fn report_missing(Fitted { calibration, .. }: &Fitted) {
     let missing = [
         (
             calibration.one_channel.is_none(),
@@ -168,5 +168,5 @@ fn simulated(
 
 #[cfg(not(feature = "sim"))]
 fn simulated(_: &Rig, _: &Physics, _: usize, _: &CalibrateArguments) -> Result<Vec<ContactSet>, Failure> {
-    Err(Failure::NoStage)
+    Err(Failure::NoCalibrationRig)
 }

@@ -78,12 +78,12 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         .map(|path| (path.display().to_string(), results.by_ref().take(settings.len()).collect()))
         .collect();
     let comparison = Comparison::new(&runs);
-    tell_incomplete(&comparison);
+    report_incomplete(&comparison);
     output::document(arguments.format, &comparison, || comparison_tables(&comparison))?;
     Ok(Exit::Done)
 }
 
-fn tell_incomplete(comparison: &Comparison) {
+fn report_incomplete(comparison: &Comparison) {
     for PolicyRuns { policy, incomplete, .. } in &comparison.policies {
         for Incomplete { scenario, seed, outcome, reason } in incomplete {
             let reason = reason.as_deref().unwrap_or("for no reason that is known");

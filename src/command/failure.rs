@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::calibration::FEWEST_PLACES;
 #[cfg(feature = "sim")]
-use crate::calibration::StageError;
+use crate::calibration::CalibrationRigError;
+use crate::calibration::MIN_POSITIONS;
 use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
 use crate::load::LoadError;
@@ -37,15 +37,15 @@ pub(super) enum Failure {
     #[error(transparent)]
     NoWhisker(UnknownWhisker),
     #[error(
-        "{count} touches by the tip are too few, or in too few places: give {FEWEST_PLACES} places or more, spread over the plane where it touches"
+        "{count} touches by the tip are too few, or in too few places: give {MIN_POSITIONS} places or more, spread over the plane where it touches"
     )]
     TooFewSets { count: usize },
     #[cfg(feature = "sim")]
     #[error(transparent)]
-    Stage(#[from] StageError),
+    CalibrationRig(#[from] CalibrationRigError),
     #[cfg(not(feature = "sim"))]
     #[error("this build has no world; give touches that were measured, or build it with the feature `sim`")]
-    NoStage,
+    NoCalibrationRig,
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
     #[error(

@@ -88,7 +88,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&trials, arguments.jobs, is_drawn)?;
-    let (runs, pictures) = judged(scenes, finished);
+    let (runs, pictures) = with_verdicts(scenes, finished);
     if let Some(report) = report {
         report.write(&runs, pictures)?;
     }
@@ -162,21 +162,21 @@ impl Report {
 }
 
 /// The runs with their verdicts, and their pictures. Reports the runs that did not pass.
-fn judged(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
-    let judged = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
+fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
+    let rows = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
         let Drawn { family, number: trial, draw } = drawn;
         let Finished { result, violations, picture } = finished;
         let passed = violations.is_empty();
         let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
-            tell(&run, &violations);
+            report_run(&run, &violations);
         }
         (run, picture)
     });
-    judged.unzip()
+    rows.unzip()
 }
 
-fn tell(run: &FamilyRun, violations: &[Violation]) {
+fn report_run(run: &FamilyRun, violations: &[Violation]) {
     let FamilyRun { family, trial, about, speed, result, .. } = run;
     let speed = 100.0 * speed;
     let reasons: Vec<String> = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();

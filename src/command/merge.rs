@@ -8,7 +8,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
-use super::sweep::tell;
+use super::sweep::print_summary;
 use crate::file::CommandFiles;
 use crate::load::LoadError;
 use crate::sweep::{Missing, SweepSummary, merge as merge_files};
@@ -30,7 +30,7 @@ pub(super) struct MergeArguments {
 }
 
 /// Largest number of missing runs whose keys are reported.
-const TOLD: usize = 10;
+const MAX_REPORTED: usize = 10;
 
 pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     let mut files = Vec::new();
@@ -47,14 +47,14 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     };
     let missing: Vec<_> = merged.missing().collect();
     if !missing.is_empty() {
-        tell_missing(&missing);
+        report_missing(&missing);
         return Ok(Exit::Unexpected);
     }
     let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
     let file = read.output("--out", &path)?;
-    let _lock = merged.check_place(&path)?;
+    let _lock = merged.check_path(&path)?;
     file.write(merged.text()?)?;
-    tell(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.format)?;
+    print_summary(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.format)?;
     Ok(Exit::Done)
 }
 
@@ -76,12 +76,12 @@ fn results_in(directory: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Reports the missing runs, and the commands that produce them.
-fn tell_missing(missing: &[Missing]) {
-    for Missing { key, shard } in missing.iter().take(TOLD) {
+fn report_missing(missing: &[Missing]) {
+    for Missing { key, shard } in missing.iter().take(MAX_REPORTED) {
         output::message(format_args!("missing: {key} (shard {shard})"));
     }
-    if missing.len() > TOLD {
-        output::message(format_args!("and {} more", missing.len() - TOLD));
+    if missing.len() > MAX_REPORTED {
+        output::message(format_args!("and {} more", missing.len() - MAX_REPORTED));
     }
     let mut shards: Vec<_> = missing.iter().map(|missing| missing.shard).collect();
     shards.sort();

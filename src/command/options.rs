@@ -46,9 +46,9 @@ impl Jobs {
 
     /// The requested number of threads, or `count`.
     pub(super) fn threads_or(self, count: NonZeroUsize) -> Threads {
-        static TOLD: Once = Once::new();
+        static WARNED: Once = Once::new();
         let fewer = |started| {
-            TOLD.call_once(|| {
+            WARNED.call_once(|| {
                 output::message(format_args!("warning: the system starts no more than {started} at a time"));
             });
         };

@@ -12,7 +12,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{Format, Settings, WorldOptions};
 use super::output;
-use super::trials::{ReportFiles, extended, inputs, make_directory, run_with_bar, tell};
+use super::trials::{ReportFiles, extended, inputs, make_directory, report_events, run_with_bar};
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::file::CommandFiles;
@@ -138,7 +138,7 @@ pub(super) fn reports(
 /// Prints the expectations that do not hold, and writes the report.
 pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<ReportFiles>) -> Result<RunResult, Failure> {
     let result = trial.document(finished);
-    tell(&result);
+    report_events(&result);
     for violation in &finished.violations {
         output::message(format_args!("{}: {violation}", trial.scene.name));
     }

@@ -82,7 +82,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
         return Err(failure);
     }
     let summary = SweepSummary::new(sweep, &done, resumed);
-    tell(&summary, &path, arguments.format)?;
+    print_summary(&summary, &path, arguments.format)?;
     Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
 }
 
@@ -108,7 +108,7 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
 }
 
 /// Prints the summary of the runs whose results are at `path`.
-pub(super) fn tell(summary: &SweepSummary, path: &Path, format: Format) -> Result<(), Failure> {
+pub(super) fn print_summary(summary: &SweepSummary, path: &Path, format: Format) -> Result<(), Failure> {
     output::document(format, summary, || [summary_table(&summary.groups)])?;
     if format.json {
         return Ok(());

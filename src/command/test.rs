@@ -96,7 +96,7 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
                 report.write(trial, &finished, &result)?;
             }
             if !arguments.json {
-                tell(source, test, &result, &faults)?;
+                print_verdict(source, test, &result, &faults)?;
             }
             tested.push(Tested {
                 file: source.name.clone(),
@@ -145,12 +145,12 @@ fn trial_of(
 
 /// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not
 /// reported.
-fn tell(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagnostic]) -> Result<(), Failure> {
+fn print_verdict(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagnostic]) -> Result<(), Failure> {
     let verdict = if faults.is_empty() { "ok    " } else { "FAILED" };
     let RunResult { sim_s, wall_s, .. } = result;
     output::result(format_args!("{verdict} {}: {} ({sim_s:.1} s in {wall_s:.2} s)", source.name, test.title))?;
     if !faults.is_empty() {
-        trials::tell(result);
+        trials::report_events(result);
         output::diagnostics(source, faults);
     }
     Ok(())

@@ -144,7 +144,7 @@ pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
 }
 
 /// Prints the notable events of a run.
-pub(super) fn tell(result: &RunResult) {
+pub(super) fn report_events(result: &RunResult) {
     let RunResult { scenario, outcome, reason, collisions, .. } = result;
     if let Some(reason) = reason {
         output::message(format_args!("{scenario}: {outcome}: {reason}"));

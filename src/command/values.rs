@@ -13,11 +13,11 @@ use vibrissa_runtime::units::{Dimension, parse_quantity};
 /// Largest number of runs at a time for each processor. More only take memory.
 const JOBS_PER_PROCESSOR: usize = 32;
 /// Largest number of repetitions of a measurement.
-const MOST_REPEATS: usize = 1000;
+const MAX_REPEATS: usize = 1000;
 /// Largest number of scenes of a family, and of runs of a scenario.
-const MOST_RUNS: u64 = 100_000;
+const MAX_RUNS: u64 = 100_000;
 /// Largest deviation of starts (m), larger than any scene.
-const MOST_JITTER: f64 = 10.0;
+const MAX_JITTER: f64 = 10.0;
 
 /// Number of runs at a time.
 pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
@@ -29,12 +29,12 @@ pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
 
 /// Number of repetitions of a measurement.
 pub(super) fn parse_repeats(text: &str) -> Result<usize, String> {
-    parse_whole(text, 1..=MOST_REPEATS)
+    parse_whole(text, 1..=MAX_REPEATS)
 }
 
 /// Number of scenes of a family, or of runs of a scenario.
 pub(super) fn parse_runs(text: &str) -> Result<u64, String> {
-    parse_whole(text, 1..=MOST_RUNS)
+    parse_whole(text, 1..=MAX_RUNS)
 }
 
 /// Number of levels of states.
@@ -60,7 +60,7 @@ pub(super) fn parse_friction(text: &str) -> Result<f64, String> {
 
 /// Largest deviation of a start from that of a scenario (m).
 pub(super) fn parse_jitter(text: &str) -> Result<f64, String> {
-    parse_size(text, Dimension::LENGTH, MOST_JITTER, "from 0 to 10 m, such as \"20 mm\"")
+    parse_size(text, Dimension::LENGTH, MAX_JITTER, "from 0 to 10 m, such as \"20 mm\"")
 }
 
 /// Largest deviation of a heading from that of a scenario (rad). Half a turn to either side includes every heading.

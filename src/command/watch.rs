@@ -56,19 +56,19 @@ fn run_all(
 ) -> Result<Vec<RunResult>, Failure> {
     let reports = run::reports(trials, arguments.out.as_deref(), files)?;
     let run = |(trial, report): (&Trial, _)| {
-        let mut told = Ok(());
+        let mut printed = Ok(());
         let finished = run_each_second(trial, |trace| {
-            told = tell(trial, trace);
-            if told.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            printed = print_second(trial, trace);
+            if printed.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        told?;
+        printed?;
         run::finish(trial, &finished?, report)
     };
     trials.iter().zip(reports).map(run).collect()
 }
 
 /// Prints the state of a run at this second, and the error of the tips since the last line.
-fn tell(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
+fn print_second(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
     let state = trace.ticks.last().and_then(|tick| trace.states.get(tick.state?)).map_or("Failure", String::as_str);
     let now = seconds(trace);
     let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);

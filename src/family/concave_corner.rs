@@ -3,20 +3,20 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Family;
-use super::dice::Dice;
-use super::layout::{Aim, FEELERS, Layout, polygon};
-use super::place::{along, beside};
+use super::layout::{Aim, FORWARD_FACING, Layout, polygon};
+use super::position::{along, beside};
+use super::sampler::Sampler;
 use crate::geometry::{Vector2, perpendicular, unit};
 
 pub(super) const FAMILY: Family =
     Family { name: "concave-corner", about: "an angle iron, whose inner corner turns by 15° to 75° back", lay };
 
-fn lay(dice: &mut Dice) -> Layout {
-    let turn = dice.between(15.0, 75.0) / 180.0 * PI;
-    let hand = dice.side();
-    let tilt = dice.between(-0.17, 0.17);
-    let (first, second) = (dice.between(0.4, 0.55), dice.between(0.25, 0.4));
-    let thickness = dice.between(0.15, 0.25);
+fn lay(sampler: &mut Sampler) -> Layout {
+    let turn = sampler.between(15.0, 75.0) / 180.0 * PI;
+    let hand = sampler.side();
+    let tilt = sampler.between(-0.17, 0.17);
+    let (first, second) = (sampler.between(0.4, 0.55), sampler.between(0.25, 0.4));
+    let thickness = sampler.between(0.15, 0.25);
     // Along the first side to the corner, and from there towards the platform.
     let (into, out) = (unit(FRAC_PI_2 + tilt), unit(FRAC_PI_2 + tilt + turn));
     let right = |along: Vector2| -thickness * perpendicular(along);
@@ -31,11 +31,11 @@ fn lay(dice: &mut Dice) -> Layout {
     let flank = [Vector2::zeros(), -first * into];
     Layout {
         about: format!("an inner corner that turns by {:.1}°", turn.to_degrees()),
-        objects: vec![polygon(&along(dice, hand, &corners, &flank))],
+        objects: vec![polygon(&along(sampler, hand, &corners, &flank))],
         start: beside(hand),
         aim: Aim::Loop,
-        way: 2.0 * (first + second + thickness),
-        rig: FEELERS,
+        path_length: 2.0 * (first + second + thickness),
+        rig: FORWARD_FACING,
     }
 }
 

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::Family;
-use super::dice::Dice;
 use super::layout::{Aim, Layout, REFERENCE, polygon};
-use super::place::{along, beside};
+use super::position::{along, beside};
+use super::sampler::Sampler;
 use crate::geometry::{Vector2, rotate};
 
 pub(super) const FAMILY: Family = Family {
@@ -17,20 +17,20 @@ pub(super) const FAMILY: Family = Family {
 /// Corners that turn by more than this (rad) are blades: two corners that turn by 180° in sum.
 const BLADE: f64 = 172.0 / 180.0 * PI;
 
-fn lay(dice: &mut Dice) -> Layout {
-    let turn = dice.between(PI / 6.0, PI);
-    let (side, back, thickness) = (dice.between(0.25, 0.4), dice.between(0.1, 0.25), dice.between(2e-3, 5e-3));
+fn lay(sampler: &mut Sampler) -> Layout {
+    let turn = sampler.between(PI / 6.0, PI);
+    let (side, back, thickness) = (sampler.between(0.25, 0.4), sampler.between(0.1, 0.25), sampler.between(2e-3, 5e-3));
     let corners = if turn > BLADE { blade(side, thickness) } else { house(turn, side, back) };
     // The side before the corner is parallel to the path of the platform, with the corner ahead.
-    let tilt = if turn > BLADE { 0.0 } else { 0.5 * (PI - turn) } + dice.between(-0.17, 0.17);
+    let tilt = if turn > BLADE { 0.0 } else { 0.5 * (PI - turn) } + sampler.between(-0.17, 0.17);
     let corners: Vec<_> = corners.iter().map(|&corner| rotate(corner, tilt)).collect();
-    let hand = dice.side();
+    let hand = sampler.side();
     Layout {
         about: format!("a corner that turns by {:.1}°", turn.to_degrees()),
-        objects: vec![polygon(&along(dice, hand, &corners, &corners))],
+        objects: vec![polygon(&along(sampler, hand, &corners, &corners))],
         start: beside(hand),
         aim: Aim::Loop,
-        way: 2.0 * (side + back) + 0.5,
+        path_length: 2.0 * (side + back) + 0.5,
         rig: REFERENCE,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_6;
 
-use super::dice::{Dice, scene_seed};
+use super::sampler::{Sampler, scene_seed};
 use super::{Family, Layout};
 use crate::diagnostic::Source;
 use crate::scenario;
@@ -51,10 +51,10 @@ impl Family {
     /// As [`draw`](Self::draw).
     pub(crate) fn draw_at(&self, seed: u64, trial: u64, speed: Option<f64>) -> Result<Draw, NoDraw> {
         let seed = scene_seed(self.name, seed, trial);
-        let mut dice = Dice::new(seed);
-        let layout = (self.lay)(&mut dice);
+        let mut sampler = Sampler::new(seed);
+        let layout = (self.lay)(&mut sampler);
         // The speed is sampled last, so that the scene is the same at every speed.
-        let speed = speed.unwrap_or_else(|| SPEEDS[dice.count(0, 2) as usize]);
+        let speed = speed.unwrap_or_else(|| SPEEDS[sampler.count(0, 2) as usize]);
         let name = format!("{}-{trial}", self.name);
         drawn(&layout, &name, seed, speed).ok_or(NoDraw { family: self.name, trial })
     }

@@ -17,7 +17,7 @@ pub(super) struct Layout {
     /// The end of a run.
     pub(super) aim: Aim,
     /// Approximate length of the path (m).
-    pub(super) way: f64,
+    pub(super) path_length: f64,
     /// [`REFERENCE`] or [`FORWARD_FACING`].
     pub(super) rig: Rig,
 }
@@ -47,9 +47,9 @@ const AT_MOUTH: f64 = 0.01;
 /// Largest distance that the platform may move before it finds the object (m).
 const APPROACH: f64 = 1.0;
 /// Time limit as a multiple of the time for the whole path.
-const WAYS: f64 = 6.0;
+const PATH_FACTOR: f64 = 6.0;
 /// Time for actions that do not depend on the speed (s).
-const REST: f64 = 60.0;
+const FIXED_TIME: f64 = 60.0;
 /// The reference rig with short steps and hard contacts, as in the baseline's scenes with corners. A whisker that slips
 /// off a corner, or touches an object while it vibrates, penetrates briefly. Longer steps cause deeper penetration.
 pub(super) const REFERENCE: Rig =
@@ -59,7 +59,7 @@ pub(super) const REFERENCE: Rig =
 /// path, would first meet the nose. The other points almost straight ahead, for corners between these. Forces on
 /// forward-facing whiskers are almost axial. With the soft contacts of the reference rig they would penetrate by
 /// millimetres.
-pub(super) const FEELERS: Rig = Rig {
+pub(super) const FORWARD_FACING: Rig = Rig {
     whiskers: "whiskers: {r0: {}, l0: {}, \
      feeler_r: {base: [100 mm, -14 mm], direction: -30 deg, length: 75 mm, radius: 0.11 mm}, \
      feeler_l: {base: [100 mm, 14 mm], direction: 30 deg, length: 75 mm, radius: 0.11 mm}, \
@@ -71,7 +71,7 @@ pub(super) const FEELERS: Rig = Rig {
 impl Layout {
     /// The scenario at a speed (m/s), as YAML.
     pub(super) fn text(&self, name: &str, seed: u64, speed: f64) -> String {
-        let time = (REST + WAYS * (APPROACH + self.way) / speed).ceil();
+        let time = (FIXED_TIME + PATH_FACTOR * (APPROACH + self.path_length) / speed).ceil();
         let aim = match self.aim {
             Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
             Aim::Through(end) => {
@@ -82,7 +82,7 @@ impl Layout {
             Aim::Loop => "object_coverage: 95 %".to_owned(),
             Aim::Through(_) => {
                 // From the first tick behind the mouth to the end of the run.
-                let passage = 1.0 - (AT_MOUTH + AT_END) / self.way;
+                let passage = 1.0 - (AT_MOUTH + AT_END) / self.path_length;
                 format!("passage: {:.2} %, wall_coverage: 85 %", 100.0 * passage)
             }
         };

@@ -5,13 +5,13 @@
 
 mod concave_corner;
 mod convex_corner;
-mod dice;
 mod draw;
 mod layout;
 mod outline;
-mod place;
 mod polygon;
+mod position;
 mod run;
+mod sampler;
 mod smooth_curve;
 mod tally;
 mod thin_wall;
@@ -23,8 +23,8 @@ pub use draw::{Draw, NoDraw, SPEEDS};
 pub(crate) use run::FamilyRun;
 pub(crate) use tally::FamilyTally;
 
-use dice::Dice;
 use layout::Layout;
+use sampler::Sampler;
 
 /// A kind of scene with random geometry.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ pub struct Family {
     pub name: &'static str,
     /// Description of its scenes.
     pub about: &'static str,
-    lay: fn(&mut Dice) -> Layout,
+    lay: fn(&mut Sampler) -> Layout,
 }
 
 /// All families.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::dice::Dice;
+use super::sampler::Sampler;
 use crate::geometry::{Vector2, unit};
 
 /// Number of points of an arc.
@@ -10,10 +10,10 @@ const POINTS: u32 = 32;
 
 /// The corners of a random convex polygon around the origin, counter-clockwise. They are on a circle, with a least
 /// distance between neighbours.
-pub(super) fn convex_polygon(dice: &mut Dice, radius: f64, corners: u32) -> Vec<Vector2> {
-    let (turned, step) = (dice.between(0.0, TAU), TAU / f64::from(corners));
-    let angle = |k: u32, dice: &mut Dice| turned + step * (f64::from(k) + dice.between(-0.3, 0.3));
-    (0..corners).map(|k| radius * unit(angle(k, dice))).collect()
+pub(super) fn convex_polygon(sampler: &mut Sampler, radius: f64, corners: u32) -> Vec<Vector2> {
+    let (turned, step) = (sampler.between(0.0, TAU), TAU / f64::from(corners));
+    let angle = |k: u32, sampler: &mut Sampler| turned + step * (f64::from(k) + sampler.between(-0.3, 0.3));
+    (0..corners).map(|k| radius * unit(angle(k, sampler))).collect()
 }
 
 /// Points on a circle around the origin.

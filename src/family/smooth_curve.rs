@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Family;
-use super::dice::Dice;
 use super::layout::{Aim, Layout, REFERENCE, polar};
-use super::place::{ahead, beside};
+use super::position::{ahead, beside};
+use super::sampler::Sampler;
 use crate::geometry::{Harmonic, Vector2, unit};
 
 pub(super) const FAMILY: Family = Family {
@@ -21,17 +21,17 @@ const ROUND: f64 = 1.0 / 0.08;
 const HOLLOW: f64 = 1.0 / 0.25;
 
 /// Number of angles at which the curvature is computed.
-const PLACES: u32 = 720;
+const ANGLES: u32 = 720;
 /// Factor of the harmonics each time that the curvature is too large.
 const FLATTER: f64 = 0.95;
 
-fn lay(dice: &mut Dice) -> Layout {
-    let hand = dice.side();
-    let radius = dice.between(0.2, 0.35);
+fn lay(sampler: &mut Sampler) -> Layout {
+    let hand = sampler.side();
+    let radius = sampler.between(0.2, 0.35);
     let mut harmonics: Vec<Harmonic> = (2..=5)
         .map(|order| {
-            let amplitude = dice.between(0.0, 0.4) * radius / f64::from(order);
-            Harmonic { order, amplitude, phase: dice.between(-PI, PI) }
+            let amplitude = sampler.between(0.0, 0.4) * radius / f64::from(order);
+            Harmonic { order, amplitude, phase: sampler.between(-PI, PI) }
         })
         .collect();
     let mut bends = bends(radius, &harmonics);
@@ -46,10 +46,10 @@ fn lay(dice: &mut Dice) -> Layout {
     let inwards = if bends.0 < 0.0 { format!(", hollows of {:.0} mm", -1e3 / bends.0) } else { String::new() };
     Layout {
         about: format!("bulges of {:.0} mm{inwards}", 1e3 / bends.1),
-        objects: vec![polar(ahead(dice, hand, &outline), radius, &harmonics)],
+        objects: vec![polar(ahead(sampler, hand, &outline), radius, &harmonics)],
         start: beside(hand),
         aim: Aim::Loop,
-        way: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),
+        path_length: outline.windows(2).map(|ends: &[Vector2]| (ends[1] - ends[0]).norm()).sum(),
         rig: REFERENCE,
     }
 }
@@ -75,5 +75,5 @@ fn distance(radius: f64, harmonics: &[Harmonic], angle: f64) -> [f64; 3] {
 }
 
 fn angles() -> impl Iterator<Item = f64> {
-    (0..=PLACES).map(|k| TAU * f64::from(k) / f64::from(PLACES))
+    (0..=ANGLES).map(|k| TAU * f64::from(k) / f64::from(ANGLES))
 }

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::Family;
-use super::dice::Dice;
 use super::layout::{Aim, Layout, REFERENCE, tunnel};
-use super::place::{before, mouth};
+use super::position::{before, mouth};
+use super::sampler::Sampler;
 use crate::geometry::{Vector2, unit};
 
 pub(super) const FAMILY: Family = Family {
@@ -16,21 +16,21 @@ pub(super) const FAMILY: Family = Family {
 
 const THICKNESS: f64 = 0.02;
 
-fn lay(dice: &mut Dice) -> Layout {
-    let turn = dice.between(10.0, 60.0) / 180.0 * PI;
-    let clear = dice.between(0.18, 0.26);
-    let (length, hand) = (dice.between(0.22, 0.35), dice.side());
+fn lay(sampler: &mut Sampler) -> Layout {
+    let turn = sampler.between(10.0, 60.0) / 180.0 * PI;
+    let clear = sampler.between(0.18, 0.26);
+    let (length, hand) = (sampler.between(0.22, 0.35), sampler.side());
     // The first section is straight ahead.
     let runs: Vec<_> =
-        (0..dice.count(4, 6)).map(|run| (length, if run % 2 == 0 { 0.0 } else { hand * turn })).collect();
-    let from = mouth(dice);
+        (0..sampler.count(4, 6)).map(|run| (length, if run % 2 == 0 { 0.0 } else { hand * turn })).collect();
+    let from = mouth(sampler);
     let along: Vector2 = runs.iter().map(|&(length, heading)| length * unit(from.heading + heading)).sum();
     Layout {
         about: format!("turns of {:.1}°, {:.0} mm clear", turn.to_degrees(), 1e3 * clear),
         objects: vec![tunnel(&from, &runs, clear, THICKNESS)],
         start: before(),
         aim: Aim::Through(from.position + along),
-        way: runs.iter().map(|run| run.0).sum(),
+        path_length: runs.iter().map(|run| run.0).sum(),
         rig: REFERENCE,
     }
 }

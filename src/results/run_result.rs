@@ -310,7 +310,7 @@ impl RunResult {
                 wall_coverage: passage.wall_coverage(),
             }),
             hausdorff_mm: score.hausdorff.map(millimetres),
-            failsafes: failsafes(&run.trace),
+            failsafes: fallbacks(&run.trace),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),
             axis_mm: score.axis.map(|axis| MeanStd::new(Some(axis), 1e3)),
             corners: score.corners.as_ref().map(Corners::new),
@@ -374,13 +374,13 @@ fn shares<S: Serializer>(states: &[StateShare], serializer: S) -> Result<S::Ok, 
     serializer.collect_map(states.iter().map(|StateShare { state, share }| (state, share)))
 }
 
-fn failsafes(trace: &Trace) -> Failsafes {
-    let first = trace.failsafes().next();
+fn fallbacks(trace: &Trace) -> Failsafes {
+    let first = trace.fallbacks().next();
     Failsafes {
-        count: trace.failsafes().count(),
+        count: trace.fallbacks().count(),
         first_s: first.map(|(tick, _)| tick.time),
-        first_state: first.and_then(|(_, failsafe)| trace.states.get(failsafe.left).cloned()),
-        first_cause: first.map(|(_, failsafe)| failsafe.cause.to_string()),
+        first_state: first.and_then(|(_, fallback)| trace.states.get(fallback.left).cloned()),
+        first_cause: first.map(|(_, fallback)| fallback.cause.to_string()),
     }
 }
 

@@ -81,11 +81,11 @@ fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<W
     let line = |(whisker, name): (usize, &'a String)| WhiskerLine {
         whisker: name,
         deflection_rad: tick.deflections[whisker],
-        touching: tick.touches[whisker].is_touching,
-        springs: tick.springs[whisker],
-        tip_m: tick.touches[whisker].tip_world.map(|tip| tip.coords.into()),
-        tip_spread_m: tick.tip_spreads[whisker],
-        tangent: tick.touches[whisker].tangent_world.map(Into::into),
+        touching: tick.contacts[whisker].is_touching,
+        springs: tick.snap_offs[whisker],
+        tip_m: tick.contacts[whisker].tip_world.map(|tip| tip.coords.into()),
+        tip_spread_m: tick.tip_deviations[whisker],
+        tangent: tick.contacts[whisker].tangent_world.map(Into::into),
         recorded: tick.tips[whisker].is_some(),
         marks: marks().filter(|mark| mark.whisker == whisker).map(|mark| mark.mark.name()).collect(),
     };

@@ -12,7 +12,7 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 use super::loop_watch::LoopWatch;
 use super::stall_watch::StallWatch;
-use super::trace::{MarkRecord, TickRecord, Touch, Trace};
+use super::trace::{Contact, MarkRecord, TickRecord, Trace};
 use vibrissa_runtime::control::Control;
 
 /// The result of the control loop.
@@ -36,7 +36,7 @@ pub struct Run {
 }
 
 /// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
-const ROOM: usize = 108_000;
+const INITIAL_CAPACITY: usize = 108_000;
 
 /// Runs `control` in `world` until `stop`. `progress` receives the trace at every tick, and may stop the run. Then the
 /// result is `None`.
@@ -55,11 +55,11 @@ pub fn drive(
         states: program.states.iter().map(|state| state.name.to_string()).collect(),
         parents: program.states.iter().map(|state| state.parent).collect(),
         period,
-        ticks: Vec::with_capacity(most_ticks.min(ROOM)),
+        ticks: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
         marks: Vec::new(),
         crashed: false,
     };
-    let mut tick_times = Vec::with_capacity(most_ticks.min(ROOM));
+    let mut tick_times = Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY));
     let mut watches: [LoopWatch; MAX_WHISKERS] = Default::default();
     let mut stall_watch = stop.stalled.map(StallWatch::new);
     let mut command = Command::STOP;
@@ -131,7 +131,7 @@ fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
     })
 }
 
-fn record(control: &Control, command: Command, failsafe: Option<Fallback>, world: &dyn World) -> TickRecord {
+fn record(control: &Control, command: Command, fallback: Option<Fallback>, world: &dyn World) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
     let mut tick = TickRecord {
         time: perception.time(),
@@ -139,29 +139,29 @@ fn record(control: &Control, command: Command, failsafe: Option<Fallback>, world
         state: machine.failure().is_none().then(|| machine.state()),
         deflections: [0.0; MAX_WHISKERS],
         tips: [None; MAX_WHISKERS],
-        touches: Default::default(),
-        tip_spreads: [0.0; MAX_WHISKERS],
+        contacts: Default::default(),
+        tip_deviations: [0.0; MAX_WHISKERS],
         command,
-        failsafe,
+        fallback,
         tip_ends: [None; MAX_WHISKERS],
         body_touches: world.body_touches(),
-        springs: [false; MAX_WHISKERS],
+        snap_offs: [false; MAX_WHISKERS],
     };
     for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
-        tick.springs[whisker] = world.snapped_off(in_rig);
+        tick.snap_offs[whisker] = world.snapped_off(in_rig);
         tick.tip_ends[whisker] = Some(world.tip(in_rig));
         tick.deflections[whisker] = perception.base_angle(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);
-        tick.touches[whisker] = touch(perception, bound);
-        tick.tip_spreads[whisker] = perception.recorded_deviation(bound);
+        tick.contacts[whisker] = contact(perception, bound);
+        tick.tip_deviations[whisker] = perception.recorded_deviation(bound);
     }
     tick
 }
 
-fn touch(perception: &Perception, whisker: usize) -> Touch {
+fn contact(perception: &Perception, whisker: usize) -> Contact {
     let known = |vector: Vector2| vector.iter().all(|part| part.is_finite()).then_some(vector);
     let vector = |quantity| known(perception.whisker_vector(whisker, quantity));
-    Touch {
+    Contact {
         is_touching: perception.whisker(whisker, WhiskerScalar::Touching) > 0.0,
         tip_world: vector(WhiskerVector::Tip).map(Point2::from),
         tangent_world: vector(WhiskerVector::ContourTangent),

@@ -9,11 +9,11 @@ use crate::scene::LoopClosed;
 /// Least rotation of the platform about a point for a closed loop (rad). It is a full turn minus a possible difference
 /// of the platform's inclination to the surface. A tip that slides back has a rotation of zero, with the same
 /// tolerance.
-const ROUND: f64 = PI;
+const MIN_ROTATION: f64 = PI;
 
 /// Length of the outline along which the first tips are kept (m). A later tip near one of them closes the loop. The
 /// very first tip alone is not sufficient: it may be next to a corner, or off the outline because the contact was new.
-const FIRST_STRETCH: f64 = 0.02;
+const START_LENGTH: f64 = 0.02;
 
 /// Distance (m) between the two tips that give the direction of the outline.
 const CHORD: f64 = 0.002;
@@ -23,8 +23,8 @@ const SAME_SIDE: f64 = 0.5;
 
 /// Limits for consecutive tips along the outline, in ticks (1) and distance (m). The score connects tips by the same
 /// limits.
-const LONGEST_BREAK: usize = 3;
-const LONGEST_STEP: f64 = 0.01;
+const MAX_MISSED_TICKS: usize = 3;
+const MAX_STEP: f64 = 0.01;
 
 /// Compares one whisker's tips with its first ones.
 #[derive(Debug, Clone, Default)]
@@ -33,7 +33,7 @@ pub(super) struct LoopWatch {
     /// The platform's bearing from the first tip (rad).
     bearing: f64,
     /// Rotation of that bearing since then (rad), counter-clockwise positive.
-    turned: f64,
+    rotation: f64,
     /// The newest consecutive tips, back to one [`CHORD`] behind.
     newest: VecDeque<Point2>,
     /// Ticks since the newest tip.
@@ -46,7 +46,7 @@ struct Start {
     /// Time of the first tip (s).
     time: f64,
     /// The first tip (m, world frame).
-    place: Point2,
+    position: Point2,
     /// The first tips.
     tips: Vec<FirstTip>,
     /// Length of the outline along them (m).
@@ -57,11 +57,11 @@ struct Start {
 #[derive(Debug, Clone, Copy)]
 struct FirstTip {
     /// Its position (m, world frame).
-    place: Point2,
+    position: Point2,
     /// Normal of the outline, towards the platform's side.
     normal: Vector2,
     /// Rotation of the platform about the very first tip up to this tip (rad).
-    turned: f64,
+    rotation: f64,
 }
 
 impl LoopWatch {
@@ -70,12 +70,12 @@ impl LoopWatch {
     /// platform has rotated about it since. A tip that slid back is also near the first ones, and so is a tip on the
     /// other side of a thin wall.
     pub(super) fn closes(&mut self, time: f64, tip: Option<Point2>, platform: Point2, aim: &LoopClosed) -> bool {
-        let begun = tip.map(|place| Start { time, place, tips: Vec::new(), length: 0.0 });
+        let begun = tip.map(|position| Start { time, position, tips: Vec::new(), length: 0.0 });
         let Some(start) = self.start.take().or(begun) else { return false };
-        let from_start = platform - start.place;
+        let from_start = platform - start.position;
         let bearing = from_start.y.atan2(from_start.x);
         if time > start.time {
-            self.turned += turn_between(self.bearing, bearing);
+            self.rotation += turn_between(self.bearing, bearing);
         }
         self.bearing = bearing;
         let start = self.start.insert(start);
@@ -85,7 +85,7 @@ impl LoopWatch {
         };
 
         let step = self.newest.back().map(|last| (tip - last).norm());
-        let step = step.filter(|step| self.missed < LONGEST_BREAK && *step <= LONGEST_STEP);
+        let step = step.filter(|step| self.missed < MAX_MISSED_TICKS && *step <= MAX_STEP);
         self.missed = 0;
         if step.is_none() {
             self.newest.clear();
@@ -101,15 +101,19 @@ impl LoopWatch {
         }
         let left = perpendicular(chord.normalize());
         let normal = if left.dot(&(platform - tip)) < 0.0 { -left } else { left };
-        if start.length <= FIRST_STRETCH {
-            let places = if start.tips.is_empty() { vec![behind, tip] } else { vec![tip] };
-            start.tips.extend(places.into_iter().map(|place| FirstTip { place, normal, turned: self.turned }));
+        if start.length <= START_LENGTH {
+            let positions = if start.tips.is_empty() { vec![behind, tip] } else { vec![tip] };
+            start.tips.extend(positions.into_iter().map(|position| FirstTip {
+                position,
+                normal,
+                rotation: self.rotation,
+            }));
             start.length += step.unwrap_or(0.0);
         }
         let is_back = |first: &FirstTip| {
-            (tip - first.place).norm() <= aim.within
+            (tip - first.position).norm() <= aim.within
                 && first.normal.dot(&normal) >= SAME_SIDE
-                && (self.turned - first.turned).abs() >= ROUND
+                && (self.rotation - first.rotation).abs() >= MIN_ROTATION
         };
         time - start.time >= aim.after && start.tips.iter().any(is_back)
     }
@@ -141,8 +145,8 @@ mod tests {
 
     #[test]
     fn a_tip_that_goes_round_closes_the_loop_either_way() {
-        for way in [1.0, -1.0] {
-            let closing = closing_time((0..100).map(|tick| way * 0.1 * f64::from(tick)));
+        for direction in [1.0, -1.0] {
+            let closing = closing_time((0..100).map(|tick| direction * 0.1 * f64::from(tick)));
             assert_eq!(closing.map(|time| (time * 10.0).round()), Some(63.0), "at a whole turn");
         }
     }
@@ -152,15 +156,15 @@ mod tests {
     fn round(corners: &[Point2], lean: impl Fn(f64) -> f64) -> impl Iterator<Item = (Point2, Point2)> {
         let contour = polygon(corners).unwrap();
         (0..1200).map(move |tick| {
-            let way = 0.0015 * f64::from(tick);
-            let along = (0.002 + way) % contour.length();
+            let distance = 0.0015 * f64::from(tick);
+            let along = (0.002 + distance) % contour.length();
             let (tip, tangent) = (contour.point_at(along), contour.tangent_at(along));
-            (tip, tip - 0.1 * rotate(perpendicular(tangent), lean(way)))
+            (tip, tip - 0.1 * rotate(perpendicular(tangent), lean(distance)))
         })
     }
 
     /// The distance along the path (m) after which these tips close the loop.
-    fn closing_way(corners: &[Point2], lean: impl Fn(f64) -> f64) -> Option<f64> {
+    fn closing_distance(corners: &[Point2], lean: impl Fn(f64) -> f64) -> Option<f64> {
         let mut watch = LoopWatch::default();
         let mut ticks = round(corners, lean).zip(0_u32..);
         let closing =
@@ -179,16 +183,22 @@ mod tests {
             // A rhombus with sides of 0.1 m and a corner of this angle.
             let (a, b) = (0.1 * unit(0.0), 0.1 * unit(degrees.to_radians()));
             let corners = [Point2::origin(), Point2::from(a), Point2::from(a + b), Point2::from(b)];
-            let way = closing_way(&corners, |_| 0.0);
-            assert!(way.is_some_and(|way| (way - 0.4).abs() < 2.0 * AIM.within), "{degrees} deg: {way:?}");
+            let distance = closing_distance(&corners, |_| 0.0);
+            assert!(
+                distance.is_some_and(|distance| (distance - 0.4).abs() < 2.0 * AIM.within),
+                "{degrees} deg: {distance:?}"
+            );
         }
     }
 
     #[test]
     fn a_tip_behind_a_thin_wall_does_not_close_the_loop_and_one_that_comes_round_it_does() {
         for thickness in [0.0005, 0.002, 0.0045] {
-            let way = closing_way(&wall(thickness), |_| 0.0);
-            assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{thickness} m: {way:?}");
+            let distance = closing_distance(&wall(thickness), |_| 0.0);
+            assert!(
+                distance.is_some_and(|distance| (distance - 0.8).abs() < 3.0 * AIM.within),
+                "{thickness} m: {distance:?}"
+            );
         }
     }
 
@@ -197,8 +207,11 @@ mod tests {
         for lean in [0.4, 0.6, -0.6] {
             // With a lean to one side at first and to the other from then on, the platform rotates by up to 250 deg on
             // the way to the other side.
-            let way = closing_way(&wall(0.002), |way| if way < 0.01 { -lean } else { lean });
-            assert!(way.is_some_and(|way| (way - 0.8).abs() < 3.0 * AIM.within), "{lean} rad: {way:?}");
+            let distance = closing_distance(&wall(0.002), |distance| if distance < 0.01 { -lean } else { lean });
+            assert!(
+                distance.is_some_and(|distance| (distance - 0.8).abs() < 3.0 * AIM.within),
+                "{lean} rad: {distance:?}"
+            );
         }
     }
 
@@ -206,8 +219,8 @@ mod tests {
     fn a_start_at_the_end_of_a_thin_wall_has_first_tips_on_both_sides() {
         // From 12 mm before the end on, so that the first 20 mm of the outline go round it.
         let [_, near, far, back, front] = wall(0.003);
-        let way = closing_way(&[Point2::new(0.388, 0.0), near, far, back, front], |_| 0.0);
-        assert!(way.is_some_and(|way| (way - 0.806).abs() < 3.0 * AIM.within), "{way:?}");
+        let distance = closing_distance(&[Point2::new(0.388, 0.0), near, far, back, front], |_| 0.0);
+        assert!(distance.is_some_and(|distance| (distance - 0.806).abs() < 3.0 * AIM.within), "{distance:?}");
     }
 
     #[test]

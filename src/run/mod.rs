@@ -6,4 +6,4 @@ mod stall_watch;
 mod trace;
 
 pub use drive::{Run, drive};
-pub use trace::{MarkRecord, TickRecord, Touch, Trace};
+pub use trace::{Contact, MarkRecord, TickRecord, Trace};

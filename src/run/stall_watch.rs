@@ -12,23 +12,23 @@ use super::trace::TickRecord;
 #[derive(Debug)]
 pub(super) struct StallWatch {
     limit: Stalled,
-    body: Places,
-    tips: [Places; MAX_WHISKERS],
+    body: Positions,
+    tips: [Positions; MAX_WHISKERS],
     /// Time of the last progress (s).
     newest: f64,
 }
 
 impl StallWatch {
     pub(super) fn new(limit: Stalled) -> Self {
-        Self { limit, body: Places::default(), tips: Default::default(), newest: 0.0 }
+        Self { limit, body: Positions::default(), tips: Default::default(), newest: 0.0 }
     }
 
     /// Receives a tick. Returns the reason if the run has stalled.
     pub(super) fn stalls(&mut self, tick: &TickRecord) -> Option<String> {
         let Stalled { within, after } = self.limit;
         let mut is_new = self.body.add(tick.body.position, within);
-        for (places, tip) in self.tips.iter_mut().zip(tick.tips) {
-            is_new |= tip.is_some_and(|tip| places.add(tip, within));
+        for (positions, tip) in self.tips.iter_mut().zip(tick.tips) {
+            is_new |= tip.is_some_and(|tip| positions.add(tip, within));
         }
         if is_new {
             self.newest = tick.time;
@@ -42,24 +42,24 @@ impl StallWatch {
 
 /// Positions by the squares of a grid.
 #[derive(Debug, Default)]
-struct Places(HashMap<(i64, i64), Vec<Point2>>);
+struct Positions(HashMap<(i64, i64), Vec<Point2>>);
 
-impl Places {
+impl Positions {
     /// Adds a position if it is farther than `within` (m) from all earlier ones. Returns true if it is.
-    fn add(&mut self, place: Point2, within: f64) -> bool {
-        if !(place.x.is_finite() && place.y.is_finite()) {
+    fn add(&mut self, position: Point2, within: f64) -> bool {
+        if !(position.x.is_finite() && position.y.is_finite()) {
             return false;
         }
         #[expect(clippy::cast_possible_truncation, reason = "a place that far off shares its square with others")]
-        let (column, row) = ((place.x / within).floor() as i64, (place.y / within).floor() as i64);
+        let (column, row) = ((position.x / within).floor() as i64, (position.y / within).floor() as i64);
         let around = |square: i64| [square.saturating_sub(1), square, square.saturating_add(1)];
         let mut squares = around(column).into_iter().flat_map(|x| around(row).map(|y| (x, y)));
         let is_known = squares.any(|square| {
-            let places = self.0.get(&square);
-            places.is_some_and(|places| places.iter().any(|known| (place - known).norm() <= within))
+            let positions = self.0.get(&square);
+            positions.is_some_and(|positions| positions.iter().any(|known| (position - known).norm() <= within))
         });
         if !is_known {
-            self.0.entry((column, row)).or_default().push(place);
+            self.0.entry((column, row)).or_default().push(position);
         }
         !is_known
     }
@@ -85,13 +85,13 @@ mod tests {
                 state: None,
                 deflections: [0.0; MAX_WHISKERS],
                 tips,
-                touches: Default::default(),
-                tip_spreads: [0.0; MAX_WHISKERS],
+                contacts: Default::default(),
+                tip_deviations: [0.0; MAX_WHISKERS],
                 command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
-                failsafe: None,
+                fallback: None,
                 tip_ends: [None; MAX_WHISKERS],
                 body_touches: false,
-                springs: [false; MAX_WHISKERS],
+                snap_offs: [false; MAX_WHISKERS],
             }
         });
         ticks.find(|tick| watch.stalls(tick).is_some()).map(|tick| tick.time)

@@ -50,25 +50,25 @@ pub struct TickRecord {
     /// Tip estimates that the policy recorded (m, world frame).
     pub tips: [Option<Point2>; MAX_WHISKERS],
     /// The perceived contacts of the whiskers, recorded or not.
-    pub touches: [Touch; MAX_WHISKERS],
+    pub contacts: [Contact; MAX_WHISKERS],
     /// Standard deviation of each tip position (m), as reported by the contact estimator.
-    pub tip_spreads: [f64; MAX_WHISKERS],
+    pub tip_deviations: [f64; MAX_WHISKERS],
     /// The command of the tick.
     pub command: Command,
     /// The fallback transition of the tick, if there was one.
-    pub failsafe: Option<Fallback>,
+    pub fallback: Option<Fallback>,
     /// True position of the end of each whisker's axis (m, world frame). `None` for a whisker that the trace does not
     /// have. Policies cannot read it.
     pub tip_ends: [Option<Point2>; MAX_WHISKERS],
     /// True if the platform's body touched something since the last tick. Policies cannot read it.
     pub body_touches: bool,
     /// True for each whisker with a snap-off since the last tick, for instance at a corner. Policies cannot read it.
-    pub springs: [bool; MAX_WHISKERS],
+    pub snap_offs: [bool; MAX_WHISKERS],
 }
 
 /// The perceived contact of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Touch {
+pub struct Contact {
     /// True if the magnitude of the base angle exceeds the rig's contact threshold.
     pub is_touching: bool,
     /// Estimated position of the tip (m, world frame), also without contact. `None` in a tick without a reading.
@@ -80,8 +80,8 @@ pub struct Touch {
 
 impl Trace {
     /// The ticks with a fallback transition, and its cause.
-    pub fn failsafes(&self) -> impl Iterator<Item = (&TickRecord, Fallback)> {
-        self.ticks.iter().filter_map(|tick| Some((tick, tick.failsafe?)))
+    pub fn fallbacks(&self) -> impl Iterator<Item = (&TickRecord, Fallback)> {
+        self.ticks.iter().filter_map(|tick| Some((tick, tick.fallback?)))
     }
 
     /// The recorded tips of one whisker with the ticks' indices.

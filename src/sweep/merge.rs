@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::header::Header;
 use super::line::read_line;
 use super::lines::Lines;
-use super::results::{self, ResultsError, check_place};
+use super::results::{self, ResultsError, check_path};
 use super::shard::Shard;
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
@@ -90,8 +90,8 @@ impl Merged {
     ///
     /// # Errors
     /// [`ResultsError`] if the file has other content, or if a sweep is writing to it.
-    pub(crate) fn check_place(&self, path: &Path) -> Result<Option<File>, ResultsError> {
-        check_place(path, &self.header.of_shard(Shard::WHOLE))
+    pub fn check_path(&self, path: &Path) -> Result<Option<File>, ResultsError> {
+        check_path(path, &self.header.of_shard(Shard::WHOLE))
     }
 
     /// The runs without a result.

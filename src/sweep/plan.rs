@@ -163,12 +163,12 @@ impl Plan {
         let policy = &self.policies[run.policy];
         let mut program = policy.value.clone();
         let mut settings = Vec::new();
-        for (name, quantity, place) in run.parameters() {
+        for (name, quantity, span) in run.parameters() {
             let set = program.set(name, quantity.value_si, quantity.dimension);
-            set.map_err(|cause| LoadError::at(&self.source, run.unfit(Some(place), &cause.to_string())))?;
+            set.map_err(|cause| LoadError::at(&self.source, run.unfit(Some(span), &cause.to_string())))?;
             settings.push((name, quantity.value_si));
         }
-        let (place, text, drawn_speed) = self.scenario(run)?;
+        let (path, text, drawn_speed) = self.scenario(run)?;
         if let Some(speed) = drawn_speed {
             let set = program.set("speed", speed, Dimension::SPEED);
             set.map_err(|cause| LoadError::at(&self.source, run.unfit(None, &cause.to_string())))?;
@@ -176,7 +176,7 @@ impl Plan {
         }
         let mut scenario_hash = Sha256::new_with_prefix(&text.text);
         let scene = run.scene(&text, &self.source, &mut |name| {
-            let bytes = self.file(&place, name)?;
+            let bytes = self.file(&path, name)?;
             scenario_hash.update([0]);
             scenario_hash.update(&bytes);
             Ok(bytes)
@@ -210,9 +210,9 @@ impl Plan {
                 let speed = given.map(|(_, speed, _)| speed.value_si);
                 let draw = family.draw_at(scenes.family_seed(), run.trial, speed);
                 let draw = draw.map_err(|fault| match given {
-                    Some((.., place)) => PlanError::Load(LoadError::at(
+                    Some((.., span)) => PlanError::Load(LoadError::at(
                         &self.source,
-                        run.unfit(Some(place), "the family has no scene at this speed"),
+                        run.unfit(Some(span), "the family has no scene at this speed"),
                     )),
                     None => PlanError::Draw(fault),
                 })?;

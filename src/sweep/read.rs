@@ -15,7 +15,7 @@ const POLICIES: &str = "[../policies/vibrissa.fsm]";
 const VALUES: &str = "[2 cm/s, 5 cm/s]";
 
 /// The most trials of one source of scenes, and the most runs of a sweep. A merge holds all results in memory.
-const MOST_RUNS: u64 = 1_000_000;
+const MAX_RUNS: u64 = 1_000_000;
 
 /// Reads a sweep. The list of errors is not empty and in the order of the text.
 pub(super) fn read(source: &Source) -> Result<Sweep, Vec<Diagnostic>> {
@@ -28,8 +28,8 @@ pub(super) fn read(source: &Source) -> Result<Sweep, Vec<Diagnostic>> {
 
 fn read_sweep(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Sweep> {
     let hint = "write at least `name`, `policies` and `scenes`; see sweeps/corners.yaml";
-    let place = root_place(reader, tree, "sweep", hint)?;
-    let mut fields = Fields::of(reader, tree, "a sweep", place)?;
+    let span = root_place(reader, tree, "sweep", hint)?;
+    let mut fields = Fields::of(reader, tree, "a sweep", span)?;
     let name = fields
         .required("name", "corners")
         .and_then(|entry| name(reader, entry, "a sweep", "results are filed under this name"));
@@ -44,16 +44,16 @@ fn read_sweep(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Sweep> {
     let sweep = Sweep { name: name?, policies: policies?, scenes: scenes?, axes: axes? };
     match (sweep.count(), scenes_entry) {
         (None, Some(entry)) => too_many(reader, entry.key.span),
-        (Some(runs), Some(entry)) if runs > MOST_RUNS => too_many(reader, entry.key.span),
+        (Some(runs), Some(entry)) if runs > MAX_RUNS => too_many(reader, entry.key.span),
         _ => return Some(sweep),
     }
     None
 }
 
-fn too_many(reader: &mut Reader<'_>, place: Span) {
-    let message = format!("a sweep has at most {MOST_RUNS} runs");
+fn too_many(reader: &mut Reader<'_>, span: Span) {
+    let message = format!("a sweep has at most {MAX_RUNS} runs");
     let label = "with every value and every policy it is more";
-    let fault = Diagnostic::error(fault::RANGE, message, place, label);
+    let fault = Diagnostic::error(fault::RANGE, message, span, label);
     reader.report(fault.hint("make several sweeps of it, or `trials` fewer"));
 }
 
@@ -70,13 +70,13 @@ fn some<'n>(reader: &mut Reader<'_>, entry: &'n Entry, expected: &str, example: 
 }
 
 /// Reports a repeated item, whose runs would be the same.
-fn check_new<K: Ord>(reader: &mut Reader<'_>, seen: &mut BTreeMap<K, Span>, key: K, place: Span, name: &str) {
+fn check_new<K: Ord>(reader: &mut Reader<'_>, seen: &mut BTreeMap<K, Span>, key: K, span: Span, name: &str) {
     if let Some(first) = seen.get(&key) {
         let message = format!("`{name}` is there twice, and its runs would be too");
-        let fault = Diagnostic::error(fault::REPEATED, message, place, "the second one");
+        let fault = Diagnostic::error(fault::REPEATED, message, span, "the second one");
         reader.report(fault.note(*first, "the first one").hint("take one out, or make them differ"));
     } else {
-        seen.insert(key, place);
+        seen.insert(key, span);
     }
 }
 
@@ -111,7 +111,7 @@ fn read_scenes(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<SweepScen
     let mut fields = Fields::of(reader, item, "a source of scenes", reader.extent(item))?;
     let (family_entry, scenario_entry) = (fields.entry("family"), fields.entry("scenario"));
     let trials = match fields.entry("trials") {
-        Some(entry) => reader.count(&entry.value, "trials", 1..=MOST_RUNS, 100),
+        Some(entry) => reader.count(&entry.value, "trials", 1..=MAX_RUNS, 100),
         None => Some(1),
     };
     let seed = match fields.entry("seed") {
@@ -161,9 +161,9 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
         _ => Vec::new(),
     };
     let (parameters, keys): (Vec<Placed<String>>, Vec<Placed<String>>) = (names(policy), names(scenario));
-    let places: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
+    let spans: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
     for Placed { value, span } in &parameters {
-        if let Some(&other) = places.get(value.as_str()) {
+        if let Some(&other) = spans.get(value.as_str()) {
             let message = format!("two things called `{value}` vary");
             let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "a parameter of the policies");
             let fault = fault.note(other, "a key of the scenarios of the same name");
@@ -178,10 +178,10 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
         }
         for (end, _) in value.match_indices('.') {
             let above = &value[..end];
-            if let Some(&place) = places.get(above) {
+            if let Some(&outer) = spans.get(above) {
                 let message = format!("`{above}` and `{value}` cannot both vary");
                 let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "this key");
-                let fault = fault.note(place, "is in this one, which has values, too");
+                let fault = fault.note(outer, "is in this one, which has values, too");
                 reader.report(fault.hint(format!("vary `{above}` as a whole, or the keys in it one by one")));
             }
         }
@@ -247,7 +247,7 @@ fn changes(_: &mut Reader<'_>, path: &Placed<String>, items: &[Placed<Node>]) ->
 }
 
 /// The error of a policy, or of a value for one, at a span.
-pub(super) fn unfit(place: Span, reason: &str) -> Diagnostic {
-    let fault = Diagnostic::error(fault::UNFIT, "the policy cannot be run so", place, reason);
+pub(super) fn unfit(span: Span, reason: &str) -> Diagnostic {
+    let fault = Diagnostic::error(fault::UNFIT, "the policy cannot be run so", span, reason);
     fault.hint("what varies of a policy are parameters that all policies have; those of families have a `speed`")
 }

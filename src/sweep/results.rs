@@ -156,7 +156,7 @@ impl Results {
 
 /// Checks that results with this `header` may replace the file at `path`: there is none, or it has results of the same
 /// sweep. While the returned file is open, no sweep writes to it.
-pub(super) fn check_place(path: &Path, header: &Header) -> Result<Option<File>, ResultsError> {
+pub(super) fn check_path(path: &Path, header: &Header) -> Result<Option<File>, ResultsError> {
     // Anything but a regular file has no content that could be lost.
     if !path.is_file() {
         return Ok(None);

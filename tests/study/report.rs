@@ -72,7 +72,7 @@ fn a_result_tells_of_failsafes() {
     let mut run = half_round();
     let flaw = NonFinite { part: ActionPart::Speed, is_nan: true };
     for tick in [7, 300] {
-        run.trace.ticks[tick].failsafe = Some(Fallback { left: 1, cause: Cause::NotFinite(flaw) });
+        run.trace.ticks[tick].fallback = Some(Fallback { left: 1, cause: Cause::NotFinite(flaw) });
     }
     let failsafes = result(&run).failsafes;
     assert_eq!((failsafes.count, failsafes.first_state.as_deref()), (2, Some("Swiping")));

@@ -3,7 +3,7 @@
 use svg::node::element::{Group, Rectangle};
 
 use super::label::{LINE, Label};
-use super::layout::{Place, Size};
+use super::layout::{Position, Size};
 use super::wrap::letters;
 use crate::report::style::{self, Anchor, px, text};
 
@@ -84,7 +84,7 @@ impl Caption {
     }
 
     /// The block around `centre`, on a ground that covers the line behind it.
-    pub(super) fn draw(&self, centre: Place) -> Group {
+    pub(super) fn draw(&self, centre: Position) -> Group {
         if self.entries.is_empty() {
             return Group::new();
         }

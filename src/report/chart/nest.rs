@@ -5,7 +5,7 @@
 //! the inside can be laid out before the position of the box is known. The positions at which arrows pass the side
 //! follow from the inside.
 
-use super::layout::{Arrow, Edge, Layout, Node, Place, Size, Way, layout, ranks};
+use super::layout::{Arrow, Edge, Layout, Node, Position, Route, Size, layout, ranks};
 use super::symbol::Symbol;
 use crate::policy::chart::Chart;
 
@@ -26,9 +26,9 @@ pub(super) struct Span {
 /// Positions of all symbols and arrows. The origin is the upper left corner.
 pub(super) struct Arrangement {
     /// The centre and the size of each symbol.
-    pub(super) symbols: Vec<(Place, Size)>,
+    pub(super) symbols: Vec<(Position, Size)>,
     /// The path of each arrow.
-    pub(super) ways: Vec<Way>,
+    pub(super) routes: Vec<Route>,
     /// The size of the arrangement.
     pub(super) size: Size,
 }
@@ -38,17 +38,17 @@ pub(super) struct Arrangement {
 pub(super) fn arrange(chart: &Chart, symbols: &[Symbol], beside: &[Size], spans: &[Span]) -> Arrangement {
     let nest = Nest { chart, symbols, beside, spans };
     let inside = nest.lay_out(None, &[]);
-    let empty = || Way { points: Vec::new(), label: (0.0, 0.0) };
+    let empty = || Route { points: Vec::new(), label: (0.0, 0.0) };
     let mut arrangement = Arrangement {
         symbols: vec![((0.0, 0.0), (0.0, 0.0)); symbols.len()],
-        ways: spans.iter().map(|_| empty()).collect(),
+        routes: spans.iter().map(|_| empty()).collect(),
         size: inside.size,
     };
-    for (symbol, place, size) in inside.symbols {
-        arrangement.symbols[symbol] = (place, size);
+    for (symbol, position, size) in inside.symbols {
+        arrangement.symbols[symbol] = (position, size);
     }
-    for (span, way) in inside.ways {
-        arrangement.ways[span] = way;
+    for (span, route) in inside.routes {
+        arrangement.routes[span] = route;
     }
     arrangement
 }
@@ -70,9 +70,9 @@ struct Passage {
 /// The inside of a box, relative to its upper left corner.
 struct Inside {
     size: Size,
-    symbols: Vec<(usize, Place, Size)>,
+    symbols: Vec<(usize, Position, Size)>,
     /// The paths of the arrows in it, or parts of them.
-    ways: Vec<(usize, Way)>,
+    routes: Vec<(usize, Route)>,
     /// The horizontal position of each passage.
     passages: Vec<f64>,
 }
@@ -130,8 +130,8 @@ impl Nest<'_> {
         let nodes: Vec<Node> = nodes.chain(at_edge).chain(title).collect();
         let port = |member: usize, span: usize| {
             let inner = inner[member].as_ref()?;
-            let place = inner_passages[member].iter().position(|passage| passage.span == span)?;
-            Some(inner.passages[place] - 0.5 * inner.size.0)
+            let position = inner_passages[member].iter().position(|passage| passage.span == span)?;
+            Some(inner.passages[position] - 0.5 * inner.size.0)
         };
         let own = spans.iter().map(|&(span, from, to)| Arrow {
             from,
@@ -183,27 +183,27 @@ impl Nest<'_> {
         inner: Vec<Option<Inside>>,
     ) -> Inside {
         let margin = if is_box { MARGIN } else { 0.0 };
-        let moved = |(x, y): Place| (x + margin, y + margin);
+        let moved = |(x, y): Position| (x + margin, y + margin);
         let size = (layout.size.0 + 2.0 * margin, layout.size.1 + 2.0 * margin);
         let mut inside = Inside {
             size,
             symbols: Vec::new(),
-            ways: Vec::new(),
+            routes: Vec::new(),
             passages: (0..passages.len()).map(|k| moved(layout.nodes[members.len() + k].0).0).collect(),
         };
-        for (&span, way) in spans.iter().zip(layout.ways) {
-            let mut points: Vec<Place> = way.points.into_iter().map(moved).collect();
+        for (&span, route) in spans.iter().zip(layout.routes) {
+            let mut points: Vec<Position> = route.points.into_iter().map(moved).collect();
             // An arrow that passes a side extends to it.
             if let Some(passage) = passages.iter().find(|passage| passage.span == span) {
                 let y = if passage.edge == Edge::Top { 0.0 } else { size.1 };
-                let is_at = |point: Option<&Place>| point.map_or(f64::INFINITY, |point| (point.1 - y).abs());
+                let is_at = |point: Option<&Position>| point.map_or(f64::INFINITY, |point| (point.1 - y).abs());
                 if is_at(points.first()) < is_at(points.last()) {
                     points.insert(0, (points[0].0, y));
                 } else if let Some(&(x, _)) = points.last() {
                     points.push((x, y));
                 }
             }
-            inside.ways.push((span, Way { points, label: moved(way.label) }));
+            inside.routes.push((span, Route { points, label: moved(route.label) }));
         }
         for ((k, &member), inner) in members.iter().enumerate().zip(inner) {
             let (centre, width) = layout.nodes[k];
@@ -213,14 +213,16 @@ impl Nest<'_> {
                 continue;
             };
             let corner = (centre.0 - 0.5 * inner.size.0, centre.1 - 0.5 * inner.size.1);
-            let moved = |(x, y): Place| (x + corner.0, y + corner.1);
+            let moved = |(x, y): Position| (x + corner.0, y + corner.1);
             inside.symbols.push((member, centre, inner.size));
-            inside.symbols.extend(inner.symbols.into_iter().map(|(symbol, place, size)| (symbol, moved(place), size)));
-            for (span, way) in inner.ways {
-                let points: Vec<Place> = way.points.into_iter().map(moved).collect();
-                match inside.ways.iter_mut().find(|(known, _)| *known == span) {
+            inside
+                .symbols
+                .extend(inner.symbols.into_iter().map(|(symbol, position, size)| (symbol, moved(position), size)));
+            for (span, route) in inner.routes {
+                let points: Vec<Position> = route.points.into_iter().map(moved).collect();
+                match inside.routes.iter_mut().find(|(known, _)| *known == span) {
                     Some((_, known)) => join(&mut known.points, points),
-                    None => inside.ways.push((span, Way { points, label: moved(way.label) })),
+                    None => inside.routes.push((span, Route { points, label: moved(route.label) })),
                 }
             }
         }
@@ -229,8 +231,8 @@ impl Nest<'_> {
 }
 
 /// Appends a part of a path to the end of the rest at which it continues.
-fn join(points: &mut Vec<Place>, part: Vec<Place>) {
-    let distance = |a: Option<&Place>, b: Option<&Place>| match (a, b) {
+fn join(points: &mut Vec<Position>, part: Vec<Position>) {
+    let distance = |a: Option<&Position>, b: Option<&Position>| match (a, b) {
         (Some(a), Some(b)) => (a.0 - b.0).hypot(a.1 - b.1),
         _ => f64::INFINITY,
     };

@@ -4,7 +4,7 @@ use svg::node::element::{Group, Path};
 
 use super::caption::Caption;
 use super::label::Label;
-use super::layout::Place;
+use super::layout::Position;
 use super::nest::{Span, arrange};
 use super::symbol::Symbol;
 use crate::policy::chart::{Chart, Origin, Target, Transition};
@@ -73,14 +73,14 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     for (symbol, &(centre, size)) in symbols.iter().zip(&layout.symbols).filter(|(symbol, _)| holds_others(**symbol)) {
         drawing = drawing.add(symbol.draw_frame(chart, centre, size));
     }
-    for way in &layout.ways {
-        drawing = drawing.add(line(curve(&way.points)));
-        if let [.., before, tip] = way.points[..] {
+    for route in &layout.routes {
+        drawing = drawing.add(line(curve(&route.points)));
+        if let [.., before, tip] = route.points[..] {
             drawing = drawing.add(arrowhead(tip, (0.0, (tip.1 - before.1).signum())));
         }
     }
-    for (link, way) in links.iter().zip(&layout.ways) {
-        drawing = drawing.add(link.caption.draw(way.label));
+    for (link, route) in links.iter().zip(&layout.routes) {
+        drawing = drawing.add(link.caption.draw(route.label));
     }
     for link in &loops {
         let ((x, y), (width, _)) = layout.symbols[link.from];
@@ -170,18 +170,18 @@ fn links(chart: &Chart, symbols: &[Symbol]) -> Vec<Link> {
         }
     }
     let caption = if chart.is_overview { Caption::brief } else { Caption::new };
-    let place = |symbol: Symbol| symbols.iter().position(|other| *other == symbol);
+    let position = |symbol: Symbol| symbols.iter().position(|other| *other == symbol);
     let link = |(from, to, labels): (Symbol, Symbol, Vec<Label>)| {
         let colour = if to == Symbol::Failure { style::ALARM } else { style::GREY };
-        Some(Link { from: place(from)?, to: place(to)?, caption: caption(&labels, colour) })
+        Some(Link { from: position(from)?, to: position(to)?, caption: caption(&labels, colour) })
     };
     bundles.into_iter().filter_map(link).collect()
 }
 
 /// A curve through points. It is vertical at all of them.
-fn curve(points: &[Place]) -> Outline {
+fn curve(points: &[Position]) -> Outline {
     let mut curve = Outline::default();
-    let mut before: Option<Place> = None;
+    let mut before: Option<Position> = None;
     for &(x, y) in points {
         match before {
             None => curve.move_to((x, y)),
@@ -198,7 +198,7 @@ fn line(outline: Outline) -> Path {
 }
 
 /// The head of an arrow with its end at `tip` in a direction (a unit vector).
-fn arrowhead(tip: Place, direction: Place) -> Path {
+fn arrowhead(tip: Position, direction: Position) -> Path {
     let (length, half) = ARROWHEAD;
     let back = (tip.0 - length * direction.0, tip.1 - length * direction.1);
     let side = (-half * direction.1, half * direction.0);

@@ -3,7 +3,7 @@
 use svg::node::element::{Circle, Group, Rectangle};
 
 use super::label::{ANY_STATE, FAILURE, arguments, hidden, signature};
-use super::layout::{Place, Size};
+use super::layout::{Position, Size};
 use crate::policy::chart::Chart;
 use crate::report::shade::shades;
 use crate::report::style::{self, Anchor, px, text, width_of};
@@ -15,7 +15,7 @@ const REMARK: f64 = 11.0;
 const HEIGHT: f64 = 34.0;
 const LINE: f64 = 16.0;
 /// Least width of a box, and space beside its texts (px).
-const LEAST_WIDTH: f64 = 96.0;
+const MIN_WIDTH: f64 = 96.0;
 const BESIDE: f64 = 14.0;
 /// Diameter of the start symbol (px).
 const START: f64 = 14.0;
@@ -52,7 +52,7 @@ impl Symbol {
     }
 
     /// The frame of a state with inner states, and its title.
-    pub(super) fn draw_frame(self, chart: &Chart, (x, y): Place, (width, height): Size) -> Group {
+    pub(super) fn draw_frame(self, chart: &Chart, (x, y): Position, (width, height): Size) -> Group {
         let (left, top) = (x - 0.5 * width, y - 0.5 * height);
         let frame = Rectangle::new().set("x", px(left)).set("y", px(top)).set("rx", 10);
         let frame = frame.set("width", px(width)).set("height", px(height));
@@ -77,11 +77,11 @@ impl Symbol {
         let remarks = self.remarks(chart);
         let widths = remarks.iter().map(|remark| width_of(remark, REMARK)).chain([width_of(self.name(chart), NAME)]);
         let width = widths.fold(0.0, f64::max) + 2.0 * BESIDE;
-        (width.max(LEAST_WIDTH), HEIGHT + LINE * remarks.len() as f64)
+        (width.max(MIN_WIDTH), HEIGHT + LINE * remarks.len() as f64)
     }
 
     /// The symbol around `centre`, with this `width`.
-    pub(super) fn draw(self, chart: &Chart, (x, y): Place, width: f64) -> Group {
+    pub(super) fn draw(self, chart: &Chart, (x, y): Position, width: f64) -> Group {
         if matches!(self, Self::Start(_)) {
             let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", px(0.5 * START));
             return Group::new().add(dot.set("fill", style::INK));

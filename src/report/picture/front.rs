@@ -78,20 +78,20 @@ impl Panel {
     fn draw(&self, cost: &str, error: &str, points: &[FrontPoint]) -> Group {
         let (right, bottom) = (self.left + PANEL.0, TOP + PANEL.1);
         let mut group = Group::new();
-        for (place, label) in round_values(&self.x) {
-            group = group.add(line((place, TOP), (place, bottom), style::GRID, 1.0));
-            group = group.add(text(place, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
+        for (position, label) in round_values(&self.x) {
+            group = group.add(line((position, TOP), (position, bottom), style::GRID, 1.0));
+            group = group.add(text(position, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
         }
-        for (place, label) in round_values(&self.y) {
-            group = group.add(line((self.left, place), (right, place), style::GRID, 1.0));
-            group = group.add(text(self.left - 8.0, place + 4.0, Anchor::End, 12.0, style::GREY, &label));
+        for (position, label) in round_values(&self.y) {
+            group = group.add(line((self.left, position), (right, position), style::GRID, 1.0));
+            group = group.add(text(self.left - 8.0, position + 4.0, Anchor::End, 12.0, style::GREY, &label));
         }
         group = group.add(text(self.left, TOP - 14.0, Anchor::Start, 13.0, style::INK, error));
         group = group.add(text(right, bottom + 40.0, Anchor::End, 13.0, style::INK, cost));
         group = group.add(self.front(points));
-        let mut taken: Vec<(f64, f64)> = points.iter().filter_map(|point| self.place(point)).collect();
+        let mut taken: Vec<(f64, f64)> = points.iter().filter_map(|point| self.position(point)).collect();
         for (index, point) in points.iter().enumerate() {
-            let Some((x, y)) = self.place(point) else { continue };
+            let Some((x, y)) = self.position(point) else { continue };
             let is_filled = point.errors[self.measure].is_some_and(|(_, _, is_on)| is_on);
             let colour = colour(point.kind);
             let dot = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", DOT).set("stroke", colour);
@@ -100,15 +100,15 @@ impl Panel {
                 let ring = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", 2.0 * DOT);
                 group = group.add(ring.set("fill", "none").set("stroke", style::INK).set("stroke-width", 1.5));
             }
-            let place = free_place((x, y), &taken);
-            taken.push(place);
+            let position = free_position((x, y), &taken);
+            taken.push(position);
             let number = (index + 1).to_string();
-            group = group.add(text(place.0, place.1 + 0.35 * NUMBER, Anchor::Middle, NUMBER, colour, &number));
+            group = group.add(text(position.0, position.1 + 0.35 * NUMBER, Anchor::Middle, NUMBER, colour, &number));
         }
         group
     }
 
-    fn place(&self, point: &FrontPoint) -> Option<(f64, f64)> {
+    fn position(&self, point: &FrontPoint) -> Option<(f64, f64)> {
         let (error, ..) = point.errors[self.measure]?;
         Some((self.x.at(point.cost.log10()), self.y.at(error.log10())))
     }
@@ -116,11 +116,12 @@ impl Panel {
     /// The step curve of the least error for each cost.
     fn front(&self, points: &[FrontPoint]) -> Path {
         let is_on = |point: &&FrontPoint| point.errors[self.measure].is_some_and(|(_, is_on, _)| is_on);
-        let mut places: Vec<(f64, f64)> = points.iter().filter(is_on).filter_map(|point| self.place(point)).collect();
-        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut positions: Vec<(f64, f64)> =
+            points.iter().filter(is_on).filter_map(|point| self.position(point)).collect();
+        positions.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut data = Data::new();
         let mut before = None;
-        for (x, y) in places {
+        for (x, y) in positions {
             data = match before {
                 None => data.move_to((x, TOP)).line_to((x, y)),
                 Some(height) => data.line_to((x, height)).line_to((x, y)),
@@ -135,28 +136,30 @@ impl Panel {
 }
 
 /// A position beside a point (px) for its number: the nearest free one, or else the first.
-fn free_place((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
+fn free_position((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
     let around = |radius: f64| {
         (0..12).map(move |k| {
             let angle = f64::from(k) * std::f64::consts::TAU / 12.0 - std::f64::consts::FRAC_PI_4;
             (x + radius * angle.cos(), y + radius * angle.sin())
         })
     };
-    let is_free = |place: &(f64, f64)| {
-        taken.iter().all(|other| (place.0 - other.0).abs() > 1.2 * NUMBER || (place.1 - other.1).abs() > 0.9 * NUMBER)
+    let is_free = |position: &(f64, f64)| {
+        taken
+            .iter()
+            .all(|other| (position.0 - other.0).abs() > 1.2 * NUMBER || (position.1 - other.1).abs() > 0.9 * NUMBER)
     };
-    let mut places = [14.0, 20.0, 28.0, 38.0, 50.0].into_iter().flat_map(around);
-    places.find(is_free).unwrap_or((x + 14.0, y))
+    let mut positions = [14.0, 20.0, 28.0, 38.0, 50.0].into_iter().flat_map(around);
+    positions.find(is_free).unwrap_or((x + 14.0, y))
 }
 
 /// The scale of the logarithms of some numbers above 0, with margins. `None` without numbers.
-fn logarithmic(values: impl Iterator<Item = f64>, places: (f64, f64)) -> Option<Scale> {
-    const ROOM: f64 = 0.08;
+fn logarithmic(values: impl Iterator<Item = f64>, positions: (f64, f64)) -> Option<Scale> {
+    const MARGIN_SHARE: f64 = 0.08;
     let logarithms = values.map(f64::log10).filter(|value| value.is_finite());
     let (low, high) =
         logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    let room = ROOM * (high - low).max(0.1);
-    (low <= high).then_some(Scale { values: (low - room, high + room), places })
+    let margin = MARGIN_SHARE * (high - low).max(0.1);
+    (low <= high).then_some(Scale { values: (low - margin, high + margin), positions })
 }
 
 /// The numbers 1, 2 and 5 times powers of ten on a logarithmic scale: their positions and texts.
@@ -182,10 +185,10 @@ fn colour(kind: usize) -> &'static str {
 fn kind_line(kinds: &[&str], y: f64) -> Group {
     let mut x = LEFT[0];
     kinds.iter().enumerate().fold(Group::new(), |group, (kind, name)| {
-        let place = x;
+        let position = x;
         x += style::width_of(name, 13.0) + 40.0;
-        let dot = Circle::new().set("cx", px(place)).set("cy", px(y - 4.0)).set("r", DOT).set("fill", colour(kind));
-        group.add(dot).add(text(place + 10.0, y, Anchor::Start, 13.0, style::INK, name))
+        let dot = Circle::new().set("cx", px(position)).set("cy", px(y - 4.0)).set("r", DOT).set("fill", colour(kind));
+        group.add(dot).add(text(position + 10.0, y, Anchor::Start, 13.0, style::INK, name))
     })
 }
 

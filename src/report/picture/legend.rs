@@ -98,9 +98,9 @@ impl Legend {
             body.close();
             self.entry(pose_style(body, index, 3), meaning);
         }
-        let mut way = Outline::default();
-        way.polyline(self.mark());
-        self.entry(way.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"), "path of its centre of mass");
+        let mut path = Outline::default();
+        path.polyline(self.mark());
+        self.entry(path.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"), "path of its centre of mass");
         if trace.ticks.iter().any(|tick| tick.body_touches) {
             let mut cross = Outline::default();
             let [(from, y), (to, _)] = self.mark();

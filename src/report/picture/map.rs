@@ -54,7 +54,8 @@ impl Map {
         width: f64,
         (least, most): (f64, f64),
     ) -> Self {
-        let shown = shown_ticks(trace).into_iter().flat_map(|tick| footprint(&scene.rig, &tick.body)).chain(way(trace));
+        let shown =
+            shown_ticks(trace).into_iter().flat_map(|tick| footprint(&scene.rig, &tick.body)).chain(path(trace));
         let shown = shown
             .fold(scene.truth.surfaces.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
         let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
@@ -62,8 +63,8 @@ impl Map {
         let height = (scale * extent.y / 0.94).clamp(least, most);
         let half = (0.5 * width / scale, 0.5 * height / scale);
         Self {
-            x: Scale { values: (centre.x - half.0, centre.x + half.0), places: (left, left + width) },
-            y: Scale { values: (centre.y - half.1, centre.y + half.1), places: (top + height, top) },
+            x: Scale { values: (centre.x - half.0, centre.x + half.0), positions: (left, left + width) },
+            y: Scale { values: (centre.y - half.1, centre.y + half.1), positions: (top + height, top) },
             scale,
             height,
         }
@@ -73,9 +74,9 @@ impl Map {
     pub(super) fn draw(&self, scene: &Scene, trace: &Trace, untraced: &[Untraced<'_>], tips: &[Tip]) -> Group {
         let frame = || {
             Rectangle::new()
-                .set("x", px(self.x.places.0))
-                .set("y", px(self.y.places.1))
-                .set("width", px(self.x.places.1 - self.x.places.0))
+                .set("x", px(self.x.positions.0))
+                .set("y", px(self.y.positions.1))
+                .set("width", px(self.x.positions.1 - self.x.positions.0))
                 .set("height", px(self.height))
         };
         let mut inside = Group::new().set("clip-path", "url(#map)");
@@ -89,21 +90,21 @@ impl Map {
         for (index, colour) in COLOURS.into_iter().enumerate() {
             let mut dots = Outline::default();
             let of_class = tips.iter().filter(|tip| class(tip.error) == index);
-            let places = of_class.map(|tip| self.place(tip.tip_world)).filter(|place| self.shows(*place));
-            places.for_each(|place| dots.dot(place));
+            let positions = of_class.map(|tip| self.position(tip.tip_world)).filter(|position| self.shows(*position));
+            positions.for_each(|position| dots.dot(position));
             inside = inside.add(dots.dots(colour, DOT));
         }
         inside = solids().fold(inside, |inside, solid| inside.add(solid.stroked(style::INK, OUTLINE)));
         for mark in Mark::ALL {
             let mut diamonds = Outline::default();
-            let places = mark_positions(trace).into_iter().filter(|place| place.mark == mark);
-            let places = places.map(|place| self.place(place.point_world));
-            places.filter(|place| self.shows(*place)).for_each(|place| diamonds.diamond(place, MARK));
+            let positions = mark_positions(trace).into_iter().filter(|position| position.mark == mark);
+            let positions = positions.map(|position| self.position(position.point_world));
+            positions.filter(|position| self.shows(*position)).for_each(|position| diamonds.diamond(position, MARK));
             inside = inside.add(mark_style(diamonds, mark));
         }
         let mut touches = Outline::default();
-        for tick in trace.ticks.iter().filter(|tick| tick.body_touches && has_place(tick)) {
-            touches.cross(self.place(tick.body.position), 4.0);
+        for tick in trace.ticks.iter().filter(|tick| tick.body_touches && has_position(tick)) {
+            touches.cross(self.position(tick.body.position), 4.0);
         }
         inside = inside.add(touches.stroked(style::ALARM, 1.5));
         Group::new()
@@ -113,26 +114,26 @@ impl Map {
             .add(frame().set("fill", "none").set("stroke", style::GREY))
     }
 
-    fn place(&self, point: Point2) -> (f64, f64) {
+    fn position(&self, point: Point2) -> (f64, f64) {
         (self.x.at(point.x), self.y.at(point.y))
     }
 
     /// True if a position is on the panel. Tips can be anywhere.
     fn shows(&self, (x, y): (f64, f64)) -> bool {
-        (self.x.places.0..=self.x.places.1).contains(&x) && (self.y.places.1..=self.y.places.0).contains(&y)
+        (self.x.positions.0..=self.x.positions.1).contains(&x) && (self.y.positions.1..=self.y.positions.0).contains(&y)
     }
 
     /// The exact outline: segments as lines, arcs as arcs.
     fn outline(&self, contour: &Contour) -> Outline {
         let mut outline = Outline::default();
-        outline.move_to(self.place(contour.point_at(0.0)));
+        outline.move_to(self.position(contour.point_at(0.0)));
         for piece in contour.pieces() {
             match piece {
-                Piece::Segment(segment) => outline.line_to(self.place(segment.end)),
+                Piece::Segment(segment) => outline.line_to(self.position(segment.end)),
                 Piece::Arc(arc) => {
                     let parts = (arc.sweep.abs() / (0.75 * PI)).ceil().max(1.0);
                     for part in iter::successors(Some(1.0), |k| Some(k + 1.0)).take_while(|k| *k <= parts) {
-                        let end = self.place(arc.point_at(arc.length() * part / parts));
+                        let end = self.position(arc.point_at(arc.length() * part / parts));
                         outline.arc_to(self.scale * arc.radius, arc.sweep > 0.0, end);
                     }
                 }
@@ -151,7 +152,7 @@ impl Map {
             let length = stretch.end - stretch.start;
             let steps = (self.scale * length / 3.0).ceil().max(1.0);
             let shares = iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
-            outline.polyline(shares.map(|k| self.place(contour.point_at(stretch.start + length * k / steps))));
+            outline.polyline(shares.map(|k| self.position(contour.point_at(stretch.start + length * k / steps))));
         }
         outline
     }
@@ -160,35 +161,35 @@ impl Map {
         let ticks = shown_ticks(trace);
         let mut group = Group::new();
         for (index, tick) in ticks.iter().enumerate() {
-            let place = |point| self.place(tick.body.point_to_world(point));
+            let position = |point| self.position(tick.body.point_to_world(point));
             let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut shafts, whisker| {
-                let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(place);
+                let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(position);
                 shafts.move_to(base);
                 shafts.curve_to(first, second, tip);
                 shafts
             });
             let mut body = Outline::default();
-            body.polyline(rig.platform.outline_body().map(place));
+            body.polyline(rig.platform.outline_body().map(position));
             body.close();
             group = group.add(pose_style(body, index, ticks.len())).add(whiskers.stroked(style::PLATFORM, 0.8));
         }
         let mut kept: Vec<(f64, f64)> = Vec::new();
-        for place in way(trace).map(|point| self.place(point)) {
+        for position in path(trace).map(|point| self.position(point)) {
             // Distances below a pixel are not visible.
-            if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= 1.0) {
-                kept.push(place);
+            if kept.last().is_none_or(|last| (position.0 - last.0).hypot(position.1 - last.1) >= 1.0) {
+                kept.push(position);
             }
         }
-        let mut way = Outline::default();
-        way.polyline(kept);
-        group.add(way.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"))
+        let mut path = Outline::default();
+        path.polyline(kept);
+        group.add(path.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"))
     }
 
     fn axes(&self) -> Group {
         let millimetres = |scale: &Scale| Scale { values: (scale.values.0 * 1e3, scale.values.1 * 1e3), ..*scale };
         let (x, y) = (millimetres(&self.x), millimetres(&self.y));
-        let (left, right) = x.places;
-        let (bottom, top) = y.places;
+        let (left, right) = x.positions;
+        let (bottom, top) = y.positions;
         let mut group = Group::new();
         for (value, label) in x.ticks((right - left) / 100.0) {
             group = group.add(line((x.at(value), top), (x.at(value), bottom), style::GRID, 1.0)).add(text(
@@ -241,13 +242,13 @@ pub(super) fn mark_style(diamonds: Outline, mark: Mark) -> svg::node::element::P
 }
 
 /// The path of the platform's centre of mass.
-fn way(trace: &Trace) -> impl Iterator<Item = Point2> {
-    trace.ticks.iter().filter(|tick| has_place(tick)).map(|tick| tick.body.position)
+fn path(trace: &Trace) -> impl Iterator<Item = Point2> {
+    trace.ticks.iter().filter(|tick| has_position(tick)).map(|tick| tick.body.position)
 }
 
 /// The ticks in which the platform is drawn: the first, the last, and some at equal time intervals between.
 fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
-    let ticks: Vec<_> = trace.ticks.iter().filter(|tick| has_place(tick)).collect();
+    let ticks: Vec<_> = trace.ticks.iter().filter(|tick| has_position(tick)).collect();
     let Some(last) = ticks.len().checked_sub(1) else { return ticks };
     let count = (POSES_BETWEEN + 1).min(last.max(1));
     let mut chosen: Vec<_> = (0..=count).map(|k| last * k / count).collect();
@@ -258,7 +259,7 @@ fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
 /// Limit of drawn positions (m). A diverged platform would otherwise determine the scale.
 const HORIZON: f64 = 1e6;
 
-fn has_place(tick: &TickRecord) -> bool {
+fn has_position(tick: &TickRecord) -> bool {
     let within = |coordinate: f64| coordinate.abs() <= HORIZON;
     within(tick.body.position.x) && within(tick.body.position.y) && tick.body.heading.is_finite()
 }

@@ -57,8 +57,8 @@ impl Plot {
         let breadth = (1.1 * length).max(1.1 * highest * (right - left) / (bottom - top));
         let height = breadth * (bottom - top) / (right - left);
         Self {
-            x: Scale { values: (-0.02 * length, breadth - 0.02 * length), places: (left, right) },
-            y: Scale { values: (-0.05 * height, 0.95 * height), places: (bottom, top) },
+            x: Scale { values: (-0.02 * length, breadth - 0.02 * length), positions: (left, right) },
+            y: Scale { values: (-0.05 * height, 0.95 * height), positions: (bottom, top) },
             greatest: sets.iter().map(|set| set.base_angle).fold(0.0, f64::max),
         }
     }
@@ -74,8 +74,8 @@ impl Plot {
         parts.join("; ")
     }
 
-    fn at(&self, place: Vector2) -> (f64, f64) {
-        (self.x.at(place.x), self.y.at(place.y))
+    fn at(&self, position: Vector2) -> (f64, f64) {
+        (self.x.at(position.x), self.y.at(position.y))
     }
 
     fn colour(&self, base_angle: f64) -> &'static str {
@@ -89,17 +89,17 @@ impl Plot {
         let [left, _, right, bottom] = FRAME;
         let mut group = Group::new();
         let millimetres =
-            |scale: &Scale| Scale { values: (1e3 * scale.values.0, 1e3 * scale.values.1), places: scale.places };
+            |scale: &Scale| Scale { values: (1e3 * scale.values.0, 1e3 * scale.values.1), positions: scale.positions };
         let (x, y) = (millimetres(&self.x), millimetres(&self.y));
         for (value, label) in x.ticks(8.0) {
-            let place = x.at(value);
-            group = group.add(line((place, FRAME[1]), (place, bottom), style::GRID, 1.0));
-            group = group.add(text(place, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
+            let position = x.at(value);
+            group = group.add(line((position, FRAME[1]), (position, bottom), style::GRID, 1.0));
+            group = group.add(text(position, bottom + 18.0, Anchor::Middle, 12.0, style::GREY, &label));
         }
         for (value, label) in y.ticks(5.0) {
-            let place = y.at(value);
-            group = group.add(line((left, place), (right, place), style::GRID, 1.0));
-            group = group.add(text(left - 8.0, place + 4.0, Anchor::End, 12.0, style::GREY, &label));
+            let position = y.at(value);
+            group = group.add(line((left, position), (right, position), style::GRID, 1.0));
+            group = group.add(text(left - 8.0, position + 4.0, Anchor::End, 12.0, style::GREY, &label));
         }
         let middle = f64::midpoint(left, right);
         group.add(text(middle, bottom + 42.0, Anchor::Middle, 13.0, style::INK, "along the undeflected shaft, mm"))
@@ -119,9 +119,9 @@ impl Plot {
         })
     }
 
-    fn path(&self, places: impl Iterator<Item = Vector2>, colour: &str, width: f64) -> Path {
-        let data = places.enumerate().fold(Data::new(), |data, (index, place)| {
-            let (x, y) = self.at(place);
+    fn path(&self, positions: impl Iterator<Item = Vector2>, colour: &str, width: f64) -> Path {
+        let data = positions.enumerate().fold(Data::new(), |data, (index, position)| {
+            let (x, y) = self.at(position);
             if index == 0 { data.move_to((x, y)) } else { data.line_to((x, y)) }
         });
         Path::new().set("d", data).set("fill", "none").set("stroke", colour).set("stroke-width", px(width))
@@ -146,8 +146,8 @@ impl Plot {
                     ((a < 0.0) != (b < 0.0)).then(|| corners[side].lerp(&corners[(side + 1) % 4], a / (a - b)))
                 });
                 for (index, crossing) in crossings.enumerate() {
-                    let place = self.at(crossing);
-                    data = if index % 2 == 0 { data.move_to(place) } else { data.line_to(place) };
+                    let position = self.at(crossing);
+                    data = if index % 2 == 0 { data.move_to(position) } else { data.line_to(position) };
                 }
             }
             let path = Path::new().set("d", data).set("fill", "none").set("stroke", self.colour(angle));

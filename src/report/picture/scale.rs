@@ -6,14 +6,14 @@ pub(super) struct Scale {
     /// The values at both ends.
     pub(super) values: (f64, f64),
     /// The positions of both ends (px).
-    pub(super) places: (f64, f64),
+    pub(super) positions: (f64, f64),
 }
 
 impl Scale {
     /// The position of a value (px).
     pub(super) fn at(&self, value: f64) -> f64 {
         let (low, high) = self.values;
-        self.places.0 + (value - low) / (high - low) * (self.places.1 - self.places.0)
+        self.positions.0 + (value - low) / (high - low) * (self.positions.1 - self.positions.0)
     }
 
     /// About `wanted` round values on the scale, with their texts.
@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     fn ticks(values: (f64, f64), wanted: f64) -> Vec<String> {
-        Scale { values, places: (0.0, 1.0) }.ticks(wanted).into_iter().map(|(_, text)| text).collect()
+        Scale { values, positions: (0.0, 1.0) }.ticks(wanted).into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn the_ends_of_a_scale_come_out_exactly() {
-        let scale = Scale { values: (2.0, 4.0), places: (10.0, -10.0) };
+        let scale = Scale { values: (2.0, 4.0), positions: (10.0, -10.0) };
         assert_eq!((scale.at(2.0), scale.at(3.0), scale.at(4.0)), (10.0, 0.0, -10.0));
     }
 

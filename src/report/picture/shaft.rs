@@ -18,7 +18,7 @@ const STEPS: [f64; 3] = [10.0, 2.0, 0.5];
 /// frame). It is straight without a known bend.
 pub(super) fn shaft_body(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> [Point2; 4] {
     let bend = bend(whisker, trace, tick).unwrap_or_else(|| Elastica::new(whisker).straight());
-    curve_base(whisker, &bend).map(|place| whisker.base_body + rotate(place, whisker.direction_body))
+    curve_base(whisker, &bend).map(|position| whisker.base_body + rotate(position, whisker.direction_body))
 }
 
 /// The same in the frame of the base. A uniform shaft under a small force at its tip has exactly a cubic shape.
@@ -31,30 +31,30 @@ fn curve_base(whisker: &Whisker, bend: &ShaftShape) -> [Vector2<f64>; 4] {
 /// The elastica with the measured base angle whose tip is nearest to the estimated position. `None` without contact.
 fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<ShaftShape> {
     let index = trace.whiskers.iter().position(|name| *name == whisker.name)?;
-    let (base_angle, touch) = (tick.deflections[index], tick.touches[index]);
-    if !touch.is_touching || base_angle == 0.0 || !base_angle.is_finite() {
+    let (base_angle, contact) = (tick.deflections[index], tick.contacts[index]);
+    if !contact.is_touching || base_angle == 0.0 || !base_angle.is_finite() {
         return None;
     }
-    let place = touch.tip_world.filter(|tip| tip.coords.iter().all(|coordinate| coordinate.is_finite()));
-    let place_base =
-        place.map(|tip| rotate(tick.body.point_from_world(tip) - whisker.base_body, -whisker.direction_body));
-    bend_to(whisker, base_angle, place_base)
+    let position = contact.tip_world.filter(|tip| tip.coords.iter().all(|coordinate| coordinate.is_finite()));
+    let position_base =
+        position.map(|tip| rotate(tick.body.point_from_world(tip) - whisker.base_body, -whisker.direction_body));
+    bend_to(whisker, base_angle, position_base)
 }
 
 /// The same for a base angle (rad) and a contact position (m, frame of the base). Without a position the surface is
 /// assumed to be parallel to the heading.
-fn bend_to(whisker: &Whisker, base_angle: f64, touch_base: Option<Vector2<f64>>) -> Option<ShaftShape> {
+fn bend_to(whisker: &Whisker, base_angle: f64, contact_base: Option<Vector2<f64>>) -> Option<ShaftShape> {
     if base_angle < 0.0 {
-        let mirrored = touch_base.map(|place| Vector2::new(place.x, -place.y));
+        let mirrored = contact_base.map(|position| Vector2::new(position.x, -position.y));
         return bend_to(whisker, -base_angle, mirrored).map(|bend| bend.mirrored());
     }
     let elastica = Elastica::new(whisker);
     let solve = |direction: f64, guess: &ShaftShape| elastica.solve_tip(base_angle, direction, guess);
-    let Some(touch_base) = touch_base else {
+    let Some(contact_base) = contact_base else {
         return solve(whisker.usual_normal(), &elastica.straight());
     };
     let tip_radius = whisker.shaft.radius_at(1.0);
-    let miss = |bend: &ShaftShape| (bend.tip_base - tip_radius * unit(bend.force_direction) - touch_base).norm();
+    let miss = |bend: &ShaftShape| (bend.tip_base - tip_radius * unit(bend.force_direction) - contact_base).norm();
     let (mut nearest, mut between) = (None, DIRECTIONS);
     for step in STEPS {
         let mut guess = nearest.unwrap_or_else(|| elastica.straight());
@@ -99,14 +99,14 @@ mod tests {
         });
         let found = found.unwrap();
         let (force, mut angle, mut moment) = (found.force * unit(bend.force_direction), found.tip_angle, 0.0);
-        let mut places = vec![found.tip_base];
+        let mut positions = vec![found.tip_base];
         for stiffness in stiffnesses.iter().rev() {
             let link = shaft.link_length() * unit(angle);
-            places.push(places[places.len() - 1] - link);
+            positions.push(positions[positions.len() - 1] - link);
             moment += link.x * force.y - link.y * force.x;
             angle -= moment / stiffness;
         }
-        places
+        positions
     }
 
     fn on_curve([a, b, c, d]: [Vector2<f64>; 4], t: f64) -> Vector2<f64> {
@@ -122,10 +122,10 @@ mod tests {
             let straight = Elastica::new(whisker).straight();
             let bend = Elastica::new(whisker).solve_tip(base_angle, direction.to_radians(), &straight).unwrap();
             let curve = curve_base(whisker, &bend);
-            for place in chain(whisker, &bend) {
-                let distances = (0..=400).map(|k| (on_curve(curve, f64::from(k) / 400.0) - place).norm());
+            for position in chain(whisker, &bend) {
+                let distances = (0..=400).map(|k| (on_curve(curve, f64::from(k) / 400.0) - position).norm());
                 let distance = distances.fold(f64::INFINITY, f64::min);
-                assert!(distance < 1.5e-3, "{base_angle}, {direction}: {distance} m at {place}");
+                assert!(distance < 1.5e-3, "{base_angle}, {direction}: {distance} m at {position}");
             }
         }
     }
@@ -136,10 +136,10 @@ mod tests {
         let elastica = Elastica::new(whisker);
         for direction in [80.0_f64, 100.0, 127.0, 160.0] {
             let bend = elastica.solve_tip(3e-4, direction.to_radians(), &elastica.straight()).unwrap();
-            let touch = bend.tip_base - whisker.shaft.radius_at(1.0) * unit(bend.force_direction);
-            let found = bend_to(whisker, 3e-4, Some(touch)).unwrap();
+            let contact = bend.tip_base - whisker.shaft.radius_at(1.0) * unit(bend.force_direction);
+            let found = bend_to(whisker, 3e-4, Some(contact)).unwrap();
             assert!((found.tip_base - bend.tip_base).norm() < 2e-4, "{direction}");
-            let right = bend_to(whisker, -3e-4, Some(Vector2::new(touch.x, -touch.y))).unwrap();
+            let right = bend_to(whisker, -3e-4, Some(Vector2::new(contact.x, -contact.y))).unwrap();
             assert_eq!(right, found.mirrored());
         }
     }

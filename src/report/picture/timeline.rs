@@ -20,7 +20,7 @@ const BAND: f64 = 24.0;
 /// Height of a strip (px).
 const STRIP: f64 = 120.0;
 /// Least width of a state in the band (px).
-const SHORTEST: f64 = 3.0;
+const MIN_STATE_WIDTH: f64 = 3.0;
 /// Largest number of decades of error.
 const DECADES: f64 = 4.0;
 /// Space between strips (px).
@@ -45,7 +45,7 @@ impl<'a> Timeline<'a> {
         top: f64,
     ) -> (Group, f64) {
         let end = trace.ticks.last().map_or(0.0, |tick| tick.time).max(trace.period);
-        let time = Scale { values: (0.0, end), places: (left, right) };
+        let time = Scale { values: (0.0, end), positions: (left, right) };
         let mut timeline = Self { trace, time, group: Group::new(), y: top };
         timeline.states();
         timeline.errors(tips, error);
@@ -73,7 +73,7 @@ impl<'a> Timeline<'a> {
             let to = (last.time + self.trace.period).min(self.time.values.1);
             let (from, to) = (self.time.at(from), self.time.at(to));
             // The last state may have no duration, for instance a failure.
-            let from = from.min(to - SHORTEST);
+            let from = from.min(to - MIN_STATE_WIDTH);
             let band = Rectangle::new().set("x", px(from)).set("y", px(top)).set("width", px(to - from));
             self.add(band.set("height", px(BAND)).set("fill", fill(state)));
             // The name, or the number in front of it in the heading, if there is space.
@@ -90,15 +90,15 @@ impl<'a> Timeline<'a> {
         let (values, ticks) = decades(tips);
         let scale = self.strip(values, ticks);
         // Errors below the scale are drawn at its lower end.
-        let place = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
+        let position = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
         let Some(error) = error.filter(|error| error.mean.is_finite()) else { return };
-        let (left, right) = self.time.places;
-        let mean = place(error.mean);
+        let (left, right) = self.time.positions;
+        let mean = position(error.mean);
         self.add(line((left, mean), (right, mean), style::GREY, 1.0));
         for (index, colour) in COLOURS.into_iter().enumerate() {
             let mut dots = Outline::default();
             for tip in tips.iter().filter(|tip| tip.error.is_finite() && class(tip.error) == index) {
-                dots.dot((self.time.at(self.trace.ticks[tip.tick].time), place(tip.error)));
+                dots.dot((self.time.at(self.trace.ticks[tip.tick].time), position(tip.error)));
             }
             self.add(dots.dots(colour, 2.6));
         }
@@ -116,7 +116,7 @@ impl<'a> Timeline<'a> {
         let step = round_step(span / 4.0);
         // A value beyond a tick by less than a visible distance does not extend the scale.
         let values = ((low / step + 0.01).floor() * step, ((low + span) / step - 0.01).ceil() * step);
-        let ticks = Scale { values, places: (0.0, 1.0) }.ticks(4.0);
+        let ticks = Scale { values, positions: (0.0, 1.0) }.ticks(4.0);
         let scale = self.strip(values, ticks);
         for (whisker, (_, colour)) in names.iter().enumerate() {
             let mut curve = Outline::default();
@@ -128,9 +128,9 @@ impl<'a> Timeline<'a> {
 
     /// The frame and the grid of a strip for `values`, with `ticks`. Returns the scale of its values.
     fn strip(&mut self, values: (f64, f64), ticks: Vec<(f64, String)>) -> Scale {
-        let (left, right) = self.time.places;
+        let (left, right) = self.time.positions;
         let (top, bottom) = (self.y, self.y + STRIP);
-        let scale = Scale { values, places: (bottom, top) };
+        let scale = Scale { values, positions: (bottom, top) };
         for (time, _) in self.time.ticks(12.0) {
             self.add(line((self.time.at(time), top), (self.time.at(time), bottom), style::GRID, 1.0));
         }
@@ -146,7 +146,7 @@ impl<'a> Timeline<'a> {
     /// A heading with names and their colours, in as many rows as necessary. The mark of a name has a height of `mark`
     /// (px).
     fn heading(&mut self, content: &str, names: &[(String, String)], mark: f64) {
-        let (left, right) = self.time.places;
+        let (left, right) = self.time.positions;
         self.add(text(left, self.y + 12.0, Anchor::Start, 13.0, style::INK, content).set("font-weight", 600));
         let first = left + width_of(content, 13.0) + 18.0;
         let mut x = first;
@@ -155,8 +155,8 @@ impl<'a> Timeline<'a> {
             if x + width > right && x > first {
                 (x, self.y) = (first, self.y + 18.0);
             }
-            let place = Rectangle::new().set("x", px(x)).set("y", px(self.y + 8.0 - 0.5 * mark));
-            self.add(place.set("width", 14).set("height", px(mark)).set("fill", colour.as_str()));
+            let square = Rectangle::new().set("x", px(x)).set("y", px(self.y + 8.0 - 0.5 * mark));
+            self.add(square.set("width", 14).set("height", px(mark)).set("fill", colour.as_str()));
             self.add(text(x + 20.0, self.y + 12.0, Anchor::Start, 12.0, style::INK, name));
             x += width;
         }
@@ -164,7 +164,7 @@ impl<'a> Timeline<'a> {
     }
 
     fn axis(&mut self) {
-        let (left, right) = self.time.places;
+        let (left, right) = self.time.positions;
         let y = self.y - GAP;
         self.add(line((left, y), (right, y), style::GREY, 1.0));
         for (time, label) in self.time.ticks(12.0) {

@@ -55,7 +55,7 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
                 shown(mean(&|row| row.p95_mm), &millimetres),
                 shown(tips.within_band_share(), &percent),
                 shown(tips.outlier_share(), &|share| format!("{:.2} %", 100.0 * share)),
-                shown(mean(&|row| Some(row.told)), &percent),
+                shown(mean(&|row| Some(row.estimated)), &percent),
                 shown(mean(&|row| Some(row.on_shaft)), &percent),
                 shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
             ]

@@ -24,12 +24,12 @@ const COLUMNS: [Column; 22] = [
     ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
     ("in 95 %", |result| result.error_mm.within_band.map(|share| percent(share, 1)), true),
     ("p95 error mm", |result| result.error_mm.p95.map(millimetres), true),
-    ("axis mm", |result| spread(result.axis_mm?), false),
+    ("axis mm", |result| mean_with_std(result.axis_mm?), false),
     ("corners", |result| result.corners.map(|corners| format!("{} of {}", corners.traced, corners.count)), false),
     ("corner place mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
     ("corner time s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
     ("corner path m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
-    ("retrieval mm", |result| spread(result.retrieval?.radius_mm), false),
+    ("retrieval mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
     ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
 ];
 
@@ -44,6 +44,6 @@ pub fn results_table(results: &[RunResult]) -> Table {
     Table::new(3, columns.iter().map(|(heading, ..)| *heading), rows)
 }
 
-fn spread(figure: MeanStd) -> Option<String> {
+fn mean_with_std(figure: MeanStd) -> Option<String> {
     Some(mean_std(figure.mean?, figure.std))
 }

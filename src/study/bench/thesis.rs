@@ -92,8 +92,8 @@ mod tests {
             assert!(thesis_figures(&scene.name).is_some(), "{} is no scene of the thesis", scene.name);
         }
         let order: Vec<_> = THESIS.iter().map(|figures| format!("scenarios/{}.yaml", figures.scenario)).collect();
-        let place = |file: &TextFile| order.iter().position(|path| path == file.path);
-        assert!(SCENARIOS.iter().map(place).is_sorted());
+        let index = |file: &TextFile| order.iter().position(|path| path == file.path);
+        assert!(SCENARIOS.iter().map(index).is_sorted());
     }
 
     #[test]

@@ -15,7 +15,8 @@ pub struct EstimatorRow {
     pub model: &'static str,
     /// Share of the points for which the estimator reports a position, 0 to 1. The points are those that the run
     /// recorded without noise by the sliding estimator.
-    pub told: f64,
+    #[serde(rename = "told")]
+    pub estimated: f64,
     /// Mean distance of the reported positions from the exact surface (mm).
     pub mean_mm: Option<f64>,
     /// 95th percentile of that distance (mm).

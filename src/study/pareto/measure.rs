@@ -17,7 +17,7 @@ use crate::study::estimators::evaluate;
 use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 
 /// Distance behind the scene's start at which the second fine run begins (m).
-const BEHIND: f64 = 1e-3;
+const START_OFFSET: f64 = 1e-3;
 
 /// Runs a policy in a scene `repeats` times under each of `settings`, one run at a time. The first setting is the
 /// default. Each round has every setting once, so that disturbances of the machine affect all of them. `progress`
@@ -57,8 +57,9 @@ pub fn measure(
     let fine = settings.iter().position(|setting| *setting == Setting::fine());
     let fine = fine.and_then(|index| firsts[index].estimate.clone());
     let mut behind = scene.clone();
-    behind.start.position -= BEHIND * unit(scene.start.heading);
-    let floor_mm = fine.as_ref().and_then(|fine| timed(&behind, program, world, &Setting::fine()).ok()?.apart(fine));
+    behind.start.position -= START_OFFSET * unit(scene.start.heading);
+    let floor_mm =
+        fine.as_ref().and_then(|fine| timed(&behind, program, world, &Setting::fine()).ok()?.mean_distance(fine));
     let mut rows = Vec::with_capacity(settings.len());
     for (index, (setting, first)) in settings.iter().zip(&firsts).enumerate() {
         let seconds = |round: &Vec<f64>| round[index];
@@ -66,7 +67,7 @@ pub fn measure(
         let seconds = Statistics::of(rounds.iter().map(seconds).collect());
         let figures = ratios.zip(seconds).filter(|_| first.ending != Ending::Refused);
         let (scene, world) = setting.apply(scene, world);
-        let fine_mm = fine.as_ref().and_then(|fine| first.apart(fine));
+        let fine_mm = fine.as_ref().and_then(|fine| first.mean_distance(fine));
         rows.push(ParetoRow::new(setting, &scene, world, first, figures, fine_mm));
     }
     mark(&mut rows);
@@ -74,7 +75,7 @@ pub fn measure(
         scenario: scene.name.clone(),
         policy: program.name.clone(),
         repeats,
-        tip_models: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
+        contact_estimators: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
         floor_mm,
         settings: rows,
     })
@@ -111,7 +112,7 @@ impl Measured {
     }
 
     /// The mean distance (mm) of its tips from the contour that another run estimated.
-    fn apart(&self, other: &Estimate) -> Option<f64> {
+    fn mean_distance(&self, other: &Estimate) -> Option<f64> {
         Some(1e3 * self.estimate.as_ref()?.mean_distance(other)?)
     }
 }
@@ -122,7 +123,7 @@ fn timed(scene: &Scene, program: &Arc<Program>, world: WorldKind, setting: &Sett
     let mut trial = Trial::new(scene, Arc::clone(program));
     trial.world = world.into();
     set_links(&mut trial.assumed_rig, FINE_LINKS);
-    if let Some(kind) = setting.tip_model() {
+    if let Some(kind) = setting.contact_estimator() {
         return re_estimated(&trial, kind);
     }
     Perception::prepare(&trial.assumed_rig, &program.contact_estimators);

@@ -19,7 +19,8 @@ pub struct Pareto {
     /// The policy.
     pub policy: String,
     /// Its contact estimators, whisker by whisker.
-    pub tip_models: Vec<&'static str>,
+    #[serde(rename = "tip_models")]
+    pub contact_estimators: Vec<&'static str>,
     /// Number of runs of every setting.
     pub repeats: usize,
     /// Mean distance (mm) between the tips of a second fine run, from a start 1 mm behind, and the contour of the fine

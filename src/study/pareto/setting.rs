@@ -29,7 +29,7 @@ pub enum Change {
     /// Contact solver of MuJoCo.
     Solver(Solver),
     /// Contact estimator of every whisker.
-    TipModel(ContactEstimatorKind),
+    ContactEstimator(ContactEstimatorKind),
 }
 
 /// A setting: a scenario with changes that are applied in order. The default has none.
@@ -48,7 +48,7 @@ const SHORT: f64 = 1.0 / 900.0;
 const SHORTER: f64 = 1.0 / 1800.0;
 const STEPS: [f64; 6] = [1.0 / 90.0, SLOW, USUAL, 1.0 / 600.0, SHORT, SHORTER];
 /// A step (s) at which explicit integrators are stable.
-const SHORTEST: f64 = 1.0 / 3600.0;
+const EXPLICIT_STEP: f64 = 1.0 / 3600.0;
 
 impl Setting {
     /// The scenario as it is.
@@ -70,9 +70,10 @@ impl Setting {
     #[must_use]
     pub fn all(scene: &Scene, world: WorldKind) -> Vec<Self> {
         use Change::{
-            BendInAir, HardContacts, Integrator as By, Links, NoCalmSteps, Solver as With, Step, TipModel, World,
+            BendInAir, ContactEstimator, HardContacts, Integrator as By, Links, NoCalmSteps, Solver as With, Step,
+            World,
         };
-        let steps_with = Integrator::ALL.map(|integrator| vec![Step(SHORTEST), By(integrator), HardContacts]);
+        let steps_with = Integrator::ALL.map(|integrator| vec![Step(EXPLICIT_STEP), By(integrator), HardContacts]);
         let together = [
             vec![Links(8), Step(SLOW)],
             vec![Links(8), With(Solver::ProjectedGaussSeidel)],
@@ -101,12 +102,12 @@ impl Setting {
             seen.push(about);
             is_new
         };
-        all.filter(is_new).chain(ContactEstimatorKind::ALL.map(|kind| Self(vec![TipModel(kind)]))).collect()
+        all.filter(is_new).chain(ContactEstimatorKind::ALL.map(|kind| Self(vec![ContactEstimator(kind)]))).collect()
     }
 
     /// The contact estimator that replaces the policy's own.
-    pub(super) fn tip_model(&self) -> Option<ContactEstimatorKind> {
-        self.0.iter().find_map(|change| if let Change::TipModel(kind) = change { Some(*kind) } else { None })
+    pub(super) fn contact_estimator(&self) -> Option<ContactEstimatorKind> {
+        self.0.iter().find_map(|change| if let Change::ContactEstimator(kind) = change { Some(*kind) } else { None })
     }
 
     /// The scene and the world after the changes.
@@ -123,7 +124,7 @@ impl Setting {
                 Change::BendInAir => physics.rigid_in_air = false,
                 Change::Integrator(integrator) => physics.integrator = integrator,
                 Change::Solver(solver) => physics.solver = solver,
-                Change::TipModel(kind) => rig.sensing.forces |= kind == ContactEstimatorKind::MomentAndShear,
+                Change::ContactEstimator(kind) => rig.sensing.forces |= kind == ContactEstimatorKind::MomentAndShear,
             }
         }
         (scene, world)
@@ -142,7 +143,7 @@ impl Setting {
             [Change::HardContacts] => "contacts",
             [Change::Solver(_)] => "solver",
             [Change::World(_)] => "world",
-            [Change::TipModel(_)] => "tip model",
+            [Change::ContactEstimator(_)] => "tip model",
             _ => "several",
         }
     }
@@ -181,7 +182,7 @@ impl fmt::Display for Setting {
                 Change::BendInAir => f.write_str("bending in the air")?,
                 Change::Integrator(integrator) => f.write_str(integrator.name())?,
                 Change::Solver(solver) => f.write_str(solver.name())?,
-                Change::TipModel(kind) => f.write_str(kind.name())?,
+                Change::ContactEstimator(kind) => f.write_str(kind.name())?,
             }
         }
         Ok(())

@@ -49,9 +49,9 @@ const SPEED: f64 = 0.05;
 /// Lateral reach of the right whisker from the centre of the reference platform (m), and the overlap of an object
 /// beside it with that reach.
 const REACH: f64 = 0.1266;
-const DEEP: f64 = 0.012;
+const OVERLAP: f64 = 0.012;
 /// An offset far from the origin (m).
-const FAR: Vector2 = Vector2::new(1e4, -1e4);
+const FAR_OFFSET: Vector2 = Vector2::new(1e4, -1e4);
 
 /// All cases, each in both worlds.
 ///
@@ -61,7 +61,7 @@ pub fn stress_cases() -> Result<Vec<StressCase>, CaseError> {
     let mut list = List(Vec::new());
     list.settings()?;
     list.speeds()?;
-    list.places()?;
+    list.positions()?;
     Ok(list.0)
 }
 
@@ -85,7 +85,7 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
 
 /// A disk beside the platform that the right whisker is dragged along.
 pub(super) fn disk_beside() -> Result<Contour, CaseError> {
-    Ok(circle(Point2::new(REACH - DEEP + 0.2, 0.25), 0.2)?)
+    Ok(circle(Point2::new(REACH - OVERLAP + 0.2, 0.25), 0.2)?)
 }
 
 /// Sets the step of a scene (s). A step longer than a sample lengthens the samples.
@@ -174,16 +174,16 @@ impl List {
         Ok(())
     }
 
-    fn places(&mut self) -> Result<(), CaseError> {
+    fn positions(&mut self) -> Result<(), CaseError> {
         for drive in [Drive::Straight(SPEED, 0.0), Drive::Policy] {
             let mut far = scene("10 km from the origin", disk_beside()?, 20.0)?;
-            let moved = circle(Point2::new(REACH - DEEP + 0.2, 0.25) + FAR, 0.2)?;
+            let moved = circle(Point2::new(REACH - OVERLAP + 0.2, 0.25) + FAR_OFFSET, 0.2)?;
             (far.solids, far.truth) = (vec![Solid::inside(moved.clone())?], moved.into());
-            far.start.position += FAR;
+            far.start.position += FAR_OFFSET;
             self.add(&far, drive);
         }
         // The near side of the object, and a line behind it.
-        let (near, far) = (REACH - DEEP, REACH + 0.3);
+        let (near, far) = (REACH - OVERLAP, REACH + 0.3);
         let half = 0.5 * 0.1_f64.to_radians();
         let rise = (far - near) * half;
         let shapes = [
@@ -215,6 +215,6 @@ impl List {
     }
 }
 
-fn outline(places: &[(f64, f64)]) -> Result<Contour, CaseError> {
-    Ok(polygon(&places.iter().map(|&(x, y)| Point2::new(x, y)).collect::<Vec<_>>())?)
+fn outline(positions: &[(f64, f64)]) -> Result<Contour, CaseError> {
+    Ok(polygon(&positions.iter().map(|&(x, y)| Point2::new(x, y)).collect::<Vec<_>>())?)
 }

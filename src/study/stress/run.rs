@@ -87,10 +87,10 @@ impl StressCase {
         let run = result.run;
         let mut trace = run.trace;
         // Only these may be infinite: beyond the range of a contact estimator the position is unknown.
-        for spread in
-            trace.ticks.iter_mut().flat_map(|tick| &mut tick.tip_spreads).filter(|spread| spread.is_infinite())
+        for deviation in
+            trace.ticks.iter_mut().flat_map(|tick| &mut tick.tip_deviations).filter(|deviation| deviation.is_infinite())
         {
-            *spread = 0.0;
+            *deviation = 0.0;
         }
         let finite = is_finite(&format!("{document:?}")) && is_finite(&format!("{trace:?}"));
         self.row(run.outcome.into(), run.reason, document.sim_s, finite)

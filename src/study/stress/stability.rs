@@ -23,7 +23,7 @@ pub struct StabilityCase {
 
 /// Tick rate of the tried steps (Hz), and the most steps in a tick. The shortest step is 0.1 ms.
 const TICKS: f64 = 30.0;
-const MOST_STEPS: u32 = 333;
+const MAX_STEPS: u32 = 333;
 /// Ticks of the shaking, of the rest after it, and of the path past a disk.
 const SHAKEN: usize = 30;
 const REST: usize = 60;
@@ -73,10 +73,10 @@ impl StabilityCase {
         // steps are.
         let (mut low, mut high) = (0, 1);
         while !is_stable(high) {
-            if high == MOST_STEPS {
+            if high == MAX_STEPS {
                 return Ok(None);
             }
-            (low, high) = (high, (2 * high).min(MOST_STEPS));
+            (low, high) = (high, (2 * high).min(MAX_STEPS));
         }
         while high - low > 1 {
             let middle = u32::midpoint(low, high);
@@ -118,8 +118,8 @@ fn calms_down(world: &mut dyn World) -> Result<bool, Fault> {
     };
     let mut most: f64 = 0.0;
     for tick in 0..SHAKEN {
-        let way = if tick / 3 % 2 == 0 { 1.0 } else { -1.0 };
-        let command = Command { velocity_world: Vector2::new(0.0, 0.3 * way), yaw_rate: 3.0 * way };
+        let sign = if tick / 3 % 2 == 0 { 1.0 } else { -1.0 };
+        let command = Command { velocity_world: Vector2::new(0.0, 0.3 * sign), yaw_rate: 3.0 * sign };
         most = most.max(bend(world, &command)?);
     }
     for _ in 0..REST {

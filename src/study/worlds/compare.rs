@@ -29,13 +29,13 @@ pub fn compare_worlds(
     reference: &Simulation,
     others: &[Simulation],
 ) -> Result<Vec<WorldsRow>, ExecuteError> {
-    let way = run(scene, program, reference)?;
-    let contour = Estimate::new(&way.trace);
-    let of_reference = Track::along(&way.trace, scene, reference)?;
+    let reference_run = run(scene, program, reference)?;
+    let contour = Estimate::new(&reference_run.trace);
+    let of_reference = Track::along(&reference_run.trace, scene, reference)?;
     let mut rows = Vec::with_capacity(others.len());
     for simulation in others {
         let own = run(scene, program, simulation)?;
-        let track = Track::along(&way.trace, scene, simulation)?;
+        let track = Track::along(&reference_run.trace, scene, simulation)?;
         let (pairs, touching) = pairs(&of_reference, &track, scene.rig.sensing.contact_threshold);
         let of = |distance: fn(&(Instant, Instant)) -> f64| Apart::of(pairs.iter().map(distance).collect());
         let bending: f64 = pairs.iter().map(|(reference, _)| reference.moment.abs()).sum();
@@ -47,7 +47,7 @@ pub fn compare_worlds(
             reference: reference.name,
             outcome: own.outcome.into(),
             reason: own.reason.clone(),
-            along_s: way.trace.period * track.ticks.len().min(of_reference.ticks.len()) as f64,
+            along_s: reference_run.trace.period * track.ticks.len().min(of_reference.ticks.len()) as f64,
             stopped: track.fault.or_else(|| of_reference.fault.clone()),
             compared: pairs.len(),
             left_out: if touching > 0 { 1.0 - pairs.len() as f64 / touching as f64 } else { 0.0 },

@@ -9,7 +9,7 @@ use vibrissa_runtime::signal::Command;
 use super::simulation::Simulation;
 
 /// Factor of the platform's mass for the carrier of the whiskers, so that no whisker deflects it.
-const HEAVY: f64 = 100.0;
+const MASS_FACTOR: f64 = 100.0;
 /// Time constant of its servos (s), a sixth of a tick at 30 Hz. If the velocity changes by `Δv`, the position error at
 /// the end of the tick is `Δv` times this. It is 0.25 mm for 50 mm/s, and the next command corrects it. It is equal in
 /// every simulation.
@@ -38,18 +38,18 @@ pub(super) struct Instant {
 
 impl Track {
     /// Moves the whiskers of a simulation from the scene's start along the poses of a run.
-    pub(super) fn along(way: &Trace, scene: &Scene, simulation: &Simulation) -> Result<Self, ExecuteError> {
+    pub(super) fn along(path: &Trace, scene: &Scene, simulation: &Simulation) -> Result<Self, ExecuteError> {
         let mut scene = simulation.scene(scene);
         let rig = &mut scene.rig;
-        rig.platform.mass *= HEAVY;
-        rig.platform.inertia *= HEAVY;
+        rig.platform.mass *= MASS_FACTOR;
+        rig.platform.inertia *= MASS_FACTOR;
         rig.platform.servo = SERVO;
         (rig.sensing.angle_noise, rig.sensing.angle_resolution) = (0.0, 0.0);
         let mut world = build_world(&scene, simulation.world.into(), scene.seed)?;
         let mut body = scene.start;
-        let (mut ticks, mut fault) = (Vec::with_capacity(way.ticks.len()), None);
-        for aim in way.ticks.iter().map(|tick| tick.body) {
-            let samples = match world.advance(&towards(&body, &aim, way.period)) {
+        let (mut ticks, mut fault) = (Vec::with_capacity(path.ticks.len()), None);
+        for aim in path.ticks.iter().map(|tick| tick.body) {
+            let samples = match world.advance(&towards(&body, &aim, path.period)) {
                 Ok(samples) => samples.to_vec(),
                 Err(cause) => {
                     fault = Some(cause.to_string());

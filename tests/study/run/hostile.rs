@@ -39,9 +39,9 @@ fn run(scene: &Scene, program: Program, world: &mut dyn World, time: f64) -> Opt
 
 /// The state that gave a command that is not finite, if one did.
 fn not_finite(run: &Run) -> Option<String> {
-    let mut failsafes = run.trace.failsafes();
-    let left = failsafes.find(|(_, failsafe)| matches!(failsafe.cause, Cause::NotFinite(_)));
-    let left = left.map(|(tick, failsafe)| format!("{} at {} s", run.trace.states[failsafe.left], tick.time));
+    let mut fallbacks = run.trace.fallbacks();
+    let left = fallbacks.find(|(_, fallback)| matches!(fallback.cause, Cause::NotFinite(_)));
+    let left = left.map(|(tick, fallback)| format!("{} at {} s", run.trace.states[fallback.left], tick.time));
     left.or_else(|| run.reason.clone().filter(|reason| reason.contains("not a finite number")))
 }
 

@@ -4,7 +4,7 @@ use crate::runs::{arc_of_tips, run_with};
 use serde_json::{Value, json};
 use vibrissa::geometry::{Point2, Vector2};
 use vibrissa::results::tick_lines;
-use vibrissa::run::{MarkRecord, Run, Touch};
+use vibrissa::run::{Contact, MarkRecord, Run};
 use vibrissa_runtime::machine::Mark;
 
 /// A run of one whisker that recorded in every tick but the first.
@@ -33,7 +33,7 @@ fn there_is_a_line_for_every_tick_with_its_time_state_pose_and_command() {
         assert_eq!(line["yaw_rate_rad_s"], 0.0);
         assert_eq!(line["whiskers"][0]["whisker"], "w0");
         assert_eq!(line["whiskers"][0]["deflection_rad"], 3e-4);
-        assert_eq!(line["whiskers"][0]["springs"], tick.springs[0]);
+        assert_eq!(line["whiskers"][0]["springs"], tick.snap_offs[0]);
         assert_eq!(line["whiskers"][0]["recorded"], tick.tips[0].is_some());
     }
 }
@@ -41,7 +41,7 @@ fn there_is_a_line_for_every_tick_with_its_time_state_pose_and_command() {
 #[test]
 fn a_tip_is_told_whether_recorded_or_not_and_what_is_not_known_is_null() {
     let mut run = run();
-    run.trace.ticks[0].touches[0] = Touch {
+    run.trace.ticks[0].contacts[0] = Contact {
         is_touching: true,
         tip_world: Some(Point2::new(1.0, 2.0)),
         tangent_world: Some(Vector2::new(0.0, 1.0)),

@@ -23,13 +23,13 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             state: Some(usize::from(index >= count / 3)),
             deflections: [0.0; MAX_WHISKERS],
             tips: [None; MAX_WHISKERS],
-            touches: Default::default(),
-            tip_spreads: [1e-3; MAX_WHISKERS],
+            contacts: Default::default(),
+            tip_deviations: [1e-3; MAX_WHISKERS],
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
-            failsafe: None,
+            fallback: None,
             tip_ends: [None; MAX_WHISKERS],
             body_touches: false,
-            springs: [false; MAX_WHISKERS],
+            snap_offs: [false; MAX_WHISKERS],
         };
         for (whisker, tips) in tips.iter().enumerate() {
             tick.tips[whisker] = tips.get(index).copied().flatten();

@@ -202,7 +202,7 @@ proptest! {
         let place = |index: usize, error: f64| Some(Point2::from((0.05 + error) * unit(0.1 * index as f64)));
         let mut run = run_with(&[tips.iter().enumerate().map(|(index, &(error, _))| place(index, error)).collect()]);
         for (tick, (_, deviation)) in run.trace.ticks.iter_mut().zip(&tips) {
-            tick.tip_spreads[0] = *deviation;
+            tick.tip_deviations[0] = *deviation;
         }
         let outliers = tips.iter().filter(|(error, deviation)| *error > 1e-4 + 4.0 * deviation).count();
         let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();

@@ -62,7 +62,7 @@ fn the_default_is_on_the_front() {
 fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
     let changes: [&[Change]; 3] = [
         &[Change::Links(8)],
-        &[Change::TipModel(ContactEstimatorKind::Sliding)],
+        &[Change::ContactEstimator(ContactEstimatorKind::Sliding)],
         &[Change::Links(40), Change::Step(1.0 / 150.0)],
     ];
     let pareto = measured(WorldKind::QuasiStatic, &changes);

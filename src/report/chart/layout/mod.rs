@@ -13,7 +13,7 @@ pub(super) use rank::ranks;
 pub(super) type Size = (f64, f64);
 
 /// A position: to the right, down (px).
-pub(super) type Place = (f64, f64);
+pub(super) type Position = (f64, f64);
 
 /// A side of the layout at which arrows enter and leave.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,17 +49,17 @@ pub(super) struct Arrow {
 /// Positions of all nodes and arrows. The origin is the upper left corner.
 pub(super) struct Layout {
     /// The centre and the width of each node.
-    pub(super) nodes: Vec<(Place, f64)>,
+    pub(super) nodes: Vec<(Position, f64)>,
     /// The path of each arrow.
-    pub(super) ways: Vec<Way>,
+    pub(super) routes: Vec<Route>,
     /// The size of the layout.
     pub(super) size: Size,
 }
 
 /// The path of an arrow.
-pub(super) struct Way {
+pub(super) struct Route {
     /// The points of the path from its start to its end. It is vertical at every point.
-    pub(super) points: Vec<Place>,
+    pub(super) points: Vec<Position>,
     /// The centre of its label.
-    pub(super) label: Place,
+    pub(super) label: Position,
 }

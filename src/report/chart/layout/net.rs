@@ -2,7 +2,7 @@
 
 use super::order::order;
 use super::settle::{Wish, settle};
-use super::{Arrow, Edge, Layout, Node, Place, Way};
+use super::{Arrow, Edge, Layout, Node, Position, Route};
 
 /// Least distance between neighbours in a layer (px).
 const BESIDE: f64 = 22.0;
@@ -66,7 +66,7 @@ struct Chain {
 pub(in crate::report::chart) fn layout(nodes: &[Node], arrows: &[Arrow], ranks: &[usize]) -> Layout {
     let mut net = Net::new(nodes, arrows, ranks);
     net.attach(nodes);
-    net.spread();
+    net.place_vertices();
     net.finish(nodes)
 }
 
@@ -148,35 +148,35 @@ impl Net {
 
     /// Distributes the ends of the arrows along the sides of the nodes, in the order of their other ends.
     fn attach(&mut self, nodes: &[Node]) {
-        let mut places = vec![0; self.vertices.len()];
+        let mut positions = vec![0; self.vertices.len()];
         for layer in &self.layers {
-            layer.iter().enumerate().for_each(|(place, &vertex)| places[vertex] = place);
+            layer.iter().enumerate().for_each(|(position, &vertex)| positions[vertex] = position);
         }
         for node in 0..nodes.len() {
             let mut above: Vec<_> = (0..self.segments.len()).filter(|&k| self.is_free(k, node, true)).collect();
-            above.sort_by_key(|&k| places[self.segments[k].upper]);
+            above.sort_by_key(|&k| positions[self.segments[k].upper]);
             let mut below: Vec<_> = (0..self.segments.len()).filter(|&k| self.is_free(k, node, false)).collect();
-            below.sort_by_key(|&k| places[self.segments[k].lower]);
+            below.sort_by_key(|&k| positions[self.segments[k].lower]);
             let vertex = &mut self.vertices[node];
             let least = 0.5 * PORTS.0 * (above.len().max(below.len()) as f64 + 1.0);
             let wider = (least - vertex.reach.0).max(0.0);
             vertex.reach = (vertex.reach.0 + wider, vertex.reach.1 + wider);
             let width = 2.0 * vertex.reach.0;
-            let port = |place: usize, count: usize| {
+            let port = |position: usize, count: usize| {
                 let step = PORTS.1.min(width / (count as f64 + 1.0));
-                step * (place as f64 - 0.5 * (count as f64 - 1.0))
+                step * (position as f64 - 0.5 * (count as f64 - 1.0))
             };
-            for (place, &segment) in above.iter().enumerate() {
-                self.segments[segment].ports.1 = port(place, above.len());
+            for (position, &segment) in above.iter().enumerate() {
+                self.segments[segment].ports.1 = port(position, above.len());
             }
-            for (place, &segment) in below.iter().enumerate() {
-                self.segments[segment].ports.0 = port(place, below.len());
+            for (position, &segment) in below.iter().enumerate() {
+                self.segments[segment].ports.0 = port(position, below.len());
             }
         }
     }
 
     /// Computes the position of every vertex within its layer, with segments as straight as possible.
-    fn spread(&mut self) {
+    fn place_vertices(&mut self) {
         // For each vertex: its neighbours, the offset between the two for a straight segment, and the weight.
         let mut pulls: Vec<Vec<(usize, f64, f64)>> = self.vertices.iter().map(|_| Vec::new()).collect();
         for &Segment { upper, lower, ports, .. } in &self.segments {
@@ -215,9 +215,9 @@ impl Net {
                 |&(other, offset, stiffness): &(usize, f64, f64)| stiffness * (self.vertices[other].x + offset);
             let sum: f64 = pulls[index].iter().map(pulled).sum();
             wishes.push(if weight > 0.0 {
-                Wish { place: sum / weight, weight, distance }
+                Wish { position: sum / weight, weight, distance }
             } else {
-                Wish { place: vertex.x, weight: 1e-3, distance }
+                Wish { position: vertex.x, weight: 1e-3, distance }
             });
             before = Some(vertex);
         }
@@ -265,7 +265,7 @@ impl Net {
         let placed = self.vertices.iter().take(nodes.len());
         Layout {
             nodes: placed.map(|vertex| ((vertex.x, middle(vertex)), 2.0 * vertex.reach.0)).collect(),
-            ways: self.chains.iter().map(|chain| self.way(chain, nodes, &bands)).collect(),
+            routes: self.chains.iter().map(|chain| self.route(chain, nodes, &bands)).collect(),
             size: (self.vertices.iter().map(|vertex| vertex.x + vertex.reach.1).fold(0.0, f64::max), height),
         }
     }
@@ -289,8 +289,8 @@ impl Net {
         (bands, height)
     }
 
-    fn way(&self, chain: &Chain, nodes: &[Node], bands: &[(f64, f64)]) -> Way {
-        let mut points: Vec<Place> = Vec::with_capacity(2 * chain.vertices.len());
+    fn route(&self, chain: &Chain, nodes: &[Node], bands: &[(f64, f64)]) -> Route {
+        let mut points: Vec<Position> = Vec::with_capacity(2 * chain.vertices.len());
         for (k, pair) in chain.vertices.windows(2).enumerate() {
             let (upper, lower) = (&self.vertices[pair[0]], &self.vertices[pair[1]]);
             let (from, to) = self.segments[chain.first + k].ports;
@@ -318,6 +318,6 @@ impl Net {
             points.reverse();
         }
         points.dedup();
-        Way { points, label: (label.x, 0.5 * (band.0 + band.1)) }
+        Route { points, label: (label.x, 0.5 * (band.0 + band.1)) }
     }
 }

@@ -19,20 +19,20 @@ pub(super) fn order(mut layers: Vec<Vec<usize>>, segments: &Segments) -> Vec<Vec
     let mut best = (crossings(&layers, &neighbours), layers.clone());
     for sweep in 0..SWEEPS {
         let side = if sweep % 2 == 0 { ABOVE } else { BELOW };
-        let mut places = places(&layers, count);
+        let mut positions = positions(&layers, count);
         let down = 0..layers.len();
         let sequence: Vec<usize> = if side == ABOVE { down.collect() } else { down.rev().collect() };
         for index in sequence {
             let layer = &mut layers[index];
             let barycentre = |vertex: &usize| {
                 let near = &neighbours[*vertex][side];
-                let sum: f64 = near.iter().map(|&near| place(near, &places)).sum();
-                if near.is_empty() { places[*vertex] as f64 } else { sum / near.len() as f64 }
+                let sum: f64 = near.iter().map(|&near| position(near, &positions)).sum();
+                if near.is_empty() { positions[*vertex] as f64 } else { sum / near.len() as f64 }
             };
             layer.sort_by(|a, b| barycentre(a).total_cmp(&barycentre(b)));
-            renumber(layer, &mut places);
+            renumber(layer, &mut positions);
         }
-        exchange(&mut layers, &neighbours, &mut places);
+        exchange(&mut layers, &neighbours, &mut positions);
         let found = crossings(&layers, &neighbours);
         if found < best.0 {
             best = (found, layers.clone());
@@ -52,38 +52,39 @@ type End = (usize, f64);
 /// The neighbours of each vertex, above and below.
 type Neighbours = [[Vec<End>; 2]];
 
-fn place((vertex, at): End, places: &[usize]) -> f64 {
-    places[vertex] as f64 + at
+fn position((vertex, at): End, positions: &[usize]) -> f64 {
+    positions[vertex] as f64 + at
 }
 
 /// Exchanges neighbouring vertices if that reduces the number of crossings.
-fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, places: &mut [usize]) {
+fn exchange(layers: &mut [Vec<usize>], neighbours: &Neighbours, positions: &mut [usize]) {
     for layer in layers {
         for left in 0..layer.len().saturating_sub(1) {
             let (a, b) = (layer[left], layer[left + 1]);
-            let cost = |a: usize, b: usize, places: &[usize]| {
+            let cost = |a: usize, b: usize, positions: &[usize]| {
                 [ABOVE, BELOW]
-                    .map(|side| inversions(&neighbours[a][side], &neighbours[b][side], places))
+                    .map(|side| inversions(&neighbours[a][side], &neighbours[b][side], positions))
                     .iter()
                     .sum::<usize>()
             };
-            if cost(b, a, places) < cost(a, b, places) {
+            if cost(b, a, positions) < cost(a, b, positions) {
                 layer.swap(left, left + 1);
-                places.swap(a, b);
+                positions.swap(a, b);
             }
         }
     }
 }
 
 /// Number of crossings between the segments to `of_left` and the segments to `of_right` of a vertex further right.
-fn inversions(of_left: &[End], of_right: &[End], places: &[usize]) -> usize {
-    let crossed = |a: End| of_right.iter().filter(|&&b| place(b, places) < place(a, places)).count();
+fn inversions(of_left: &[End], of_right: &[End], positions: &[usize]) -> usize {
+    let crossed = |a: End| of_right.iter().filter(|&&b| position(b, positions) < position(a, positions)).count();
     of_left.iter().map(|&a| crossed(a)).sum()
 }
 
 fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {
-    let places = places(layers, neighbours.len());
-    let of_pair = |left: usize, right: usize| inversions(&neighbours[left][BELOW], &neighbours[right][BELOW], &places);
+    let positions = positions(layers, neighbours.len());
+    let of_pair =
+        |left: usize, right: usize| inversions(&neighbours[left][BELOW], &neighbours[right][BELOW], &positions);
     let of_layer = |layer: &Vec<usize>| {
         let pairs =
             layer.iter().enumerate().flat_map(|(k, &left)| layer[k + 1..].iter().map(move |&right| (left, right)));
@@ -93,16 +94,16 @@ fn crossings(layers: &[Vec<usize>], neighbours: &Neighbours) -> usize {
 }
 
 /// The position of each vertex in its layer.
-fn places(layers: &[Vec<usize>], count: usize) -> Vec<usize> {
-    let mut places = vec![0; count];
+fn positions(layers: &[Vec<usize>], count: usize) -> Vec<usize> {
+    let mut positions = vec![0; count];
     for layer in layers {
-        renumber(layer, &mut places);
+        renumber(layer, &mut positions);
     }
-    places
+    positions
 }
 
-fn renumber(layer: &[usize], places: &mut [usize]) {
-    for (place, &vertex) in layer.iter().enumerate() {
-        places[vertex] = place;
+fn renumber(layer: &[usize], positions: &mut [usize]) {
+    for (position, &vertex) in layer.iter().enumerate() {
+        positions[vertex] = position;
     }
 }

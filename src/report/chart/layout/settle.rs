@@ -4,7 +4,7 @@
 #[derive(Clone, Copy)]
 pub(super) struct Wish {
     /// The preferred position.
-    pub(super) place: f64,
+    pub(super) position: f64,
     /// The weight.
     pub(super) weight: f64,
     /// The least distance to the previous element.
@@ -24,25 +24,25 @@ pub(super) fn settle(wishes: &[Wish]) -> Vec<f64> {
     for (index, wish) in wishes.iter().enumerate() {
         offset += if index == 0 { 0.0 } else { wish.distance };
         offsets.push(offset);
-        let mut pool = (wish.place - offset, wish.weight, 1);
-        while let Some(&(place, weight, count)) = pools.last()
-            && place > pool.0
+        let mut pool = (wish.position - offset, wish.weight, 1);
+        while let Some(&(position, weight, count)) = pools.last()
+            && position > pool.0
         {
             pools.pop();
-            pool = ((place * weight + pool.0 * pool.1) / (weight + pool.1), weight + pool.1, count + pool.2);
+            pool = ((position * weight + pool.0 * pool.1) / (weight + pool.1), weight + pool.1, count + pool.2);
         }
         pools.push(pool);
     }
-    let places = pools.iter().flat_map(|&(place, _, count)| std::iter::repeat_n(place, count));
-    places.zip(offsets).map(|(place, offset)| place + offset).collect()
+    let positions = pools.iter().flat_map(|&(position, _, count)| std::iter::repeat_n(position, count));
+    positions.zip(offsets).map(|(position, offset)| position + offset).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn wish(place: f64) -> Wish {
-        Wish { place, weight: 1.0, distance: 10.0 }
+    fn wish(position: f64) -> Wish {
+        Wish { position, weight: 1.0, distance: 10.0 }
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::dice::Dice;
+use super::sampler::Sampler;
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit};
 
 /// Position of the platform's centre of mass at the mean start (m), as in the baseline's scenes.
@@ -37,24 +37,24 @@ pub(super) fn beside(hand: f64) -> Pose {
 
 /// Moves an object on the right to where the platform meets its `flank`, corners of a side parallel to the platform's
 /// path. For the left, the result is the mirror image.
-pub(super) fn along(dice: &mut Dice, hand: f64, corners: &[Vector2], flank: &[Vector2]) -> Vec<Point2> {
+pub(super) fn along(sampler: &mut Sampler, hand: f64, corners: &[Vector2], flank: &[Vector2]) -> Vec<Point2> {
     let lowest = corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
     let nearest = flank.iter().map(|corner| corner.x).fold(f64::INFINITY, f64::min);
-    let to = Vector2::new(ASIDE - nearest, dice.between(0.05, 0.12) - lowest);
+    let to = Vector2::new(ASIDE - nearest, sampler.between(0.05, 0.12) - lowest);
     corners.iter().map(|corner| Point2::new(hand * (corner.x + to.x), corner.y + to.y)).collect()
 }
 
 /// The position of the origin of an object on the right or left, given by points of its outline. Straight ahead from
 /// the start beside it, a whisker touches it and the body does not.
-pub(super) fn ahead(dice: &mut Dice, hand: f64, outline: &[Vector2]) -> Point2 {
+pub(super) fn ahead(sampler: &mut Sampler, hand: f64, outline: &[Vector2]) -> Point2 {
     let forward = unit(beside(hand).heading);
     let aside = -hand * perpendicular(forward);
     let least = |direction: Vector2| outline.iter().map(|point| direction.dot(point)).fold(f64::INFINITY, f64::min);
-    let ahead = dice.between(AHEAD.0, AHEAD.1) - least(forward);
-    START + ahead * forward + (dice.between(GAP.0, GAP.1) - least(aside)) * aside
+    let ahead = sampler.between(AHEAD.0, AHEAD.1) - least(forward);
+    START + ahead * forward + (sampler.between(GAP.0, GAP.1) - least(aside)) * aside
 }
 
 /// The mouth of a tunnel in front of the start, and its direction.
-pub(super) fn mouth(dice: &mut Dice) -> Pose {
-    Pose { position: Point2::new(0.0, START.y + AHEAD.0 + dice.between(0.0, 0.04)), heading: FRAC_PI_2 }
+pub(super) fn mouth(sampler: &mut Sampler) -> Pose {
+    Pose { position: Point2::new(0.0, START.y + AHEAD.0 + sampler.between(0.0, 0.04)), heading: FRAC_PI_2 }
 }

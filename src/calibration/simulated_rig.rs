@@ -19,16 +19,16 @@ const COLUMNS: std::ops::RangeInclusive<i32> = -1..=18;
 const ROD: f64 = 0.03;
 /// Lateral distance of the rod from a straight whisker that passes it, and its distance ahead during the return to that
 /// side (m).
-const BESIDE: f64 = 0.036;
+const LATERAL_DISTANCE: f64 = 0.036;
 const AHEAD: f64 = 0.05;
 /// The length of a whisker (m) for which these values are valid. They are scaled for other whiskers.
 const LENGTH: f64 = 0.1;
 /// Size of the block that carries the whisker (m).
 const BLOCK: f64 = 2e-3;
 /// Factor of a platform's mass and servo stiffness, so that no whisker deflects the rig.
-const STIFF: f64 = 100.0;
+const MASS_FACTOR: f64 = 100.0;
 /// Largest short penetration depth of the tip (m), during a snap-off from the rod.
-const SPRINGING: f64 = 3e-3;
+const PENETRATION_LIMIT: f64 = 3e-3;
 /// Highest speed of the rig (m/s), and the time constant (s) of the approach to a position.
 const SPEED: f64 = 0.03;
 const APPROACH: f64 = 0.1;
@@ -42,11 +42,11 @@ const TIP: f64 = 2e-4;
 
 /// The error of a simulated calibration.
 #[derive(Debug, thiserror::Error)]
-pub enum StageError {
+pub enum CalibrationRigError {
     /// The whisker is too small for a rod.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Rod(#[from] ShapeError),
-    /// The rod cannot be simulated.
+    /// The rod cannot be calibration_rig.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Solid(#[from] SolidError),
     /// The world could not be built.
@@ -57,7 +57,7 @@ pub enum StageError {
     Fault(#[from] Fault),
     /// The rig did not reach a position.
     #[error("the stage did not come to rest; make `physics.step` smaller")]
-    Restless,
+    NotAtRest,
 }
 
 /// Moves the base of a rig's whisker (by its index) over a grid of 3 mm steps in front of a rod. Each position in
@@ -70,27 +70,32 @@ pub enum StageError {
 ///
 /// # Panics
 /// If the rig has no whisker with that index.
-pub fn simulated_sets(rig: &Rig, physics: &Physics, whisker: usize, seed: u64) -> Result<Vec<ContactSet>, StageError> {
+pub fn simulated_sets(
+    rig: &Rig,
+    physics: &Physics,
+    whisker: usize,
+    seed: u64,
+) -> Result<Vec<ContactSet>, CalibrationRigError> {
     let (bend, length) = (rig.whiskers[whisker].usual_bend_sign(), rig.whiskers[whisker].shaft.length);
     let scale = length / LENGTH;
-    let mut stage = Stage::new(rig, physics, whisker, scale, seed)?;
+    let mut calibration_rig = CalibrationRig::new(rig, physics, whisker, scale, seed)?;
     let mut sets = Vec::new();
     for row in ROWS {
         let near = length + (ROD - STEP * f64::from(row)) * scale;
-        let place = |ahead: f64, beside: f64| Vector2::new(near + ahead * scale, bend * beside * scale);
-        stage.go(place(AHEAD, -BESIDE))?;
-        stage.go(place(0.0, -BESIDE))?;
+        let position = |ahead: f64, beside: f64| Vector2::new(near + ahead * scale, bend * beside * scale);
+        calibration_rig.go(position(AHEAD, -LATERAL_DISTANCE))?;
+        calibration_rig.go(position(0.0, -LATERAL_DISTANCE))?;
         for column in COLUMNS {
-            stage.go(place(0.0, STEP * f64::from(column)))?;
-            sets.extend(stage.read()?);
+            calibration_rig.go(position(0.0, STEP * f64::from(column)))?;
+            sets.extend(calibration_rig.read()?);
         }
-        stage.go(place(AHEAD, STEP * f64::from(*COLUMNS.end())))?;
+        calibration_rig.go(position(AHEAD, STEP * f64::from(*COLUMNS.end())))?;
     }
     Ok(sets)
 }
 
 /// A whisker on a small block, and a rod at the world's origin.
-struct Stage {
+struct CalibrationRig {
     world: MujocoWorld,
     rod_radius: f64,
     length: f64,
@@ -101,8 +106,8 @@ struct Stage {
     base_angle: f64,
 }
 
-impl Stage {
-    fn new(rig: &Rig, physics: &Physics, whisker: usize, scale: f64, seed: u64) -> Result<Self, StageError> {
+impl CalibrationRig {
+    fn new(rig: &Rig, physics: &Physics, whisker: usize, scale: f64, seed: u64) -> Result<Self, CalibrationRigError> {
         // The base is at the centre of the block, and the undeflected shaft points ahead.
         let whisker = Whisker { base_body: Point2::origin(), direction_body: 0.0, ..rig.whiskers[whisker].clone() };
         let length = whisker.shaft.length;
@@ -112,11 +117,11 @@ impl Stage {
             nose_width: block,
             length: block,
             centre_of_mass: 0.5 * block,
-            mass: STIFF * rig.platform.mass,
-            inertia: STIFF * rig.platform.inertia,
+            mass: MASS_FACTOR * rig.platform.mass,
+            inertia: MASS_FACTOR * rig.platform.inertia,
             ..rig.platform.clone()
         };
-        let penetration_limit = physics.penetration_limit.max(SPRINGING);
+        let penetration_limit = physics.penetration_limit.max(PENETRATION_LIMIT);
         let physics = Physics { penetration_limit, ..physics.clone() };
         let rig = Rig { platform, whiskers: vec![whisker], sensing: rig.sensing.clone() };
         let rod_radius = ROD * scale;
@@ -128,7 +133,7 @@ impl Stage {
 
     /// One tick of motion towards the position at which the rod is at `rod_base` (m, from the base). Returns the
     /// remaining distance (m).
-    fn tick(&mut self, rod_base: Vector2) -> Result<f64, StageError> {
+    fn tick(&mut self, rod_base: Vector2) -> Result<f64, CalibrationRigError> {
         let way = -rod_base - self.body.position.coords;
         let speed = (way.norm() / APPROACH).min(SPEED);
         let velocity_world = way.try_normalize(0.0).map_or(Vector2::zeros(), |ahead| speed * ahead);
@@ -140,7 +145,7 @@ impl Stage {
     }
 
     /// Moves to the position at which the rod is at `rod_base` (m, from the base), and rests there.
-    fn go(&mut self, rod_base: Vector2) -> Result<(), StageError> {
+    fn go(&mut self, rod_base: Vector2) -> Result<(), CalibrationRigError> {
         let mut rested = 0;
         for _ in 0..self.ticks(PATIENCE) {
             let left = self.tick(rod_base)?;
@@ -149,20 +154,20 @@ impl Stage {
                 return Ok(());
             }
         }
-        Err(StageError::Restless)
+        Err(CalibrationRigError::NotAtRest)
     }
 
     /// Measures a set. `None` without contact.
-    fn read(&mut self) -> Result<Option<ContactSet>, StageError> {
+    fn read(&mut self) -> Result<Option<ContactSet>, CalibrationRigError> {
         let ticks = self.ticks(READING);
         let (rod_base, mut sum) = (-self.body.position.coords, 0.0);
         for _ in 0..ticks {
             self.tick(rod_base)?;
             sum += self.base_angle;
         }
-        Ok(self.world.whisker_contact(0).map(|(place, contact_length)| {
+        Ok(self.world.whisker_contact(0).map(|(position, contact_length)| {
             // On the surface of the rod, which the tip penetrates slightly.
-            let normal = place.coords.normalize();
+            let normal = position.coords.normalize();
             let from_base = self.rod_radius * normal - self.body.position.coords;
             ContactSet {
                 contact_base: rotate(from_base, -self.body.heading),

@@ -7,9 +7,9 @@ use sha2::{Digest, Sha256};
 
 /// The random numbers of one scene.
 #[derive(Debug, Clone)]
-pub(super) struct Dice(ChaCha8Rng);
+pub(super) struct Sampler(ChaCha8Rng);
 
-impl Dice {
+impl Sampler {
     /// The random numbers of a seed.
     pub(super) fn new(seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
