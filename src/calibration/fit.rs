@@ -80,7 +80,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
             let is_within = surface.contains(set.contact_base);
             is_within.then(|| (base_angle - set.base_angle).abs() / gradient.norm())
         };
-        let range = format!("between places within {:.1} mm", 1e3 * surface.reach);
+        let range = format!("between positions within {:.1} mm", 1e3 * surface.reach);
         held_out.extend(hold_out("recursive", (&sets, &positions), AngleSurface::fit, miss, range));
     }
 

@@ -56,7 +56,7 @@ pub enum CalibrationRigError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// The rig did not reach a position.
-    #[error("the stage did not come to rest; make `physics.step` smaller")]
+    #[error("the calibration rig did not come to rest; make `physics.step` smaller")]
     NotAtRest,
 }
 

@@ -89,9 +89,10 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &mut files)).transpose()?;
     let (sets, about) = match measured {
         Some((path, sets)) => (sets, format!("{}, measured: {}", whisker.name, path.display())),
-        None => {
-            (simulated(&rig, &physics, index, arguments)?, format!("{}, simulated: a stage before a rod", whisker.name))
-        }
+        None => (
+            simulated(&rig, &physics, index, arguments)?,
+            format!("{}, simulated: calibration rig with a rod", whisker.name),
+        ),
     };
     let tip_sets = sets.iter().filter(|set| !set.on_shaft).count();
     let fitted = fit(whisker, &sets, format!("{about}, {tip_sets} sets"));
@@ -107,7 +108,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
         output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
     } else {
         output::tables(&[held_out_table(&fitted.held_out)], arguments.format.wide)?;
-        output::result(format_args!("{} sets, {} of them by the tip", sets.len(), tip_sets))?;
+        output::result(format_args!("{} sets, {} of them tip contacts", sets.len(), tip_sets))?;
         if let Some(directory) = &arguments.out {
             output::result(format_args!("calibration: {}", directory.join(FILE).display()))?;
         }
@@ -121,13 +122,13 @@ fn report_missing(Fitted { calibration, .. }: &Fitted) {
         (
             calibration.one_channel.is_none(),
             "one_channel",
-            "touches of many base angles, on surfaces nearly parallel to the heading",
+            "contacts with many base angles, on surfaces nearly parallel to the heading",
         ),
-        (calibration.recursive.is_none(), "recursive", "touches that lie spread over the plane"),
+        (calibration.recursive.is_none(), "recursive", "contacts distributed over the plane"),
         (calibration.hinge_stiffness.is_none(), "the base hinge", "a rig whose hinge is within a factor of five of it"),
     ];
-    for (_, what, wanted) in missing.iter().filter(|(is_missing, ..)| *is_missing) {
-        output::message(format_args!("{what} is not fitted: it wants {wanted}"));
+    for (_, name, needed) in missing.iter().filter(|(is_missing, ..)| *is_missing) {
+        output::message(format_args!("{name} is not fitted: it needs {needed}"));
     }
 }
 

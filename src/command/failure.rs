@@ -24,7 +24,7 @@ use super::output;
 pub(super) enum Failure {
     #[error(transparent)]
     Load(#[from] LoadError),
-    #[error("cannot make the folder {}: {cause}; choose another place with --out", path.display())]
+    #[error("cannot make the folder {}: {cause}; choose another path with --out", path.display())]
     Folder { path: PathBuf, cause: std::io::Error },
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -37,14 +37,14 @@ pub(super) enum Failure {
     #[error(transparent)]
     NoWhisker(UnknownWhisker),
     #[error(
-        "{count} touches by the tip are too few, or in too few places: give {MIN_POSITIONS} places or more, spread over the plane where it touches"
+        "{count} tip contacts are too few, or at too few positions: give {MIN_POSITIONS} positions or more, distributed over the plane"
     )]
     TooFewSets { count: usize },
     #[cfg(feature = "sim")]
     #[error(transparent)]
     CalibrationRig(#[from] CalibrationRigError),
     #[cfg(not(feature = "sim"))]
-    #[error("this build has no world; give touches that were measured, or build it with the feature `sim`")]
+    #[error("this build has no world; give measured contacts, or build it with the feature `sim`")]
     NoCalibrationRig,
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
@@ -61,12 +61,12 @@ pub(super) enum Failure {
     #[error("scenes of families set the policy's parameters: {0}")]
     FamilySetting(SetError),
     #[error(
-        "--set: families draw the speed of every scene; for another print a scene with --print, and run it: vibrissa run FILE --set \"speed=...\""
+        "--set: families sample the speed of every scene; for another speed print a scene with --print, and run it: vibrissa run FILE --set \"speed=...\""
     )]
     DrawnSpeed,
     #[error(transparent)]
     NoDraw(#[from] NoDraw),
-    #[error("{}: there is hardly a start within the jitter at which the rig stands clear; make --jitter smaller", scenario.display())]
+    #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
     NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
     Set(#[from] SetError),
@@ -82,14 +82,16 @@ pub(super) enum Failure {
     Start(#[from] StartError),
     #[error("there are no results of a sweep in {}; `vibrissa sweep FILE --out {}` writes some", directory.display(), directory.display())]
     NoResults { directory: PathBuf },
-    #[error("the process of a run answered what is no result ({0}); this is a fault of the program, please report it")]
+    #[error(
+        "the process of a run gave an answer that is not a result ({0}); this is a fault of the program, please report it"
+    )]
     Answer(serde_json::Error),
-    #[error("a hard case cannot be made: {0}; this is a fault of the program, please report it")]
+    #[error("a stress test cannot be made: {0}; this is a fault of the program, please report it")]
     Case(#[from] CaseError),
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]
-    #[error("the editor is gone: {0}")]
+    #[error("the connection to the editor is lost: {0}")]
     Editor(std::io::Error),
     #[cfg(not(feature = "lsp"))]
     #[error("this build has no language server; build it with one: cargo build --release --features lsp")]

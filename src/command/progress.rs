@@ -99,7 +99,7 @@ fn interrupted(done: u64, all: u64, kept: &Kept) -> String {
             format!("interrupted after {done} of {all} runs; nothing is kept of them, as results come at the end")
         }
         Kept::In(path) => format!(
-            "interrupted after {done} of {all} runs; their results are in {}, and the same command goes on with them",
+            "interrupted after {done} of {all} runs; their results are in {}, and the same command resumes from them",
             path.display()
         ),
     }

@@ -85,8 +85,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
 /// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
 /// trial runs.
 pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
-    let mut told = BTreeSet::new();
-    let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, files, &mut told));
+    let mut warned = BTreeSet::new();
+    let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, files, &mut warned));
     let trials = trials.collect::<Result<Vec<_>, _>>()?;
     // Reports are named after scenarios.
     for (index, trial) in trials.iter().enumerate() {
@@ -102,14 +102,14 @@ fn trial(
     path: &Path,
     arguments: &RunArguments,
     files: &mut CommandFiles,
-    told: &mut BTreeSet<String>,
+    warned: &mut BTreeSet<String>,
 ) -> Result<Trial, Failure> {
     let before = Instant::now();
     let source = load::read(path, files)?;
     let Loaded { value: scene, hash: scenario_hash } = load::scenario_in(&source, files)?;
     let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
     if let Some(text) = &policy.value.text
-        && told.insert(text.source.name.clone())
+        && warned.insert(text.source.name.clone())
     {
         output::warnings(&policy.value);
     }

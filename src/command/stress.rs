@@ -15,7 +15,7 @@ use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask};
 use crate::trial::{Answer, StartError, Worker, answer, check_world, engine_version, stream_in_parallel};
 
-const EXAMPLE: &str = "Example:\n  vibrissa stress --jobs 2\n\nExit status: 0 every case ended in a way that runs end, with finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa stress --jobs 2\n\nExit status: 0 every case had a regular outcome and finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa stress`.
 #[derive(Debug, Args)]

@@ -158,7 +158,7 @@ pub(super) fn report_events(result: &RunResult) {
     {
         let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
         output::message(format_args!(
-            "{scenario}: the failsafe was taken {times}, first at {time:.2} s in {state}: {cause}"
+            "{scenario}: the fallback transition was taken {times}, first at {time:.2} s in {state}: {cause}"
         ));
     }
 }

@@ -27,7 +27,7 @@ pub struct Draw {
 
 /// A family has no scene for a seed and a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("no scene could be drawn for trial {trial} of `{family}`; this is a fault of the program, please report it")]
+#[error("no scene could be sampled for trial {trial} of `{family}`; this is a fault of the program, please report it")]
 pub struct NoDraw {
     family: &'static str,
     trial: u64,

@@ -34,9 +34,9 @@ const OUTCOME: usize = 2;
 pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
     let passed = rows.iter().filter(|row| row.passed).count();
     let mut page = format!(
-        "{HEAD}<h1>Vibrissa bench</h1>\n<p>{passed} of {} runs completed with no figure worse than the thesis's. Figures are \
-         mean ± sample standard deviation. The thesis has neither friction nor noise. A run under friction or noise only has to \
-         complete; its tip model knows the coefficient.</p>\n",
+        "{HEAD}<h1>Vibrissa bench</h1>\n<p>{passed} of {} runs completed with no figure worse than the baseline's. Figures are \
+         mean ± sample standard deviation. The baseline has neither friction nor noise. A run with friction or noise only has to \
+         complete; its contact estimator knows the coefficient.</p>\n",
         rows.len()
     );
     for columns in TABLES {

@@ -50,7 +50,7 @@ impl Positions {
         if !(position.x.is_finite() && position.y.is_finite()) {
             return false;
         }
-        #[expect(clippy::cast_possible_truncation, reason = "a place that far off shares its square with others")]
+        #[expect(clippy::cast_possible_truncation, reason = "positions that far away share a square")]
         let (column, row) = ((position.x / within).floor() as i64, (position.y / within).floor() as i64);
         let around = |square: i64| [square.saturating_sub(1), square, square.saturating_add(1)];
         let mut squares = around(column).into_iter().flat_map(|x| around(row).map(|y| (x, y)));

@@ -26,13 +26,13 @@ pub(crate) enum ResultsError {
         cause: io::Error,
     },
     /// Another process writes to the file.
-    #[error("another sweep is writing to {}; wait for it, or choose another place with --out", path.display())]
+    #[error("another sweep is writing to {}; wait for it, or choose another path with --out", path.display())]
     Busy {
         /// The file.
         path: PathBuf,
     },
     /// The file has other content.
-    #[error("{} does not begin as results of a sweep do ({cause}); choose another place with --out", path.display())]
+    #[error("{} does not begin as results of a sweep do ({cause}); choose another path with --out", path.display())]
     NoResults {
         /// The file.
         path: PathBuf,
@@ -40,7 +40,7 @@ pub(crate) enum ResultsError {
         cause: String,
     },
     /// The file has results of another sweep, or of an earlier version of the sweep.
-    #[error("{} holds results of {difference}; keep the two apart, with another --out or without that file", path.display())]
+    #[error("{} holds results of {difference}; choose another path with --out, or remove that file", path.display())]
     Other {
         /// The file.
         path: PathBuf,
@@ -48,7 +48,7 @@ pub(crate) enum ResultsError {
         difference: String,
     },
     /// A line is not a result of the sweep.
-    #[error("{}, line {line}: {cause}; remove that line, and go on with the sweep", path.display())]
+    #[error("{}, line {line}: {cause}; remove that line, and resume the sweep", path.display())]
     Line {
         /// The file.
         path: PathBuf,

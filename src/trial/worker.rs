@@ -33,7 +33,7 @@ pub enum StartError {
     Ended(String),
     /// It would execute other runs.
     #[error(
-        "the sweep, or a file that it names, has changed since it began; go on with it as it was, or choose another place with --out"
+        "the sweep, or a file that it names, has changed since it began; restore it, or choose another path with --out"
     )]
     Changed,
 }

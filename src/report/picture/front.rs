@@ -165,7 +165,7 @@ fn logarithmic(values: impl Iterator<Item = f64>, positions: (f64, f64)) -> Opti
 /// The numbers 1, 2 and 5 times powers of ten on a logarithmic scale: their positions and texts.
 fn round_values(scale: &Scale) -> Vec<(f64, String)> {
     let (low, high) = scale.values;
-    #[expect(clippy::cast_possible_truncation, reason = "the exponents of what has been measured")]
+    #[expect(clippy::cast_possible_truncation, reason = "the exponents of measured values")]
     let powers = low.floor() as i32..=high.floor() as i32;
     let values = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit: f64| (digit * 10_f64.powi(power), power)));
     let on_scale = values.filter(|(value, _)| (low..=high).contains(&value.log10()));

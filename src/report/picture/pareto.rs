@@ -14,7 +14,7 @@ const AXES: [&str; 8] =
 pub fn pareto_picture(pareto: &Pareto) -> String {
     let points: Vec<FrontPoint> = pareto.settings.iter().filter_map(point).collect();
     let title = format!("{}, policy {}: run time against error", pareto.scenario, pareto.policy);
-    let subtitle = "lines: the fronts of all settings; filled: on the front of its world; ring: the default";
+    let subtitle = "lines: Pareto-optimal settings; filled: Pareto-optimal in its world; ring: the default";
     let errors = ["mean distance from the exact contour, mm", "mean distance from the contour of the fine run, mm"];
     front_picture(&title, subtitle, "run time over that of the default", errors, &AXES, &points)
 }

@@ -13,20 +13,20 @@ pub(in crate::report) const HEADINGS: [&str; 21] = [
     "scene",
     "policy",
     "outcome",
-    "against the thesis",
+    "against the baseline",
     "error mm",
-    "thesis: error mm",
+    "baseline: error mm",
     "outliers",
     "coverage",
     "retrieval mm",
-    "thesis: retrieval mm",
+    "baseline: retrieval mm",
     "axis mm",
-    "thesis: axis mm",
+    "baseline: axis mm",
     "collisions",
     "wall coverage",
-    "in 95 %",
+    "in 95 % interval",
     "corners",
-    "corner place mm",
+    "corner position mm",
     "corner time s",
     "corner path m",
     "path m",
@@ -82,7 +82,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
         plain(Some(row.scene())),
         plain(Some(result.policy.clone())),
         plain(Some(result.outcome.to_string())),
-        plain(against_thesis(row)),
+        plain(against_baseline(row)),
         error,
         thesis_error,
         plain(result.error_mm.outliers.map(|share| percent(share, 2))),
@@ -104,7 +104,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
 }
 
 /// The comparison with the baseline: whether all its figures are better, or the names of those that are worse.
-fn against_thesis(row: &BenchRow) -> Option<String> {
+fn against_baseline(row: &BenchRow) -> Option<String> {
     let verdicts = row.figures().map(|(.., verdict)| verdict);
     let worse = ["error", "retrieval", "axis"].into_iter().zip(verdicts);
     let worse: Vec<_> = worse.filter(|(_, verdict)| *verdict == Some(Verdict::Worse)).map(|(name, _)| name).collect();

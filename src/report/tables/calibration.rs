@@ -15,5 +15,5 @@ pub(crate) fn held_out_table(rows: &[HeldOut]) -> Table {
             row.range.clone(),
         ]
     });
-    Table::new(1, ["model", "sets held out", "rms mm", "max mm", "range"], cells)
+    Table::new(1, ["fit", "held-out sets", "rms mm", "max mm", "range"], cells)
 }

@@ -4,7 +4,7 @@ use super::super::table::{NONE, Table};
 use crate::study::compare::{Comparison, Outlook};
 
 const HEADINGS: [&str; 9] =
-    ["figure", "policy", "which is", "mean", "first", "difference", "95 % interval", "wins", "pairs"];
+    ["figure", "policy", "verdict", "mean", "first", "difference", "95 % interval", "wins", "pairs"];
 
 /// A comparison as two tables: the numbers of runs that did not complete, and the figures with their differences from
 /// the first policy.

@@ -22,14 +22,15 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
         0.0 => "none".to_owned(),
         factor => format!("{factor} ×"),
     };
-    let models = ContactEstimatorKind::ALL.map(ContactEstimatorKind::name);
+    let estimators = ContactEstimatorKind::ALL.map(ContactEstimatorKind::name);
     let lines = groups.iter().map(|group| {
-        let cells = models
-            .map(|model| rows.iter().find(|row| of(row) == *group && row.model == model).map_or(NONE.to_owned(), cell));
+        let cells = estimators.map(|estimator| {
+            rows.iter().find(|row| of(row) == *group && row.model == estimator).map_or(NONE.to_owned(), cell)
+        });
         [vec![group.0.clone(), noise(group.1)], cells.to_vec()].concat()
     });
-    let scenes = Table::new(2, ["scene", "noise"].into_iter().chain(models), lines)
-        .under("Mean error (mm) of every tip model; how many points each tells is in the second table");
+    let scenes = Table::new(2, ["scene", "noise"].into_iter().chain(estimators), lines)
+        .under("Mean error (mm) of every contact estimator; the second table has the shares of reported positions");
 
     let mut noises: Vec<u64> = Vec::new();
     for (_, noise) in &groups {
@@ -37,9 +38,10 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
             noises.push(*noise);
         }
     }
-    let lines =
-        models.iter().flat_map(|model| noises.iter().map(move |noise| (*model, *noise))).map(|(model, bits)| {
-            let mine: Vec<_> = rows.iter().filter(|row| row.model == model && row.noise.to_bits() == bits).collect();
+    let lines = estimators.iter().flat_map(|estimator| noises.iter().map(move |noise| (*estimator, *noise))).map(
+        |(estimator, bits)| {
+            let mine: Vec<_> =
+                rows.iter().filter(|row| row.model == estimator && row.noise.to_bits() == bits).collect();
             let mean = |figure: &dyn Fn(&EstimatorRow) -> Option<f64>| {
                 let found: Vec<f64> = mine.iter().filter_map(|row| figure(row)).collect();
                 (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
@@ -49,19 +51,29 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
             let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
             let percent = |share: f64| format!("{:.1} %", 100.0 * share);
             vec![
-                model.to_owned(),
+                estimator.to_owned(),
                 noise(bits),
                 shown(mean(&|row| row.mean_mm), &millimetres),
                 shown(mean(&|row| row.p95_mm), &millimetres),
                 shown(tips.within_band_share(), &percent),
                 shown(tips.outlier_share(), &|share| format!("{:.2} %", 100.0 * share)),
-                shown(mean(&|row| Some(row.estimated)), &percent),
+                shown(mean(&|row| Some(row.reported)), &percent),
                 shown(mean(&|row| Some(row.on_shaft)), &percent),
                 shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
             ]
-        });
-    let headings =
-        ["tip model", "noise", "mean mm", "p95 mm", "in 95 %", "outliers", "told", "on the shaft", "tick µs"];
+        },
+    );
+    let headings = [
+        "contact estimator",
+        "noise",
+        "mean mm",
+        "p95 mm",
+        "in 95 % interval",
+        "outliers",
+        "reported",
+        "on the shaft",
+        "tick µs",
+    ];
     let means = Table::new(2, headings, lines)
         .under("Means over the scenes; shares within the 95 % interval and of outliers are of all tips together");
     [scenes, means]

@@ -6,8 +6,8 @@ use crate::study::pareto::{Front, Pareto, ParetoRow};
 
 const HEADINGS: [&str; 10] = [
     "setting",
-    "on the front",
-    "on its world's front",
+    "Pareto-optimal",
+    "in its world",
     "relative time",
     "exact error mm",
     "fine error mm",

@@ -12,7 +12,7 @@ pub(super) const HEADINGS: [&str; 11] = [
     "collided",
     "error mm",
     "outliers",
-    "in 95 %",
+    "in 95 % interval",
     "timeout",
     "failed",
     "diverged",

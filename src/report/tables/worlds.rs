@@ -18,8 +18,8 @@ const HEADINGS: [&str; 11] = [
 ];
 
 /// A table with a row for every scene, policy and simulation. It has the differences of tips and moments from the
-/// reference (mean, 95th percentile), the former also as a share of the moment. It also has the distance of the
-/// contours, the share of ticks that are not compared, and the outcome of the policy's run.
+/// reference (mean, 95th percentile), and the mean difference of the moments as a share of the moment. It also has the
+/// distance of the contours, the share of ticks that are not compared, and the outcome of the policy's run.
 #[must_use]
 pub fn worlds_table(rows: &[WorldsRow]) -> Table {
     let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);

@@ -106,7 +106,7 @@ pub(in crate::study) fn evaluate(
         scenario: scene.name.clone(),
         noise,
         model: kinds.first().map_or("none", |kind| kind.name()),
-        estimated: share(tips.len(), asked),
+        reported: share(tips.len(), asked),
         mean_mm: figures.map(|figures| 1e3 * figures.mean),
         p95_mm: figures.map(|figures| 1e3 * figures.p95),
         within_band: figures.map(|figures| figures.interval_coverage),

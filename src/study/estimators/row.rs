@@ -16,7 +16,7 @@ pub struct EstimatorRow {
     /// Share of the points for which the estimator reports a position, 0 to 1. The points are those that the run
     /// recorded without noise by the sliding estimator.
     #[serde(rename = "told")]
-    pub estimated: f64,
+    pub reported: f64,
     /// Mean distance of the reported positions from the exact surface (mm).
     pub mean_mm: Option<f64>,
     /// 95th percentile of that distance (mm).

@@ -188,10 +188,10 @@ impl List {
         let rise = (far - near) * half;
         let shapes = [
             (
-                "a blade of 0.5 mm along the way",
+                "a blade of 0.5 mm along the path",
                 outline(&[(near, 0.2), (near + 5e-4, 0.2), (near + 5e-4, 0.4), (near, 0.4)])?,
             ),
-            ("a blade of 0.5 mm across the way", outline(&[(near, 0.2), (far, 0.2), (far, 0.2005), (near, 0.2005)])?),
+            ("a blade of 0.5 mm across the path", outline(&[(near, 0.2), (far, 0.2), (far, 0.2005), (near, 0.2005)])?),
             ("an edge of 0.1 deg", outline(&[(near, 0.25), (far, 0.25 - rise), (far, 0.25 + rise)])?),
             (
                 "a corner of 179.9 deg",

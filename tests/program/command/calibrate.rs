@@ -26,7 +26,7 @@ fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
     let output = vibrissa(&["calibrate", &file, "--whisker", "l0", "--out", &out_text]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let printed = stdout(&output);
-    for wanted in ["one_channel", "recursive", "sliding, moment_and_shear", "120 sets, 120 of them by the tip"] {
+    for wanted in ["one_channel", "recursive", "sliding, moment_and_shear", "120 sets, 120 of them tip contacts"] {
         assert!(printed.contains(wanted), "{printed}");
     }
     let calibration = std::fs::read_to_string(out.join("calibration.yaml")).unwrap();
@@ -82,7 +82,7 @@ fn what_cannot_be_calibrated_says_why() {
     let wrong = write("wrong.csv", "x_mm,y_mm\n82,51\n");
     for (arguments, reason) in [
         (&["calibrate", &wrong][..], "line 1: the column `base_angle_urad` is missing"),
-        (&["calibrate", &few], "1 touches by the tip are too few, or in too few places: give 50 places or more"),
+        (&["calibrate", &few], "1 tip contacts are too few, or at too few positions: give 50 positions or more"),
         (&["calibrate", "none.csv"], "cannot read none.csv"),
         (&["calibrate", &few, "--whisker", "r7"], "`r7`, which the rig does not have"),
     ] {

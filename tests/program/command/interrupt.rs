@@ -55,7 +55,7 @@ fn a_sweep_says_where_its_results_are_and_goes_on_with_them() {
     // A run may have been written that is not yet counted.
     let counts = [kept, kept - 1].map(|kept| format!("interrupted after {kept} of 24 runs"));
     assert!(counts.iter().any(|count| told.contains(count)), "{kept}: {told}");
-    assert!(told.contains(&results.display().to_string()) && told.contains("goes on with them"), "{told}");
+    assert!(told.contains(&results.display().to_string()) && told.contains("resumes from them"), "{told}");
     assert!(!fs::read_to_string(&results).unwrap().contains("crashed"));
     let output = vibrissa(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

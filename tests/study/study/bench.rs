@@ -123,11 +123,11 @@ fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
         .iter()
         .zip([["better", "0.20 ± 0.00", "0.8 ± 0.5"], ["worse: error, axis", "2.00 ± 0.00", "1.3 ± 1.6"]])
     {
-        let found = ["against the thesis", "error mm", "thesis: error mm"].map(|heading| &row[column(heading)]);
+        let found = ["against the baseline", "error mm", "baseline: error mm"].map(|heading| &row[column(heading)]);
         assert_eq!(found, wanted);
     }
     // An axis that is not known is worse than the thesis's.
-    assert_eq!(["axis mm", "thesis: axis mm"].map(|heading| &table.rows()[1][column(heading)]), ["–", "4 ± 4"]);
+    assert_eq!(["axis mm", "baseline: axis mm"].map(|heading| &table.rows()[1][column(heading)]), ["–", "4 ± 4"]);
 }
 
 #[test]

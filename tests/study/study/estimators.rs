@@ -19,7 +19,7 @@ fn row(scenario: &str, noise: f64, model: &'static str, mean_mm: Option<f64>) ->
         scenario: scenario.to_owned(),
         noise,
         model,
-        estimated: if mean_mm.is_some() { 0.75 } else { 0.0 },
+        reported: if mean_mm.is_some() { 0.75 } else { 0.0 },
         mean_mm,
         p95_mm: mean_mm.map(|mean| 2.0 * mean),
         within_band: mean_mm.map(|_| 0.5),
@@ -70,7 +70,7 @@ fn all_models_meet_the_same_touches_in_the_world_that_is_asked_for_whatever_the_
     // The surface is parallel to the heading, as models take it to be that do not know; but the bend grows, and the filter is late.
     for model in ContactEstimatorKind::ALL.map(ContactEstimatorKind::name) {
         let (clean, loud) = (of(model, |noise| noise <= 0.0), of(model, |noise| noise > 1.0));
-        assert!(clean.estimated > 0.9 && clean.mean_mm.unwrap() < 0.5, "{clean:?}");
+        assert!(clean.reported > 0.9 && clean.mean_mm.unwrap() < 0.5, "{clean:?}");
         assert!(loud.mean_mm.unwrap() > clean.mean_mm.unwrap(), "{loud:?}");
     }
     // The noise is what is told, not the rig's own on top.
