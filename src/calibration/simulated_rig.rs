@@ -46,7 +46,7 @@ pub enum CalibrationRigError {
     /// The whisker is too small for a rod.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Rod(#[from] ShapeError),
-    /// The rod cannot be calibration_rig.
+    /// The rod cannot be simulated.
     #[error("the whisker is too short for a rod to be made for it: {0}")]
     Solid(#[from] SolidError),
     /// The world could not be built.

@@ -1,5 +1,6 @@
 //! `vibrissa check`
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -184,6 +185,15 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
     Ok(Checked { file, error: None, machine, library, compiled: None, diagnostics })
 }
 
+/// Bytes in hexadecimal digits.
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
 fn count(number: usize, of: &str) -> String {
     format!("{number} {of}{}", if number == 1 { "" } else { "s" })
 }
@@ -198,7 +208,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
     }
     let compiled = Compiled {
         file: origin.file.clone(),
-        text_sha256: origin.text_sha256.iter().map(|byte| format!("{byte:02x}")).collect(),
+        text_sha256: hexadecimal(&origin.text_sha256),
         compiler: origin.compiler.clone(),
         format: FORMAT,
     };

@@ -138,13 +138,13 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] if a run cannot begin.
     pub(crate) fn check(&self, mut note: impl FnMut(String)) -> Result<(), PlanError> {
-        let mut told = BTreeSet::new();
+        let mut noted = BTreeSet::new();
         for run in self.sweep.samples() {
             let trial = self.trial(&run)?;
             check_world(trial.world.kind)
                 .map_err(|cause| PlanError::Execute { scenario: trial.inputs.scenario.clone(), cause })?;
             let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !trial.scene.rig.sensing.is_noisy();
-            if is_same && run.scenes().trials > 1 && told.insert(run.scenes) {
+            if is_same && run.scenes().trials > 1 && noted.insert(run.scenes) {
                 let name = run.scenes().name();
                 note(format!("{name}: without noise all trials are the same run"));
             }

@@ -6,6 +6,7 @@ mod policy_test;
 mod processor_time;
 mod recording;
 mod threads;
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod trial;
 mod worker;
 mod worlds;

@@ -1,5 +1,6 @@
 //! A trial and its result.
 
+use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -177,6 +178,10 @@ impl Trial {
 
 /// The first sixteen hexadecimal digits of a hash, enough to distinguish files.
 #[must_use]
-pub(crate) fn short_hash(hash: &[u8]) -> String {
-    hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+pub fn short_hash(hash: &[u8]) -> String {
+    // Writing to a string cannot fail.
+    hash.iter().take(8).fold(String::with_capacity(16), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }
