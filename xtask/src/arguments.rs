@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::results::Selection;
 use crate::setup::Options;
 
 /// The help text.
@@ -23,6 +24,8 @@ Commands:
   book    build the documentation as a book in target/book
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
+  results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
+            --program FILE use this program of the same commit instead of building it
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
 
@@ -38,6 +41,7 @@ pub(crate) enum Command {
     Links,
     Book,
     Bench { save: bool },
+    Results(Selection),
     Fuzz(u64),
 }
 
@@ -50,6 +54,8 @@ pub(crate) enum ArgumentError {
     UnexpectedArgument { command: String, argument: String },
     #[error("`--wheel` needs the file that it is to take")]
     NoWheelFile,
+    #[error("`--program` needs the file that it is to run")]
+    NoProgram,
     #[error("`fuzz` needs how many policies to try, such as `cargo x fuzz 100000`")]
     NoCount,
 }
@@ -73,6 +79,7 @@ impl Command {
                 let save = arguments.next_if(|argument| argument == "--save").is_some();
                 return end("bench", arguments, Self::Bench { save });
             }
+            "results" => return parse_results(arguments),
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
                 Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)
@@ -106,6 +113,21 @@ fn parse_setup(mut arguments: impl Iterator<Item = OsString>) -> Result<Command,
     Ok(Command::Setup(options))
 }
 
+fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut selection = Selection::default();
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--program") => {
+                selection.program = Some(arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoProgram)?);
+            }
+            Some("--help" | "-h") => return Ok(Command::Help),
+            Some(name) if !name.starts_with('-') => selection.names.push(name.to_owned()),
+            _ => return Err(unexpected("results", &argument)),
+        }
+    }
+    Ok(Command::Results(selection))
+}
+
 fn unexpected(command: &str, argument: &OsString) -> ArgumentError {
     ArgumentError::UnexpectedArgument { command: command.to_owned(), argument: argument.to_string_lossy().into_owned() }
 }
@@ -134,6 +156,15 @@ mod tests {
     fn benches_are_compared_unless_they_are_to_be_saved() {
         assert_eq!(parse(&["bench"]), Ok(Command::Bench { save: false }));
         assert_eq!(parse(&["bench", "--save"]), Ok(Command::Bench { save: true }));
+    }
+
+    #[test]
+    fn results_take_names_and_a_program() {
+        let selection = Selection { names: vec!["bench".to_owned()], program: Some(PathBuf::from("v")) };
+        assert_eq!(parse(&["results", "--program", "v", "bench"]), Ok(Command::Results(selection)));
+        assert_eq!(parse(&["results"]), Ok(Command::Results(Selection::default())));
+        assert_eq!(parse(&["results", "--program"]), Err(ArgumentError::NoProgram));
+        assert!(parse(&["results", "--all"]).is_err());
     }
 
     #[test]

@@ -13,9 +13,11 @@ mod demo;
 mod fuzz;
 mod hash;
 mod imports;
+mod json;
 mod links;
 mod platform;
 mod prose;
+mod results;
 mod runtime;
 mod setup;
 mod sign_of_life;
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
+        Command::Results(selection) => status(results::write(&root, &selection)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }

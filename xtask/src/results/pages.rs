@@ -1,0 +1,145 @@
+//! The pages: what each says, and the commands that it is made of.
+
+use super::table::NoKey;
+use super::tables;
+use crate::json::Json;
+
+/// A page of results.
+pub(super) struct Page {
+    /// Its name, and that of its file.
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// A sentence about its content.
+    pub(super) about: &'static str,
+    /// The arguments of the program. Each prints JSON.
+    pub(super) commands: &'static [&'static str],
+    /// Whether it has times, so that it names the machine.
+    pub(super) has_times: bool,
+    /// Whether it takes more than two minutes, so that it is made only if it is named.
+    pub(super) is_slow: bool,
+    /// Its tables, from the outputs of the commands.
+    pub(super) body: fn(&[Json]) -> Result<String, NoKey>,
+}
+
+/// All pages.
+pub(super) const PAGES: [Page; 11] = [
+    Page {
+        name: "bench",
+        title: "Results of the bench",
+        about: "The ten scenes of [the bench](../bench.md) under both built-in policies, in both [simulators](../worlds.md).",
+        commands: &["bench --json", "bench --world quasistatic --json"],
+        has_times: false,
+        is_slow: false,
+        body: tables::bench,
+    },
+    Page {
+        name: "friction",
+        title: "Results with friction and noise",
+        about: "The scenes of [the bench](../bench.md) with friction and with the estimated noise of the real sensor.",
+        commands: &["bench --friction 0,0.1,0.3 --noise --json", "bench --friction 0.1,0.3 --json"],
+        has_times: false,
+        is_slow: true,
+        body: tables::friction,
+    },
+    Page {
+        name: "families",
+        title: "Results in random scenes",
+        about: "Pass rates of `vibrissa.fsm` in 200 random scenes of each [family](../families.md), in both simulators.",
+        commands: &[
+            "families --count 200 --seed 11 --world quasistatic --json",
+            "families --count 200 --seed 11 --world mujoco --json",
+        ],
+        has_times: false,
+        is_slow: true,
+        body: tables::families,
+    },
+    Page {
+        name: "estimators",
+        title: "Results of the contact estimators",
+        about: "All [contact estimators](../bench.md#vibrissa-estimators) on the samples of the same runs, with three strengths of noise.",
+        commands: &["estimators --json"],
+        has_times: true,
+        is_slow: false,
+        body: tables::estimators,
+    },
+    Page {
+        name: "policies",
+        title: "Results of the other policies",
+        about: "The [policies](../policies.md) that are not in the bench, other rigs, and a comparison from displaced starts.",
+        commands: &[
+            "bench --policy policies/quick.fsm --policy policies/tilted.fsm --policy policies/reverse.fsm --policy policies/baseline.fsm --json",
+            "run scenarios/more/array-octagon.yaml scenarios/more/array-box.yaml scenarios/more/array-prism.yaml --json",
+            "run scenarios/more/peer-disk.yaml scenarios/more/peer-box.yaml scenarios/more/peer-octagon.yaml --json",
+            "compare policies/baseline.fsm policies/thesis.fsm policies/vibrissa.fsm --seeds 4 --jitter 20mm --jitter-heading 10deg --json",
+        ],
+        has_times: false,
+        is_slow: false,
+        body: tables::policies,
+    },
+    Page {
+        name: "worlds",
+        title: "Results of the simulator comparison",
+        about: "The quasi-static simulator [compared](../worlds.md#worlds-against-each-other) with chains of links in MuJoCo.",
+        commands: &["worlds --against quasistatic --json"],
+        has_times: false,
+        is_slow: false,
+        body: tables::worlds,
+    },
+    Page {
+        name: "cable",
+        title: "Results of the peer's cable",
+        about: "The [peer's cable](../worlds.md#the-peers-cable) compared with chains of links in MuJoCo, under `thesis.fsm`.",
+        commands: &["worlds --against peer_cable --policy policies/thesis.fsm --json"],
+        has_times: false,
+        is_slow: true,
+        body: tables::worlds,
+    },
+    Page {
+        name: "timing",
+        title: "Run times",
+        about: "[Speed](../bench.md#vibrissa-timing---repeats-n) of both simulators, medians of three runs of each scene.",
+        commands: &["timing --repeats 3 --json", "timing --repeats 3 --world quasistatic --json"],
+        has_times: true,
+        is_slow: false,
+        body: tables::timing,
+    },
+    Page {
+        name: "pareto",
+        title: "Results of run time against error",
+        about: "[Settings of the simulators](../pareto.md) on the disk under `vibrissa.fsm`, medians of two rounds.",
+        commands: &["pareto --repeats 2 --json"],
+        has_times: true,
+        is_slow: false,
+        body: tables::pareto,
+    },
+    Page {
+        name: "stress",
+        title: "Results of the stress tests",
+        about: "[Stress tests](../stress.md) of both simulators, and their largest stable steps.",
+        commands: &["stress --json"],
+        has_times: false,
+        is_slow: false,
+        body: tables::stress,
+    },
+    Page {
+        name: "calibration",
+        title: "Results of the calibration",
+        about: "[Fits](../calibration.md) to simulated touches of a whisker of the reference rig, without noise and with it.",
+        commands: &["calibrate --json", "calibrate --noise --json"],
+        has_times: false,
+        is_slow: false,
+        body: tables::calibration,
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_have_different_names() {
+        let mut names = PAGES.map(|page| page.name);
+        names.sort_unstable();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+    }
+}

@@ -1,0 +1,423 @@
+//! The tables of the pages, from the outputs of their commands.
+
+use std::collections::BTreeMap;
+
+use super::table::Show::{Code, Fixed, Percent, Plain};
+use super::table::{Column, NoKey, Show, number, pivot, table, text, value};
+use crate::json::Json;
+
+/// The scene, the policy and the outcome of a run.
+const RUN: [Column; 3] = [SCENE, POLICY, Column("outcome", "outcome", Plain)];
+const SCENE: Column = Column("scene", "scenario", Plain);
+const POLICY: Column = Column("policy", "policy", Code);
+
+/// The errors of tips, coverage and body of a run.
+const ERRORS: [Column; 9] = [
+    Column("mean error, mm", "error_mm.mean", Fixed(3)),
+    Column("standard deviation, mm", "error_mm.std", Fixed(3)),
+    Column("95th percentile, mm", "error_mm.p95", Fixed(3)),
+    Column("largest, mm", "error_mm.max", Fixed(2)),
+    Column("in 95 % interval, %", "error_mm.within_band", Percent(1)),
+    Column("outliers, %", "error_mm.outliers", Percent(2)),
+    Column("coverage, %", "coverage", Percent(1)),
+    Column("contacts of the body", "collisions.count", Plain),
+    Column("duration, s", "sim_s", Fixed(0)),
+];
+const BASELINE: Column = Column("baseline's mean error, mm", "thesis.error_mm.mean", Fixed(1));
+
+/// Beside the scene and the policy.
+const RETRIEVAL: [Column; 7] = [
+    SCENE,
+    POLICY,
+    Column("retrievals", "retrieval.count", Plain),
+    Column("radius, mm", "retrieval.radius_mm.mean", Fixed(1)),
+    Column("standard deviation, mm", "retrieval.radius_mm.std", Fixed(1)),
+    Column("baseline's radius, mm", "thesis.radius_mm.mean", Fixed(1)),
+    Column("mean time, s", "retrieval.time_s.mean", Fixed(1)),
+];
+const TUNNELS: [Column; 6] = [
+    SCENE,
+    POLICY,
+    Column("distance from the axis, mm", "axis_mm.mean", Fixed(3)),
+    Column("baseline's distance, mm", "thesis.axis_mm.mean", Fixed(1)),
+    Column("passage, %", "passage.share", Percent(1)),
+    Column("coverage of the walls, %", "passage.wall_coverage", Percent(1)),
+];
+const CORNERS: [Column; 10] = [
+    SCENE,
+    POLICY,
+    Column("corners", "corners.count", Plain),
+    Column("traced", "corners.traced", Plain),
+    Column("mean error, mm", "corners.place_mm.mean", Fixed(2)),
+    Column("largest error, mm", "corners.place_mm.max", Fixed(2)),
+    Column("mean time, s", "corners.time_s.mean", Fixed(1)),
+    Column("longest time, s", "corners.time_s.max", Fixed(1)),
+    Column("mean path, m", "corners.path_m.mean", Fixed(2)),
+    Column("longest path, m", "corners.path_m.max", Fixed(2)),
+];
+
+/// The rows that a condition holds for.
+fn those(rows: &[Json], condition: impl Fn(&Json) -> Result<bool, NoKey>) -> Result<Vec<&Json>, NoKey> {
+    let kept = rows.iter().map(|row| Ok(condition(row)?.then_some(row)));
+    Ok(kept.collect::<Result<Vec<_>, NoKey>>()?.into_iter().flatten().collect())
+}
+
+fn has(row: &Json, path: &str) -> Result<bool, NoKey> {
+    Ok(*value(row, path)? != Json::Null)
+}
+
+/// The corners of those runs that traced any.
+fn corners(rows: &[Json]) -> Result<String, NoKey> {
+    table(those(rows, |row| Ok(number(row, "corners.traced")? > 0.0))?, &CORNERS)
+}
+
+pub(super) fn bench(outputs: &[Json]) -> Result<String, NoKey> {
+    let (runs, quasi_static) = (outputs[0].items(), outputs[1].items());
+    let has_tunnel = |run: &Json| has(run, "passage");
+    let has_edges = |run: &Json| has(run, "thesis.radius_mm");
+    let errors = [&RUN[..], &[BASELINE], &ERRORS].concat();
+    let groups = [
+        ("Contour following", those(runs, |run| Ok(!has_tunnel(run)? && !has_edges(run)?))?),
+        ("Retrieval behind edges", those(runs, has_edges)?),
+        ("Tunnels", those(runs, has_tunnel)?),
+    ];
+    let mut page = String::new();
+    for (title, runs) in &groups {
+        page += &format!("\n## {title}\n\n{}", table(runs.iter().copied(), &errors)?);
+        match *title {
+            "Retrieval behind edges" => page += &format!("\n{}", table(runs.iter().copied(), &RETRIEVAL)?),
+            "Tunnels" => page += &format!("\n{}", table(runs.iter().copied(), &TUNNELS)?),
+            _ => {}
+        }
+    }
+    page += &format!("\n## Corners\n\nOnly runs that traced sharp corners are listed.\n\n{}", corners(runs)?);
+    let errors = table(quasi_static, &[&RUN[..], &ERRORS].concat())?;
+    Ok(page + &format!("\n## Quasi-static simulator\n\n{errors}\n{}", corners(quasi_static)?))
+}
+
+/// The names of the policies in their order.
+fn names<'a>(rows: &'a [Json], path: &str) -> Result<Vec<&'a str>, NoKey> {
+    let mut names = Vec::new();
+    for row in rows {
+        let name = text(row, path)?;
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    Ok(names)
+}
+
+pub(super) fn friction(outputs: &[Json]) -> Result<String, NoKey> {
+    let runs: Vec<Json> = outputs.iter().flat_map(Json::items).cloned().collect();
+    let condition = |run: &Json| {
+        let friction = number(run, "conditions.friction")?;
+        let is_noisy = *value(run, "conditions.noise")? == Json::Bool(true);
+        Ok(match (friction > 0.0, is_noisy) {
+            (true, true) => format!("{friction} and noise"),
+            (true, false) => friction.to_string(),
+            (false, _) => "noise".to_owned(),
+        })
+    };
+    let mut page = "\nA column has the coefficient of friction, and whether there is noise.\n".to_owned();
+    let figures = [
+        ("Mean errors, mm", "error_mm.mean", Fixed(3)),
+        ("95th percentiles of the error, mm", "error_mm.p95", Fixed(2)),
+        ("Outliers, %", "error_mm.outliers", Percent(2)),
+        ("Mean errors of corners, mm", "corners.place_mm.mean", Fixed(2)),
+        ("Mean times of corners, s", "corners.time_s.mean", Fixed(1)),
+    ];
+    for policy in names(&runs, "policy")? {
+        page += &format!("\n## `{policy}.fsm`\n");
+        for (title, path, show) in figures {
+            let of_corners = path.starts_with("corners");
+            let runs = those(&runs, |run| {
+                Ok(text(run, "policy")? == policy && (!of_corners || number(run, "corners.traced")? > 0.0))
+            })?;
+            page += &format!("\n{title}:\n\n{}", pivot(runs, SCENE, condition, (path, show))?);
+        }
+    }
+    let conditions =
+        [SCENE, POLICY, Column("friction", "conditions.friction", Plain), Column("noise", "conditions.noise", Plain)];
+    let stopped = those(&runs, |run| Ok(text(run, "outcome")? != "completed"))?;
+    let reasons = [&conditions[..], &[RUN[2], Column("reason", "reason", Plain)]].concat();
+    page += &format!("\n## Runs that did not complete\n\n{}", table(stopped, &reasons)?);
+    let touched = those(&runs, |run| Ok(number(run, "collisions.count")? > 0.0))?;
+    let contacts = [ERRORS[7], Column("their duration, s", "collisions.time_s", Fixed(1))];
+    Ok(page
+        + &format!(
+            "\n## Runs in which the body touched something\n\n{}",
+            table(touched, &[&conditions[..], &contacts].concat())?
+        ))
+}
+
+/// Counts, means and shares over rows, as a row.
+#[derive(Default)]
+struct Sum {
+    runs: f64,
+    entries: BTreeMap<&'static str, (f64, f64)>,
+}
+
+impl Sum {
+    /// Adds a value to a mean, with a weight.
+    fn add(&mut self, name: &'static str, value: f64, weight: f64) {
+        let (sum, weights) = self.entries.entry(name).or_default();
+        *sum += value * weight;
+        *weights += weight;
+    }
+
+    /// The means by name. `runs` and `total.` give the numbers of rows and the sums.
+    fn row(&self, names: &[(&str, &str)]) -> Json {
+        let texts = names.iter().map(|(key, name)| ((*key).to_owned(), Json::Text((*name).to_owned())));
+        let mean = |&(sum, weights): &(f64, f64)| if weights > 0.0 { Json::Number(sum / weights) } else { Json::Null };
+        let means = self.entries.iter().map(|(name, entry)| ((*name).to_owned(), mean(entry)));
+        let totals = self.entries.iter().map(|(name, (sum, _))| ((*name).to_owned(), Json::Number(*sum))).collect();
+        let counts = [("runs".to_owned(), Json::Number(self.runs)), ("total".to_owned(), Json::Object(totals))];
+        Json::Object(texts.chain(means).chain(counts).collect())
+    }
+}
+
+pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
+    let columns = [
+        Column("family", "family", Code),
+        Column("runs", "runs", Plain),
+        Column("passed, %", "passed", Percent(1)),
+        Column("completed, %", "completed", Percent(1)),
+        Column("runs with contact of the body", "total.collided", Plain),
+        Column("mean error, mm", "error", Fixed(4)),
+        Column("coverage of the object, %", "object", Percent(1)),
+        Column("outliers, %", "outliers", Percent(3)),
+        Column("in 95 % interval, %", "within", Percent(1)),
+    ];
+    let mut page = String::new();
+    for (title, runs) in ["Quasi-static simulator", "MuJoCo"].into_iter().zip(outputs) {
+        let mut rows = Vec::new();
+        for family in names(runs.items(), "family")? {
+            let mut sum = Sum::default();
+            for run in those(runs.items(), |run| Ok(text(run, "family")? == family))? {
+                let (is_complete, tips) = (text(run, "outcome")? == "completed", number(run, "error_mm.n")?);
+                sum.runs += 1.0;
+                sum.add("passed", f64::from(*value(run, "passed")? == Json::Bool(true)), 1.0);
+                sum.add("completed", f64::from(is_complete), 1.0);
+                sum.add("collided", f64::from(number(run, "collisions.count")? > 0.0), 1.0);
+                sum.add("error", number(run, "error_mm.mean")?, f64::from(is_complete));
+                sum.add("object", number(run, "object_coverage")?, f64::from(is_complete));
+                sum.add("outliers", number(run, "error_mm.outliers")?, tips);
+                sum.add("within", number(run, "error_mm.within_band")?, tips);
+            }
+            rows.push(sum.row(&[("family", family)]));
+        }
+        page += &format!("\n## {title}\n\n{}", table(&rows, &columns)?);
+    }
+    Ok(page)
+}
+
+pub(super) fn estimators(outputs: &[Json]) -> Result<String, NoKey> {
+    const FIGURES: [Column; 6] = [
+        Column("mean error, mm", "mean_mm", Fixed(3)),
+        Column("95th percentile, mm", "p95_mm", Fixed(3)),
+        Column("in 95 % interval, %", "within_band", Percent(1)),
+        Column("reported, %", "told", Percent(1)),
+        Column("on the shaft, %", "on_shaft", Percent(1)),
+        Column("time of perception, µs", "tick_us", Fixed(1)),
+    ];
+    let noise = |row: &Json| Ok(format!("{} ×", number(row, "noise")?));
+    let (runs, mut rows, mut pages) = (outputs[0].items(), Vec::new(), String::new());
+    for model in names(runs, "model")? {
+        let runs = those(runs, |run| Ok(text(run, "model")? == model))?;
+        let mut sums: Vec<(String, Sum)> = Vec::new();
+        for run in &runs {
+            let noise = noise(run)?;
+            if sums.last().is_none_or(|(last, _)| *last != noise) && !sums.iter().any(|(other, _)| *other == noise) {
+                sums.push((noise.clone(), Sum::default()));
+            }
+            let Some((_, sum)) = sums.iter_mut().find(|(other, _)| *other == noise) else { continue };
+            let tips = number(run, "tips")?;
+            let told = tips * number(run, "told")?;
+            for (name, weight) in [("mean_mm", 1.0), ("p95_mm", 1.0), ("tick_us", 1.0)] {
+                sum.add(name, number(run, name)?, if has(run, name)? { weight } else { 0.0 });
+            }
+            for (name, weight) in [("told", tips), ("on_shaft", tips), ("within_band", told)] {
+                sum.add(name, number(run, name)?, weight);
+            }
+        }
+        rows.extend(sums.iter().map(|(noise, sum)| sum.row(&[("model", model), ("noise", noise)])));
+        pages += &format!("\n## `{model}`\n");
+        for Column(title, path, show) in &FIGURES[..4] {
+            pages += &format!("\nBy scene, {title}:\n\n{}", pivot(runs.iter().copied(), SCENE, noise, (path, *show))?);
+        }
+    }
+    let columns =
+        [&[Column("contact estimator", "model", Code), Column("noise", "noise", Plain)][..], &FIGURES].concat();
+    let about = "Errors and times are means over the scenes. Shares are of the points of all scenes. Noise is relative to the real sensor's.";
+    Ok(format!("\n## All scenes\n\n{about}\n\n{}{pages}", table(&rows, &columns)?))
+}
+
+pub(super) fn policies(outputs: &[Json]) -> Result<String, NoKey> {
+    let errors = [&RUN[..], &ERRORS].concat();
+    let titles = ["Policies in the scenes of the bench", "Three whiskers on each side", "Slow servos"];
+    let mut page = String::new();
+    for (title, runs) in titles.into_iter().zip(outputs) {
+        let runs = runs.items();
+        let retrieved = those(runs, |run| Ok(number(run, "retrieval.count")? > 0.0))?;
+        let retrieval = [&RETRIEVAL[..5], &RETRIEVAL[6..]].concat();
+        page += &format!("\n## {title}\n\n{}", table(runs, &errors)?);
+        page += &format!("\nCorners:\n\n{}\nRetrievals:\n\n{}", corners(runs)?, table(retrieved, &retrieval)?);
+    }
+    let comparison = &outputs[3];
+    let figures = value(comparison, "figures")?.items().iter().map(with_ends).collect::<Result<Vec<_>, NoKey>>()?;
+    let columns = [
+        Column("figure", "figure", Code),
+        Column("policy", "policy", Code),
+        Column("pairs", "pairs", Plain),
+        Column("mean of the first policy", "first", Fixed(3)),
+        Column("mean of this policy", "mean", Fixed(3)),
+        Column("difference", "difference.mean", Fixed(3)),
+        Column("95 % interval from", "from", Fixed(3)),
+        Column("to", "to", Fixed(3)),
+        Column("verdict", "outlook", Plain),
+    ];
+    let runs = number(&value(comparison, "policies")?.items().first().cloned().unwrap_or(Json::Null), "runs")?;
+    let about = format!(
+        "Each policy has {runs} runs. Units are those of the names, as in [JSON](../json.md). Differences are from the first policy."
+    );
+    Ok(page + &format!("\n## Comparison from displaced starts\n\n{about}\n\n{}", table(&figures, &columns)?))
+}
+
+/// A figure of a comparison, with the ends of its interval as keys.
+fn with_ends(figure: &Json) -> Result<Json, NoKey> {
+    let interval = value(figure, "difference.interval")?.items();
+    let end = |at: usize| interval.get(at).cloned().unwrap_or(Json::Null);
+    let Json::Object(mut entries) = figure.clone() else { return Err(NoKey("figures".to_owned())) };
+    entries.extend([("from".to_owned(), end(0)), ("to".to_owned(), end(1))]);
+    Ok(Json::Object(entries))
+}
+
+pub(super) fn worlds(outputs: &[Json]) -> Result<String, NoKey> {
+    let columns = [
+        SCENE,
+        POLICY,
+        RUN[2],
+        Column("distance of tips, mm", "tip_mm.mean", Fixed(4)),
+        Column("its 95th percentile, mm", "tip_mm.p95", Fixed(4)),
+        Column("difference of moments, µN m", "moment_un_m.mean", Fixed(2)),
+        Column("its 95th percentile, µN m", "moment_un_m.p95", Fixed(2)),
+        Column("share of the moment, %", "moment_share", Percent(2)),
+        Column("distance of contours, mm", "contour_mm", Fixed(4)),
+        Column("left out, %", "left_out", Percent(1)),
+    ];
+    Ok(format!("\n{}", table(outputs[0].items(), &columns)?))
+}
+
+pub(super) fn timing(outputs: &[Json]) -> Result<String, NoKey> {
+    const TIMES: [(&str, &str, Show); 4] = [
+        ("Simulated seconds per second of processor time", "realtime", Fixed(0)),
+        ("Start of a run, ms", "start_ms", Fixed(1)),
+        ("Mean time of a control tick, µs", "tick_us.mean", Fixed(2)),
+        ("99th percentile of the time of a control tick, µs", "tick_us.p99", Fixed(2)),
+    ];
+    let runs: Vec<Json> = outputs.iter().flat_map(Json::items).cloned().collect();
+    let of = |run: &Json| Ok(format!("{}, {}", text(run, "policy")?, text(run, "world")?));
+    let tables = TIMES
+        .iter()
+        .map(|(title, path, show)| Ok(format!("\n## {title}\n\n{}", pivot(&runs, SCENE, of, (path, *show))?)));
+    tables.collect()
+}
+
+pub(super) fn pareto(outputs: &[Json]) -> Result<String, NoKey> {
+    let columns = [
+        Column("setting", "setting", Plain),
+        Column("simulator", "world", Plain),
+        RUN[2],
+        Column("relative time", "relative_time", Fixed(2)),
+        Column("exact error, mm", "error_mm", Fixed(4)),
+        Column("fine error, mm", "fine_mm", Fixed(4)),
+        Column("Pareto-optimal by exact error", "on_front.exact", Plain),
+        Column("by fine error", "on_front.fine", Plain),
+        Column("in its simulator by exact error", "on_front_of_world.exact", Plain),
+        Column("by fine error there", "on_front_of_world.fine", Plain),
+    ];
+    let floor = Fixed(4).text(value(&outputs[0], "floor_mm")?);
+    let table = table(value(&outputs[0], "settings")?.items(), &columns)?;
+    Ok(format!("\n{table}\nThe fine run from a start 1 mm farther back differs by {floor} mm.\n"))
+}
+
+pub(super) fn stress(outputs: &[Json]) -> Result<String, NoKey> {
+    let all = outputs[0].items();
+    let cases = those(all, |row| Ok(text(row, "kind")? == "case"))?;
+    let case = [
+        Column("case", "name", Plain),
+        Column("simulator", "world", Plain),
+        Column("platform", "drive", Plain),
+        RUN[2],
+        Column("numbers are finite", "finite", Plain),
+    ];
+    let step = [
+        Column("setting", "name", Plain),
+        Column("simulator", "world", Plain),
+        Column("largest stable step, ms", "largest_ms", Fixed(2)),
+    ];
+    let steps = those(all, |row| Ok(text(row, "kind")? == "step"))?;
+    let about = "A dash means that no step from 0.1 ms on is stable.";
+    let count = cases.len();
+    Ok(format!(
+        "\n## Largest stable steps\n\n{about}\n\n{}\n## Cases\n\nThere are {count} cases.\n\n{}",
+        table(steps, &step)?,
+        table(cases, &case)?
+    ))
+}
+
+pub(super) fn calibration(outputs: &[Json]) -> Result<String, NoKey> {
+    let columns = [
+        Column("contact estimator", "model", Plain),
+        Column("held-out sets", "sets", Plain),
+        Column("root mean square of the error, mm", "rms_mm", Fixed(3)),
+        Column("largest error, mm", "max_mm", Fixed(3)),
+        Column("range", "range", Plain),
+    ];
+    let mut page = String::new();
+    for (title, fit) in ["Without noise", "With the noise of the real sensor"].into_iter().zip(outputs) {
+        let (sets, tips) = (number(fit, "sets")?, number(fit, "tip_sets")?);
+        let table = table(value(fit, "held_out")?.items(), &columns)?;
+        page += &format!("\n## {title}\n\nOf {sets} touches, {tips} are of the tip.\n\n{table}");
+    }
+    Ok(page)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_are_weighted_and_sums_are_kept() {
+        let mut sum = Sum::default();
+        sum.add("share", 0.1, 3.0);
+        sum.add("share", 0.5, 1.0);
+        sum.add("error", 7.0, 0.0);
+        let row = sum.row(&[("family", "a")]);
+        assert!(number(&row, "share").is_ok_and(|share| (share - 0.2).abs() < 1e-12));
+        assert_eq!((value(&row, "error"), number(&row, "runs")), (Ok(&Json::Null), Ok(0.0)));
+        assert!(number(&row, "total.share").is_ok_and(|total| (total - 0.8).abs() < 1e-12));
+    }
+
+    #[test]
+    fn runs_with_friction_have_a_column_for_each_condition() {
+        let run = |friction: f64, noise: bool, error: f64| {
+            format!(
+                r#"{{"scenario": "disk", "policy": "p", "outcome": "failed", "reason": "a; b", "corners": null,
+                "error_mm": {{"mean": {error}, "p95": 1, "outliers": 0}}, "collisions": {{"count": 0, "time_s": 0}},
+                "conditions": {{"friction": {friction}, "noise": {noise}}}}}"#
+            )
+        };
+        let output = |runs: &[String]| Json::read(&format!("[{}]", runs.join(","))).unwrap_or(Json::Null);
+        let outputs = [output(&[run(0.0, true, 1.0), run(0.1, true, 2.0)]), output(&[run(0.1, false, 3.0)])];
+        let page = friction(&outputs).unwrap_or_default();
+        assert!(
+            page.contains(
+                "| scene | noise | 0.1 and noise | 0.1 |\n|---|---|---|---|\n| disk | 1.000 | 2.000 | 3.000 |"
+            ),
+            "{page}"
+        );
+        assert!(page.contains("| disk | `p` | 0.1 | no | failed | a, b |"), "{page}");
+        assert!(page.contains("body touched something\n\nThere are none."), "{page}");
+    }
+}
