@@ -141,12 +141,14 @@ fn commit(root: &Path) -> Result<String, ResultsError> {
     Ok(if is_dirty { format!("{last}, with uncommitted changes") } else { last })
 }
 
-/// The processors of this machine.
+/// The processors of this machine, and how busy they are.
 fn machine() -> String {
     let count = thread::available_parallelism().map_or(1, usize::from);
     let model = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| model(&text));
     let model = model.map(|model| format!(" ({model})")).unwrap_or_default();
-    format!("{count} processor{}{model}", if count == 1 { "" } else { "s" })
+    let load = fs::read_to_string("/proc/loadavg").ok().and_then(|text| Some(text.split_once(' ')?.0.to_owned()));
+    let load = load.map(|load| format!(", with a load average of {load} at the start")).unwrap_or_default();
+    format!("{count} processor{}{model}{load}", if count == 1 { "" } else { "s" })
 }
 
 /// The model of the first processor.
@@ -157,7 +159,7 @@ fn model(cpuinfo: &str) -> Option<String> {
 
 /// How a page begins.
 fn head(page: &Page, commit: &str, machine: &str) -> String {
-    let commands: String = page.commands.iter().map(|command| format!("    vibrissa {command}\n")).collect();
+    let commands = page.commands.iter().fold(String::new(), |text, command| text + "    vibrissa " + command + "\n");
     let machine = if page.has_times { format!(" Times are of a machine with {machine}.") } else { String::new() };
     let Page { name, title, about, .. } = page;
     format!(

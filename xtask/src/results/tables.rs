@@ -1,6 +1,7 @@
 //! The tables of the pages, from the outputs of their commands.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use super::table::Show::{Code, Fixed, Percent, Plain};
 use super::table::{Column, NoKey, Show, number, pivot, table, text, value};
@@ -83,14 +84,18 @@ pub(super) fn bench(outputs: &[Json]) -> Result<String, NoKey> {
     ];
     let mut page = String::new();
     for (title, runs) in &groups {
-        page += &format!("\n## {title}\n\n{}", table(runs.iter().copied(), &errors)?);
+        let _ = write!(page, "\n## {title}\n\n{}", table(runs.iter().copied(), &errors)?);
         match *title {
-            "Retrieval behind edges" => page += &format!("\n{}", table(runs.iter().copied(), &RETRIEVAL)?),
-            "Tunnels" => page += &format!("\n{}", table(runs.iter().copied(), &TUNNELS)?),
+            "Retrieval behind edges" => {
+                let _ = write!(page, "\n{}", table(runs.iter().copied(), &RETRIEVAL)?);
+            }
+            "Tunnels" => {
+                let _ = write!(page, "\n{}", table(runs.iter().copied(), &TUNNELS)?);
+            }
             _ => {}
         }
     }
-    page += &format!("\n## Corners\n\nOnly runs that traced sharp corners are listed.\n\n{}", corners(runs)?);
+    let _ = write!(page, "\n## Corners\n\nOnly runs that traced sharp corners are listed.\n\n{}", corners(runs)?);
     let errors = table(quasi_static, &[&RUN[..], &ERRORS].concat())?;
     Ok(page + &format!("\n## Quasi-static simulator\n\n{errors}\n{}", corners(quasi_static)?))
 }
@@ -127,20 +132,20 @@ pub(super) fn friction(outputs: &[Json]) -> Result<String, NoKey> {
         ("Mean times of corners, s", "corners.time_s.mean", Fixed(1)),
     ];
     for policy in names(&runs, "policy")? {
-        page += &format!("\n## `{policy}.fsm`\n");
+        let _ = write!(page, "\n## `{policy}.fsm`\n");
         for (title, path, show) in figures {
             let of_corners = path.starts_with("corners");
             let runs = those(&runs, |run| {
                 Ok(text(run, "policy")? == policy && (!of_corners || number(run, "corners.traced")? > 0.0))
             })?;
-            page += &format!("\n{title}:\n\n{}", pivot(runs, SCENE, condition, (path, show))?);
+            let _ = write!(page, "\n{title}:\n\n{}", pivot(runs, SCENE, condition, (path, show))?);
         }
     }
     let conditions =
         [SCENE, POLICY, Column("friction", "conditions.friction", Plain), Column("noise", "conditions.noise", Plain)];
     let stopped = those(&runs, |run| Ok(text(run, "outcome")? != "completed"))?;
     let reasons = [&conditions[..], &[RUN[2], Column("reason", "reason", Plain)]].concat();
-    page += &format!("\n## Runs that did not complete\n\n{}", table(stopped, &reasons)?);
+    let _ = write!(page, "\n## Runs that did not complete\n\n{}", table(stopped, &reasons)?);
     let touched = those(&runs, |run| Ok(number(run, "collisions.count")? > 0.0))?;
     let contacts = [ERRORS[7], Column("their duration, s", "collisions.time_s", Fixed(1))];
     Ok(page
@@ -206,7 +211,7 @@ pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
             }
             rows.push(sum.row(&[("family", family)]));
         }
-        page += &format!("\n## {title}\n\n{}", table(&rows, &columns)?);
+        let _ = write!(page, "\n## {title}\n\n{}", table(&rows, &columns)?);
     }
     Ok(page)
 }
@@ -241,9 +246,10 @@ pub(super) fn estimators(outputs: &[Json]) -> Result<String, NoKey> {
             }
         }
         rows.extend(sums.iter().map(|(noise, sum)| sum.row(&[("model", model), ("noise", noise)])));
-        pages += &format!("\n## `{model}`\n");
+        let _ = write!(pages, "\n## `{model}`\n");
         for Column(title, path, show) in &FIGURES[..4] {
-            pages += &format!("\nBy scene, {title}:\n\n{}", pivot(runs.iter().copied(), SCENE, noise, (path, *show))?);
+            let _ =
+                write!(pages, "\nBy scene, {title}:\n\n{}", pivot(runs.iter().copied(), SCENE, noise, (path, *show))?);
         }
     }
     let columns =
@@ -260,8 +266,8 @@ pub(super) fn policies(outputs: &[Json]) -> Result<String, NoKey> {
         let runs = runs.items();
         let retrieved = those(runs, |run| Ok(number(run, "retrieval.count")? > 0.0))?;
         let retrieval = [&RETRIEVAL[..5], &RETRIEVAL[6..]].concat();
-        page += &format!("\n## {title}\n\n{}", table(runs, &errors)?);
-        page += &format!("\nCorners:\n\n{}\nRetrievals:\n\n{}", corners(runs)?, table(retrieved, &retrieval)?);
+        let _ = write!(page, "\n## {title}\n\n{}", table(runs, &errors)?);
+        let _ = write!(page, "\nCorners:\n\n{}\nRetrievals:\n\n{}", corners(runs)?, table(retrieved, &retrieval)?);
     }
     let comparison = &outputs[3];
     let figures = value(comparison, "figures")?.items().iter().map(with_ends).collect::<Result<Vec<_>, NoKey>>()?;
@@ -378,7 +384,7 @@ pub(super) fn calibration(outputs: &[Json]) -> Result<String, NoKey> {
     for (title, fit) in ["Without noise", "With the noise of the real sensor"].into_iter().zip(outputs) {
         let (sets, tips) = (number(fit, "sets")?, number(fit, "tip_sets")?);
         let table = table(value(fit, "held_out")?.items(), &columns)?;
-        page += &format!("\n## {title}\n\nOf {sets} touches, {tips} are of the tip.\n\n{table}");
+        let _ = write!(page, "\n## {title}\n\nOf {sets} touches, {tips} are of the tip.\n\n{table}");
     }
     Ok(page)
 }
