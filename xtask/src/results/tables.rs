@@ -374,7 +374,7 @@ pub(super) fn stress(outputs: &[Json]) -> Result<String, NoKey> {
 
 pub(super) fn calibration(outputs: &[Json]) -> Result<String, NoKey> {
     let columns = [
-        Column("contact estimator", "model", Plain),
+        Column("contact estimator", "model", Code),
         Column("held-out sets", "sets", Plain),
         Column("root mean square of the error, mm", "rms_mm", Fixed(3)),
         Column("largest error, mm", "max_mm", Fixed(3)),
