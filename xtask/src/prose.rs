@@ -1,4 +1,5 @@
-//! The prose of the documentation, measured: words per sentence, semicolons in tables, terms that are not the field's.
+//! The prose of the documentation, measured: words per sentence, semicolons in tables, terms that are not the field's, and
+//! measured figures outside of the pages that a command makes.
 
 use std::fs;
 use std::io;
@@ -12,7 +13,11 @@ const MOST_WORDS: f64 = 22.0;
 /// The pages that are read first.
 const FIRST: [&str; 2] = ["README.md", "ARCHITECTURE.md"];
 /// Where pages are; folders without those in them.
-const FOLDERS: [&str; 5] = ["", "docs", "docs/decisions", "docs/howto", "editors"];
+const FOLDERS: [&str; 6] = ["", "docs", "docs/decisions", "docs/howto", "docs/results", "editors"];
+/// The folders in which tables must not have more than [`MOST_FIGURES`] measured figures: `cargo x results` keeps them in pages of their own.
+const WITHOUT_FIGURES: [&str; 2] = ["docs/", "docs/howto/"];
+/// Most cells of a table that are nothing but a decimal number. A few may be constants of a method.
+const MOST_FIGURES: usize = 6;
 /// Pages that are not measured: a generated one, and a record that grows.
 const LEFT_OUT: [&str; 2] = ["docs/reference.md", "CHANGELOG.md"];
 
@@ -153,12 +158,34 @@ impl Page {
         (!counts.is_empty()).then(|| counts.iter().sum::<usize>() as f64 / counts.len() as f64)
     }
 
+    /// The first line of each table, and how many of its cells are nothing but a decimal number with its unit. Names, texts with
+    /// numbers, code and whole numbers are no measured figures: they are defaults, limits and parameters.
+    fn figures(&self) -> Vec<(usize, usize)> {
+        let mut tables: Vec<(usize, usize, usize)> = Vec::new();
+        for (line, row) in &self.rows {
+            let count = row.split('|').filter(|cell| is_figure(cell)).count();
+            match tables.last_mut() {
+                Some((_, last, sum)) if *last + 1 == *line => (*last, *sum) = (*line, *sum + count),
+                _ => tables.push((*line, *line, count)),
+            }
+        }
+        tables.into_iter().map(|(first, _, count)| (first, count)).collect()
+    }
+
     /// What is wrong with the page of this name, a line each.
     fn findings(&self, name: &str) -> Vec<String> {
         let mut findings = Vec::new();
         let most = if FIRST.contains(&name) { MOST_WORDS_FIRST } else { MOST_WORDS };
         if let Some(words) = self.words_per_sentence().filter(|words| *words > most) {
             findings.push(format!("{name}: {words:.1} words per sentence in the mean, more than {most}"));
+        }
+        let folder = name.rfind('/').map_or("", |end| &name[..=end]);
+        if WITHOUT_FIGURES.contains(&folder) {
+            for (line, count) in self.figures().into_iter().filter(|&(_, count)| count > MOST_FIGURES) {
+                findings.push(format!(
+                    "{name}:{line}: a table with {count} measured figures; let `cargo x results` make it, in docs/results"
+                ));
+            }
         }
         for (line, row) in &self.rows {
             if row.contains(';') {
@@ -212,6 +239,14 @@ fn sentences(block: &str) -> impl Iterator<Item = &str> {
     sentences.filter(|sentence| sentence.contains(char::is_alphanumeric))
 }
 
+/// True if a cell is a decimal number such as `0.037`, `2.5 %` or `1.1 ± 0.2 mm`.
+fn is_figure(cell: &str) -> bool {
+    let mut words = cell.split_whitespace();
+    let is_decimal = |word: &str| word.contains('.') && word.parse::<f64>().is_ok();
+    let is_unit = |word: &str| word.chars().count() <= 3 || word.parse::<f64>().is_ok();
+    words.next().is_some_and(|word| is_decimal(word.trim_end_matches(','))) && words.all(is_unit)
+}
+
 /// True if a text has a phrase of whole words.
 pub(crate) fn has_words(text: &str, phrase: &str) -> bool {
     let is_letter = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
@@ -250,6 +285,20 @@ mod tests {
         let findings = Page::new(&format!("{long}.")).findings("README.md");
         assert!(findings[0].contains("19.0 words"), "{findings:?}");
         assert!(Page::new(&format!("{long}.")).findings("docs/language.md").is_empty());
+    }
+
+    #[test]
+    fn a_table_of_measured_figures_belongs_to_the_results() {
+        let row = "| disk | 0.072 | 0.03 ± 0.01 mm |\n";
+        let table = format!("One.\n\n| scene | a | b |\n|---|---|---|\n{}\n", row.repeat(4));
+        let found = |name: &str, text: &str| Page::new(text).findings(name);
+        assert!(found("docs/bench.md", &table)[0].starts_with("docs/bench.md:3: a table with 8 measured"));
+        assert!(found("docs/results/bench.md", &table).is_empty() && found("README.md", &table).is_empty());
+        assert!(found("docs/decisions/0001.md", &table).is_empty());
+        let small = table.replace(row, "| disk | 0.072 | a |\n");
+        assert!(found("docs/bench.md", &format!("{small}{small}")).is_empty(), "two tables are not one");
+        let keys = "| `step` | `0.5556 ms` | from 0.1 ms to 33.3 ms | 10 | 0.5 of the length |\n".repeat(9);
+        assert!(found("docs/scenarios.md", &keys).is_empty(), "defaults and limits are no measurements");
     }
 
     #[test]
