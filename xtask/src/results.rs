@@ -20,13 +20,13 @@ use crate::sign_of_life::SignOfLife;
 use pages::{PAGES, Page};
 use table::NoKey;
 
-/// Where the pages are.
+/// The folder of the pages.
 const FOLDER: &str = "docs/results";
-/// What the figures depend on. A commit that changes only other files, such as documentation, leaves them as they are.
+/// The files that the figures depend on. A commit that changes only other files, such as documentation, leaves them as they are.
 const PROGRAM: [&str; 8] =
     ["src", "crates", "policies", "scenarios", "grammar", "build.rs", "Cargo.toml", "Cargo.lock"];
 
-/// What to make, and with which program.
+/// The pages to make, and the program to make them with.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(crate) struct Selection {
     /// The names of the pages; without any, those that take less than two minutes.
@@ -35,7 +35,7 @@ pub(crate) struct Selection {
     pub(crate) program: Option<PathBuf>,
 }
 
-/// Why there is no page, and what to do.
+/// A fault that leaves a page unmade.
 #[derive(Debug, Error)]
 pub(crate) enum ResultsError {
     #[error("there is no page `{0}`. The pages are: {names}", names = PAGES.map(|page| page.name).join(", "))]
@@ -102,7 +102,7 @@ fn build(root: &Path) -> Result<(), ResultsError> {
     if status.success() { Ok(()) } else { Err(ResultsError::Build(status)) }
 }
 
-/// What a command of the program prints.
+/// The output of a command of the program.
 fn output(root: &Path, program: Option<&Path>, command: &str) -> Result<Json, ResultsError> {
     let mut run = if let Some(path) = program {
         Command::new(path)
@@ -157,7 +157,7 @@ fn model(cpuinfo: &str) -> Option<String> {
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
-/// How a page begins.
+/// The beginning of a page.
 fn head(page: &Page, commit: &str, machine: &str) -> String {
     let commands = page.commands.iter().fold(String::new(), |text, command| text + "    vibrissa " + command + "\n");
     let machine = if page.has_times { format!(" Times are of a machine with {machine}.") } else { String::new() };

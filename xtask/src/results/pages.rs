@@ -13,9 +13,9 @@ pub(super) struct Page {
     pub(super) about: &'static str,
     /// The arguments of the program. Each prints JSON.
     pub(super) commands: &'static [&'static str],
-    /// Whether it has times, so that it names the machine.
+    /// True if it has times. Then it names the machine.
     pub(super) has_times: bool,
-    /// Whether it takes more than two minutes, so that it is made only if it is named.
+    /// True if it takes more than two minutes. Then it is made only if it is named.
     pub(super) is_slow: bool,
     /// Its tables, from the outputs of the commands.
     pub(super) body: fn(&[Json]) -> Result<String, NoKey>,

@@ -9,7 +9,7 @@ use crate::json::Json;
 #[error("there is no key `{0}`")]
 pub(crate) struct NoKey(pub(super) String);
 
-/// How a column shows its values.
+/// The form of a column's values.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Show {
     /// As it is: a text, a whole number, yes or no.
@@ -26,7 +26,7 @@ pub(super) enum Show {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column(pub(super) &'static str, pub(super) &'static str, pub(super) Show);
 
-/// What a figure looks like that a row does not have.
+/// The text of a figure that a row does not have.
 const NONE: &str = "–";
 
 impl Show {
