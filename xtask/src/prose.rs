@@ -12,8 +12,8 @@ const MOST_WORDS_FIRST: f64 = 18.0;
 const MOST_WORDS: f64 = 22.0;
 /// The pages that are read first.
 const FIRST: [&str; 2] = ["README.md", "ARCHITECTURE.md"];
-/// Where pages are; folders without those in them.
-const FOLDERS: [&str; 6] = ["", "docs", "docs/decisions", "docs/howto", "docs/results", "editors"];
+/// The folders with pages, each without the folders in it. Those of `docs/results` are generated.
+const FOLDERS: [&str; 5] = ["", "docs", "docs/decisions", "docs/howto", "editors"];
 /// The folders in which tables must not have more than [`MOST_FIGURES`] measured figures: `cargo x results` keeps them in pages of their own.
 const WITHOUT_FIGURES: [&str; 2] = ["docs/", "docs/howto/"];
 /// Most cells of a table that are nothing but a decimal number. A few may be constants of a method.
