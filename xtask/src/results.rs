@@ -198,6 +198,25 @@ mod tests {
     }
 
     #[test]
+    fn the_table_of_the_readme_has_the_figures_of_the_bench() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+        let text = |name: &str| fs::read_to_string(root.join(name)).unwrap_or_default();
+        let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+        let (readme, bench) = (text("README.md"), text("docs/results/bench.md"));
+        let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| scene |")).skip(2).collect();
+        let rows: Vec<_> = rows.into_iter().take_while(|line| line.starts_with('|')).map(cells).collect();
+        assert_eq!(rows.len(), 10);
+        for row in rows {
+            let name = row[1].replace(' ', "-");
+            // The first table with the scene is that of MuJoCo.
+            let of =
+                |policy| bench.lines().find(|line| line.starts_with(&format!("| {name} | `{policy}` | "))).map(cells);
+            let (Some(thesis), Some(vibrissa)) = (of("thesis"), of("vibrissa")) else { panic!("{name} has no row") };
+            assert_eq!(row[3..6], [thesis[5].clone(), vibrissa[5].clone(), vibrissa[11].clone() + " %"], "{name}");
+        }
+    }
+
+    #[test]
     fn the_model_of_the_processor_is_read() {
         assert_eq!(model("processor: 0\nmodel name\t: AMD EPYC \n").as_deref(), Some("AMD EPYC"));
         assert_eq!(model("Hardware: BCM2711\n"), None);
