@@ -106,8 +106,8 @@ pub(super) const PAGES: [Page; 11] = [
     Page {
         name: "pareto",
         title: "Results of run time against error",
-        about: "[Settings of the simulators](../pareto.md) on the disk under `vibrissa.fsm`, medians of two rounds.",
-        commands: &["pareto --repeats 2 --json"],
+        about: "[Settings of the simulators](../pareto.md) on the disk under `vibrissa.fsm`, medians of three rounds.",
+        commands: &["pareto --json"],
         has_times: true,
         is_slow: false,
         body: tables::pareto,
