@@ -90,7 +90,7 @@ impl Merged {
     ///
     /// # Errors
     /// [`ResultsError`] if the file has other content, or if a sweep is writing to it.
-    pub fn check_path(&self, path: &Path) -> Result<Option<File>, ResultsError> {
+    pub(crate) fn check_path(&self, path: &Path) -> Result<Option<File>, ResultsError> {
         check_path(path, &self.header.of_shard(Shard::WHOLE))
     }
 

@@ -178,7 +178,7 @@ impl Trial {
 
 /// The first sixteen hexadecimal digits of a hash, enough to distinguish files.
 #[must_use]
-pub fn short_hash(hash: &[u8]) -> String {
+pub(crate) fn short_hash(hash: &[u8]) -> String {
     // Writing to a string cannot fail.
     hash.iter().take(8).fold(String::with_capacity(16), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
