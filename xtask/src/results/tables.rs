@@ -260,16 +260,24 @@ pub(super) fn estimators(outputs: &[Json]) -> Result<String, NoKey> {
 
 pub(super) fn policies(outputs: &[Json]) -> Result<String, NoKey> {
     let errors = [&RUN[..], &ERRORS].concat();
-    let titles = ["Policies in the scenes of the bench", "Three whiskers on each side", "Slow servos"];
+    let titles = [
+        "Policies in the scenes of the bench",
+        "Three whiskers on each side",
+        "Slow servos",
+        "Slow servos, with edges",
+    ];
     let mut page = String::new();
     for (title, runs) in titles.into_iter().zip(outputs) {
         let runs = runs.items();
         let retrieved = those(runs, |run| Ok(number(run, "retrieval.count")? > 0.0))?;
         let retrieval = [&RETRIEVAL[..5], &RETRIEVAL[6..]].concat();
         let _ = write!(page, "\n## {title}\n\n{}", table(runs, &errors)?);
-        let _ = write!(page, "\nCorners:\n\n{}\nRetrievals:\n\n{}", corners(runs)?, table(retrieved, &retrieval)?);
+        let tables = [("Corners", corners(runs)?), ("Retrievals", table(retrieved, &retrieval)?)];
+        for (title, table) in tables.into_iter().filter(|(_, table)| table.starts_with('|')) {
+            let _ = write!(page, "\n{title}:\n\n{table}");
+        }
     }
-    let comparison = &outputs[3];
+    let comparison = &outputs[4];
     let figures = value(comparison, "figures")?.items().iter().map(with_ends).collect::<Result<Vec<_>, NoKey>>()?;
     let columns = [
         Column("figure", "figure", Code),
