@@ -1,7 +1,7 @@
 //! The pages: what each says, and the commands that it is made of.
 
 use super::table::NoKey;
-use super::tables;
+use super::{sums, tables};
 use crate::json::Json;
 
 /// A page of results.
@@ -51,7 +51,7 @@ pub(super) const PAGES: [Page; 11] = [
         ],
         has_times: false,
         is_slow: true,
-        body: tables::families,
+        body: sums::families,
     },
     Page {
         name: "estimators",
@@ -60,7 +60,7 @@ pub(super) const PAGES: [Page; 11] = [
         commands: &["estimators --json"],
         has_times: true,
         is_slow: false,
-        body: tables::estimators,
+        body: sums::estimators,
     },
     Page {
         name: "policies",

@@ -1,0 +1,129 @@
+//! Tables of sums over runs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::table::Show::{Code, Fixed, Percent, Plain};
+use super::table::{Column, NoKey, number, pivot, table, text, value};
+use super::tables::{SCENE, has, names, those};
+use crate::json::Json;
+
+/// Counts, means and shares over rows, as a row.
+#[derive(Default)]
+struct Sum {
+    runs: f64,
+    entries: BTreeMap<&'static str, (f64, f64)>,
+}
+
+impl Sum {
+    /// Adds a value to a mean, with a weight.
+    fn add(&mut self, name: &'static str, value: f64, weight: f64) {
+        let (sum, weights) = self.entries.entry(name).or_default();
+        *sum += value * weight;
+        *weights += weight;
+    }
+
+    /// The means by name. `runs` and `total.` give the numbers of rows and the sums.
+    fn row(&self, names: &[(&str, &str)]) -> Json {
+        let texts = names.iter().map(|(key, name)| ((*key).to_owned(), Json::Text((*name).to_owned())));
+        let mean = |&(sum, weights): &(f64, f64)| if weights > 0.0 { Json::Number(sum / weights) } else { Json::Null };
+        let means = self.entries.iter().map(|(name, entry)| ((*name).to_owned(), mean(entry)));
+        let totals = self.entries.iter().map(|(name, (sum, _))| ((*name).to_owned(), Json::Number(*sum))).collect();
+        let counts = [("runs".to_owned(), Json::Number(self.runs)), ("total".to_owned(), Json::Object(totals))];
+        Json::Object(texts.chain(means).chain(counts).collect())
+    }
+}
+
+pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
+    let columns = [
+        Column("family", "family", Code),
+        Column("runs", "runs", Plain),
+        Column("passed, %", "passed", Percent(1)),
+        Column("completed, %", "completed", Percent(1)),
+        Column("runs with contact of the body", "total.collided", Plain),
+        Column("mean error, mm", "error", Fixed(4)),
+        Column("coverage of the object, %", "object", Percent(1)),
+        Column("outliers, %", "outliers", Percent(3)),
+        Column("in 95 % interval, %", "within", Percent(1)),
+    ];
+    let mut page = String::new();
+    for (title, runs) in ["Quasi-static simulator", "MuJoCo"].into_iter().zip(outputs) {
+        let mut rows = Vec::new();
+        for family in names(runs.items(), "family")? {
+            let mut sum = Sum::default();
+            for run in those(runs.items(), |run| Ok(text(run, "family")? == family))? {
+                let (is_complete, tips) = (text(run, "outcome")? == "completed", number(run, "error_mm.n")?);
+                sum.runs += 1.0;
+                sum.add("passed", f64::from(*value(run, "passed")? == Json::Bool(true)), 1.0);
+                sum.add("completed", f64::from(is_complete), 1.0);
+                sum.add("collided", f64::from(number(run, "collisions.count")? > 0.0), 1.0);
+                sum.add("error", number(run, "error_mm.mean")?, f64::from(is_complete));
+                sum.add("object", number(run, "object_coverage")?, f64::from(is_complete));
+                sum.add("outliers", number(run, "error_mm.outliers")?, tips);
+                sum.add("within", number(run, "error_mm.within_band")?, tips);
+            }
+            rows.push(sum.row(&[("family", family)]));
+        }
+        let _ = write!(page, "\n## {title}\n\n{}", table(&rows, &columns)?);
+    }
+    Ok(page)
+}
+
+pub(super) fn estimators(outputs: &[Json]) -> Result<String, NoKey> {
+    const FIGURES: [Column; 6] = [
+        Column("mean error, mm", "mean_mm", Fixed(3)),
+        Column("95th percentile, mm", "p95_mm", Fixed(3)),
+        Column("in 95 % interval, %", "within_band", Percent(1)),
+        Column("reported, %", "told", Percent(1)),
+        Column("on the shaft, %", "on_shaft", Percent(1)),
+        Column("time of perception, µs", "tick_us", Fixed(1)),
+    ];
+    let noise = |row: &Json| Ok(format!("{} ×", number(row, "noise")?));
+    let (runs, mut rows, mut pages) = (outputs[0].items(), Vec::new(), String::new());
+    for model in names(runs, "model")? {
+        let runs = those(runs, |run| Ok(text(run, "model")? == model))?;
+        let mut sums: Vec<(String, Sum)> = Vec::new();
+        for run in &runs {
+            let noise = noise(run)?;
+            if sums.last().is_none_or(|(last, _)| *last != noise) && !sums.iter().any(|(other, _)| *other == noise) {
+                sums.push((noise.clone(), Sum::default()));
+            }
+            let Some((_, sum)) = sums.iter_mut().find(|(other, _)| *other == noise) else { continue };
+            let tips = number(run, "tips")?;
+            let told = tips * number(run, "told")?;
+            for (name, weight) in [("mean_mm", 1.0), ("p95_mm", 1.0), ("tick_us", 1.0)] {
+                sum.add(name, number(run, name)?, if has(run, name)? { weight } else { 0.0 });
+            }
+            for (name, weight) in [("told", tips), ("on_shaft", tips), ("within_band", told)] {
+                sum.add(name, number(run, name)?, weight);
+            }
+        }
+        rows.extend(sums.iter().map(|(noise, sum)| sum.row(&[("model", model), ("noise", noise)])));
+        let _ = write!(pages, "\n## `{model}`\n");
+        for Column(title, path, show) in &FIGURES[..4] {
+            let _ =
+                write!(pages, "\nBy scene, {title}:\n\n{}", pivot(runs.iter().copied(), SCENE, noise, (path, *show))?);
+        }
+    }
+    let columns =
+        [&[Column("contact estimator", "model", Code), Column("noise", "noise", Plain)][..], &FIGURES].concat();
+    let about = "Errors and times are means over the scenes. Shares are of the points of all scenes. Noise is relative to the real sensor's.";
+    Ok(format!("\n## All scenes\n\n{about}\n\n{}{pages}", table(&rows, &columns)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_are_weighted_and_sums_are_kept() {
+        let mut sum = Sum::default();
+        sum.add("share", 0.1, 3.0);
+        sum.add("share", 0.5, 1.0);
+        sum.add("error", 7.0, 0.0);
+        let row = sum.row(&[("family", "a")]);
+        assert!(number(&row, "share").is_ok_and(|share| (share - 0.2).abs() < 1e-12));
+        assert_eq!((value(&row, "error"), number(&row, "runs")), (Ok(&Json::Null), Ok(0.0)));
+        assert!(number(&row, "total.share").is_ok_and(|total| (total - 0.8).abs() < 1e-12));
+    }
+}
