@@ -64,33 +64,33 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     let curve = |sets: &[ContactSet]| near_heading(whisker, sets);
     calibration.one_channel = near_heading(whisker, &sets);
     if let Some(ContactCurve { range, .. }) = &calibration.one_channel {
-        let miss = |curve: &ContactCurve, set: &ContactSet| {
+        let error = |curve: &ContactCurve, set: &ContactSet| {
             // One standard deviation of the surface's direction, if it is known.
             let is_meant = weight(whisker, set) > 0.6 && (curve.range[0]..=curve.range[1]).contains(&set.base_angle);
             is_meant.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
         };
         let range = format!("{:.0} to {:.0} urad, surface within 10 deg", 1e6 * range[0], 1e6 * range[1]);
-        held_out.extend(hold_out("one_channel", (&sets, &positions), curve, miss, range));
+        held_out.extend(hold_out("one_channel", (&sets, &positions), curve, error, range));
     }
 
     calibration.recursive = AngleSurface::fit(&sets);
     if let Some(surface) = &calibration.recursive {
-        let miss = |surface: &AngleSurface, set: &ContactSet| {
+        let error = |surface: &AngleSurface, set: &ContactSet| {
             let (base_angle, gradient) = surface.at(set.contact_base);
             let is_within = surface.contains(set.contact_base);
             is_within.then(|| (base_angle - set.base_angle).abs() / gradient.norm())
         };
         let range = format!("between positions within {:.1} mm", 1e3 * surface.reach);
-        held_out.extend(hold_out("recursive", (&sets, &positions), AngleSurface::fit, miss, range));
+        held_out.extend(hold_out("recursive", (&sets, &positions), AngleSurface::fit, error, range));
     }
 
     let hinge = HingeFit::new(whisker);
     calibration.hinge_stiffness = hinge.fit(&sets);
     if let Some(stiffness) = calibration.hinge_stiffness {
-        let miss = |stiffness: &f64, set: &ContactSet| hinge.miss(set, *stiffness);
+        let error = |stiffness: &f64, set: &ContactSet| hinge.error(set, *stiffness);
         let range = format!("base hinge {stiffness:.4} N m/rad");
         let fit = |sets: &[ContactSet]| hinge.fit(sets);
-        held_out.extend(hold_out("sliding, moment_and_shear", (&sets, &positions), fit, miss, range));
+        held_out.extend(hold_out("sliding, moment_and_shear", (&sets, &positions), fit, error, range));
     }
     Fitted { calibration, held_out }
 }
@@ -123,21 +123,21 @@ fn hold_out<F>(
     model: &'static str,
     (sets, positions): (&[ContactSet], &[usize]),
     fit: impl Fn(&[ContactSet]) -> Option<F>,
-    miss: impl Fn(&F, &ContactSet) -> Option<f64>,
+    error: impl Fn(&F, &ContactSet) -> Option<f64>,
     range: String,
 ) -> Option<HeldOut> {
-    let mut misses = Vec::with_capacity(sets.len());
+    let mut errors = Vec::with_capacity(sets.len());
     for fold in 0..FOLDS {
         let is_held = |index: &usize| positions[*index] % FOLDS == fold;
         let part = |held: bool| (0..sets.len()).filter(move |index| is_held(index) == held).map(|index| sets[index]);
         let fitted = fit(&part(false).collect::<Vec<_>>())?;
-        misses.extend(part(true).filter_map(|set| miss(&fitted, &set)));
+        errors.extend(part(true).filter_map(|set| error(&fitted, &set)));
     }
-    let mean = misses.iter().map(|miss| miss * miss).sum::<f64>() / misses.len() as f64;
-    let max = misses.iter().copied().fold(0.0, f64::max);
-    (!misses.is_empty()).then(|| HeldOut {
+    let mean = errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64;
+    let max = errors.iter().copied().fold(0.0, f64::max);
+    (!errors.is_empty()).then(|| HeldOut {
         model,
-        sets: misses.len(),
+        sets: errors.len(),
         rms_mm: 1e3 * mean.sqrt(),
         max_mm: 1e3 * max,
         range,

@@ -41,7 +41,7 @@ impl HingeFit {
         let worst = 1e-2;
         let cost = |log: f64| -> f64 {
             let stiffness = self.stiffness * log.exp();
-            sets.iter().map(|set| self.miss(set, stiffness).unwrap_or(worst).min(worst).powi(2)).sum()
+            sets.iter().map(|set| self.error(set, stiffness).unwrap_or(worst).min(worst).powi(2)).sum()
         };
         let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
         // With a wrong hinge, all sets beyond the range have the same error, and the gradient is zero.
@@ -69,7 +69,7 @@ impl HingeFit {
 
     /// Distance between the position of a set and the computed position (m), with its normal, or with the best normal
     /// if it is not known.
-    pub(super) fn miss(&self, set: &ContactSet, stiffness: f64) -> Option<f64> {
+    pub(super) fn error(&self, set: &ContactSet, stiffness: f64) -> Option<f64> {
         let off = |normal| Some((self.position(set.base_angle, normal, stiffness)? - set.contact_base).norm());
         if let Some(normal) = set.normal {
             return off(normal);

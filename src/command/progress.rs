@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn what_was_done_before_does_not_count_for_the_time_left() {
-        let told = line(900, 910, 1000, Duration::from_mins(1));
-        assert_eq!(told, "910 of 1000 runs in 60 seconds, 9 minutes left");
+        let text = line(900, 910, 1000, Duration::from_mins(1));
+        assert_eq!(text, "910 of 1000 runs in 60 seconds, 9 minutes left");
     }
 }

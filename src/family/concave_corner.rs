@@ -24,7 +24,7 @@ fn lay(sampler: &mut Sampler) -> Layout {
         Vector2::zeros(),
         second * out,
         second * out + right(out),
-        thickness * behind(into, out),
+        thickness * displaced_corner(into, out),
         right(into) - first * into,
         -first * into,
     ];
@@ -40,7 +40,7 @@ fn lay(sampler: &mut Sampler) -> Layout {
 }
 
 /// The vector from the corner between two directions to the corner of their lines displaced by a metre to the right.
-fn behind(into: Vector2, out: Vector2) -> Vector2 {
+fn displaced_corner(into: Vector2, out: Vector2) -> Vector2 {
     let (before, after) = (-perpendicular(into), -perpendicular(out));
     (before + after) / (1.0 + before.dot(&after))
 }

@@ -11,8 +11,8 @@ const POINTS: u32 = 32;
 /// The corners of a random convex polygon around the origin, counter-clockwise. They are on a circle, with a least
 /// distance between neighbours.
 pub(super) fn convex_polygon(sampler: &mut Sampler, radius: f64, corners: u32) -> Vec<Vector2> {
-    let (turned, step) = (sampler.between(0.0, TAU), TAU / f64::from(corners));
-    let angle = |k: u32, sampler: &mut Sampler| turned + step * (f64::from(k) + sampler.between(-0.3, 0.3));
+    let (phase, step) = (sampler.between(0.0, TAU), TAU / f64::from(corners));
+    let angle = |k: u32, sampler: &mut Sampler| phase + step * (f64::from(k) + sampler.between(-0.3, 0.3));
     (0..corners).map(|k| radius * unit(angle(k, sampler))).collect()
 }
 

@@ -15,10 +15,10 @@ pub(super) const FAMILY: Family = Family {
 };
 
 /// Largest curvature of a convex part (1/m). A tip that slides around it does not snap off.
-const ROUND: f64 = 1.0 / 0.08;
+const MAX_CONVEX: f64 = 1.0 / 0.08;
 /// Largest curvature of a concave part (1/m). A whisker can slide along it without a contact of the nose, which is 108
 /// mm ahead of the centre of mass.
-const HOLLOW: f64 = 1.0 / 0.25;
+const MAX_CONCAVE: f64 = 1.0 / 0.25;
 
 /// Number of angles at which the curvature is computed.
 const ANGLES: u32 = 720;
@@ -34,18 +34,19 @@ fn lay(sampler: &mut Sampler) -> Layout {
             Harmonic { order, amplitude, phase: sampler.between(-PI, PI) }
         })
         .collect();
-    let mut bends = bends(radius, &harmonics);
+    let mut curvatures = curvatures(radius, &harmonics);
     // A circle satisfies both limits, so the loop ends.
-    while bends.0 < -HOLLOW || bends.1 > ROUND {
+    while curvatures.0 < -MAX_CONCAVE || curvatures.1 > MAX_CONVEX {
         for harmonic in &mut harmonics {
             harmonic.amplitude *= FLATTER;
         }
-        bends = self::bends(radius, &harmonics);
+        curvatures = self::curvatures(radius, &harmonics);
     }
     let outline: Vec<_> = angles().map(|angle| distance(radius, &harmonics, angle)[0] * unit(angle)).collect();
-    let inwards = if bends.0 < 0.0 { format!(", hollows of {:.0} mm", -1e3 / bends.0) } else { String::new() };
+    let inwards =
+        if curvatures.0 < 0.0 { format!(", hollows of {:.0} mm", -1e3 / curvatures.0) } else { String::new() };
     Layout {
-        about: format!("bulges of {:.0} mm{inwards}", 1e3 / bends.1),
+        about: format!("bulges of {:.0} mm{inwards}", 1e3 / curvatures.1),
         objects: vec![polar(ahead(sampler, hand, &outline), radius, &harmonics)],
         start: beside(hand),
         aim: Aim::Loop,
@@ -55,7 +56,7 @@ fn lay(sampler: &mut Sampler) -> Layout {
 }
 
 /// The least and the greatest curvature (1/m) of a curve, positive in convex parts.
-fn bends(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
+fn curvatures(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
     let curvature = |angle| {
         let [r, slope, bend] = distance(radius, harmonics, angle);
         (r * r + 2.0 * slope * slope - r * bend) / (r * r + slope * slope).powf(1.5)

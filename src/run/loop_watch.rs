@@ -94,15 +94,15 @@ impl LoopWatch {
         while self.newest.get(1).is_some_and(|next| (tip - next).norm() >= CHORD) {
             self.newest.pop_front();
         }
-        let behind = self.newest.front().copied().unwrap_or(tip);
-        let chord = tip - behind;
+        let chord_start = self.newest.front().copied().unwrap_or(tip);
+        let chord = tip - chord_start;
         if chord.norm() < CHORD {
             return false;
         }
         let left = perpendicular(chord.normalize());
         let normal = if left.dot(&(platform - tip)) < 0.0 { -left } else { left };
         if start.length <= START_LENGTH {
-            let positions = if start.tips.is_empty() { vec![behind, tip] } else { vec![tip] };
+            let positions = if start.tips.is_empty() { vec![chord_start, tip] } else { vec![tip] };
             start.tips.extend(positions.into_iter().map(|position| FirstTip {
                 position,
                 normal,

@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn every_class_can_be_told_from_the_others_and_the_ground_also_by_the_colour_blind() {
+    fn every_class_is_distinguishable_from_the_others_and_the_ground_also_for_colour_blind_people() {
         for vision in VISIONS {
             for (index, one) in COLOURS.iter().enumerate() {
                 for other in COLOURS[..index].iter().chain(["#ffffff"].iter()) {

@@ -33,11 +33,11 @@ pub fn worlds_table(rows: &[WorldsRow]) -> Table {
             row.outcome.name().to_owned(),
             shown(row.tip_mm.map(|tip| tip.mean), &millimetres),
             shown(row.contour_mm, &millimetres),
-            shown(row.moment_un_m.map(|apart| apart.mean), &moment),
+            shown(row.moment_un_m.map(|moment| moment.mean), &moment),
             shown(row.moment_share, &|share| format!("{:.2} %", 100.0 * share)),
             format!("{:.1} %", 100.0 * row.left_out),
             shown(row.tip_mm.map(|tip| tip.p95), &millimetres),
-            shown(row.moment_un_m.map(|apart| apart.p95), &moment),
+            shown(row.moment_un_m.map(|moment| moment.p95), &moment),
         ]
     });
     Table::new(4, HEADINGS, lines)

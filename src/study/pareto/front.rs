@@ -16,7 +16,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn what_is_cheaper_or_nearer_than_all_others_is_on_the_front() {
+    fn a_point_cheaper_or_more_accurate_than_all_others_is_pareto_optimal() {
         let points = [Some((1.0, 5.0)), Some((2.0, 3.0)), Some((2.0, 4.0)), Some((3.0, 3.0)), Some((9.0, 1.0)), None];
         assert_eq!(front(&points), [true, true, false, false, true, false]);
         assert_eq!(front(&[Some((1.0, 1.0)), Some((1.0, 1.0)), Some((f64::NAN, 0.0))]), [true, true, false]);
@@ -25,7 +25,7 @@ mod tests {
     proptest! {
         /// In the order of their cost, the errors of Pareto-optimal points decrease.
         #[test]
-        fn a_front_falls(points in prop::collection::vec((0.0..9.0_f64, 0.0..9.0_f64).prop_map(Some), 1..40)) {
+        fn errors_of_pareto_optimal_points_decrease_with_cost(points in prop::collection::vec((0.0..9.0_f64, 0.0..9.0_f64).prop_map(Some), 1..40)) {
             let on = front(&points);
             let mut chosen: Vec<(f64, f64)> =
                 points.iter().zip(&on).filter(|(_, on)| **on).filter_map(|(point, _)| *point).collect();

@@ -56,10 +56,10 @@ pub fn measure(
     }
     let fine = settings.iter().position(|setting| *setting == Setting::fine());
     let fine = fine.and_then(|index| firsts[index].estimate.clone());
-    let mut behind = scene.clone();
-    behind.start.position -= START_OFFSET * unit(scene.start.heading);
+    let mut displaced = scene.clone();
+    displaced.start.position -= START_OFFSET * unit(scene.start.heading);
     let floor_mm =
-        fine.as_ref().and_then(|fine| timed(&behind, program, world, &Setting::fine()).ok()?.mean_distance(fine));
+        fine.as_ref().and_then(|fine| timed(&displaced, program, world, &Setting::fine()).ok()?.mean_distance(fine));
     let mut rows = Vec::with_capacity(settings.len());
     for (index, (setting, first)) in settings.iter().zip(&firsts).enumerate() {
         let seconds = |round: &Vec<f64>| round[index];

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::row::{Apart, WorldsRow};
+use super::row::{Differences, WorldsRow};
 use super::simulation::Simulation;
 use super::track::{Instant, Track};
 use crate::run::Run;
@@ -37,7 +37,7 @@ pub fn compare_worlds(
         let own = run(scene, program, simulation)?;
         let track = Track::along(&reference_run.trace, scene, simulation)?;
         let (pairs, touching) = pairs(&of_reference, &track, scene.rig.sensing.contact_threshold);
-        let of = |distance: fn(&(Instant, Instant)) -> f64| Apart::of(pairs.iter().map(distance).collect());
+        let of = |distance: fn(&(Instant, Instant)) -> f64| Differences::of(pairs.iter().map(distance).collect());
         let bending: f64 = pairs.iter().map(|(reference, _)| reference.moment.abs()).sum();
         let moment = of(|(reference, other)| 1e6 * (other.moment - reference.moment).abs());
         rows.push(WorldsRow {

@@ -6,5 +6,5 @@ mod simulation;
 mod track;
 
 pub use compare::compare_worlds;
-pub use row::{Apart, WorldsRow};
+pub use row::{Differences, WorldsRow};
 pub use simulation::Simulation;

@@ -31,9 +31,9 @@ pub struct WorldsRow {
     /// Share of ticks that are not compared, among those in which a whisker touches in either simulation.
     pub left_out: f64,
     /// Distances of the tips.
-    pub tip_mm: Option<Apart>,
+    pub tip_mm: Option<Differences>,
     /// Differences of the base moments.
-    pub moment_un_m: Option<Apart>,
+    pub moment_un_m: Option<Differences>,
     /// Mean difference of the base moments over the mean of the reference's moments.
     pub moment_share: Option<f64>,
     /// Mean distance of the tips that the policy's run recorded from the contour of the reference's run.
@@ -49,7 +49,7 @@ impl Document for WorldsRow {
 /// The sizes of differences.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Apart {
+pub struct Differences {
     /// Their mean.
     pub mean: f64,
     /// Their 95th percentile.
@@ -58,7 +58,7 @@ pub struct Apart {
     pub max: f64,
 }
 
-impl Apart {
+impl Differences {
     /// The statistics of some differences. `None` without any.
     pub(super) fn of(differences: Vec<f64>) -> Option<Self> {
         let statistics = Statistics::of(differences)?;

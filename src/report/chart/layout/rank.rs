@@ -39,12 +39,12 @@ fn rank(count: usize, arrows: &[(usize, usize)]) -> Vec<usize> {
 
 /// The arrows. Those that close a cycle are reversed.
 fn without_cycles(count: usize, arrows: &[(usize, usize)]) -> Vec<(usize, usize)> {
-    let mut search = Search { arrows, progress: vec![Progress::New; count], turned: vec![false; arrows.len()] };
+    let mut search = Search { arrows, progress: vec![Progress::New; count], reversed: vec![false; arrows.len()] };
     for node in 0..count {
         search.visit(node);
     }
-    let directed = arrows.iter().zip(search.turned);
-    directed.map(|(&(from, to), turned)| if turned { (to, from) } else { (from, to) }).collect()
+    let directed = arrows.iter().zip(search.reversed);
+    directed.map(|(&(from, to), reversed)| if reversed { (to, from) } else { (from, to) }).collect()
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -58,7 +58,7 @@ enum Progress {
 struct Search<'a> {
     arrows: &'a [(usize, usize)],
     progress: Vec<Progress>,
-    turned: Vec<bool>,
+    reversed: Vec<bool>,
 }
 
 impl Search<'_> {
@@ -69,7 +69,7 @@ impl Search<'_> {
         self.progress[node] = Progress::Open;
         for (index, &(from, to)) in self.arrows.iter().enumerate() {
             if from == node {
-                self.turned[index] = self.progress[to] == Progress::Open;
+                self.reversed[index] = self.progress[to] == Progress::Open;
                 self.visit(to);
             }
         }
