@@ -13,5 +13,7 @@ mod special;
 pub(crate) use command_files::CommandFiles;
 pub(crate) use identity::is_at;
 pub(crate) use output::{Output, OutputError};
-pub(crate) use regular::{append, open, read};
+#[cfg(feature = "lsp")]
+pub(crate) use regular::read;
+pub(crate) use regular::{append, open};
 pub(crate) use replace::{replace, sync_name};

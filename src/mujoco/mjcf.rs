@@ -71,6 +71,7 @@ fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)
 }
 
 /// The names of the geoms of the parts in `scope`, ascending by the parts' indices.
+#[cfg(feature = "sim")]
 pub(crate) fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
     named_parts(solids, scope).into_iter().map(|(name, _)| name)
 }

@@ -25,10 +25,10 @@ pub use library::LibraryError;
 #[cfg(feature = "sim")]
 pub use messages::engine_version;
 pub use mjcf::mjcf;
+#[cfg(feature = "sim")]
 pub(crate) use mjcf::{mjcf_within, part_names};
 #[cfg(feature = "sim")]
 pub use plugin::PluginError;
-pub(crate) use prune::is_gentle;
-pub use prune::{Decision, Pruning, Reach, Scope, Verdict, may_be_rigid};
+pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
 #[cfg(feature = "sim")]
 pub use world::{MujocoError, MujocoWorld};

@@ -13,7 +13,7 @@ pub const SHARP: f64 = PI / 9.0;
 
 /// The range of distances from a corner along the outline (m) whose tips determine a side. Closer to the corner, an
 /// estimate with an error of millimetres does not separate the two sides.
-pub(super) const SIDE: (f64, f64) = (0.005, 0.03);
+pub const SIDE: (f64, f64) = (0.005, 0.03);
 
 /// The share of the length of a short side that is excluded at either end.
 const SHORT_SIDE: f64 = 0.2;

@@ -12,7 +12,7 @@ use crate::run::Trace;
 ///
 /// A whisker near the contact threshold misses single ticks without loss of contact. Therefore two ticks may be
 /// missing. This is a tenth of a second at 30 Hz, after which the baseline considers a whisker detached.
-pub(super) const MAX_BREAK: usize = 3;
+pub const MAX_BREAK: usize = 3;
 
 /// The largest distance (m) between consecutive tips of a stroke.
 ///

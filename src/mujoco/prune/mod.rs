@@ -5,6 +5,5 @@ mod reach;
 mod scope;
 
 pub use pruning::{Decision, Pruning, Verdict};
-pub(crate) use reach::is_gentle;
-pub use reach::{Reach, may_be_rigid};
+pub use reach::{Reach, is_gentle, may_be_rigid};
 pub use scope::Scope;

@@ -92,7 +92,7 @@ impl Reach {
 
     /// An upper bound of the displacement (m) between two poses of any point that is fixed to the platform.
     #[must_use]
-    pub(crate) fn motion_bound(&self, from: &Pose, to: &Pose) -> f64 {
+    pub fn motion_bound(&self, from: &Pose, to: &Pose) -> f64 {
         (to.position - from.position).norm() + (to.heading - from.heading).abs() * self.extent
     }
 
@@ -173,7 +173,7 @@ pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bo
 /// from the centre of mass. A whisker of mass `m` and length `L` exerts at most the moment `m L (a + α (r + L)) / 2` on
 /// its hinge, and twice that while it swings.
 #[must_use]
-pub(crate) fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vector2, yaw_rate: f64) -> bool {
+pub fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vector2, yaw_rate: f64) -> bool {
     let shaft = &whisker.shaft;
     let mass: f64 = (0..shaft.links).map(|link| shaft.link_mass(link)).sum();
     let radius = whisker.base_body.coords.norm() + shaft.length;

@@ -23,12 +23,14 @@ impl Scope {
     }
 
     /// Replaces the parts, given by their indices, ascending.
+    #[cfg(feature = "sim")]
     #[must_use]
     pub(crate) fn with_parts(self, parts: Vec<usize>) -> Self {
         Self { parts, ..self }
     }
 
     /// Sets a whisker, by its index in the rig, to rigid or flexible.
+    #[cfg(feature = "sim")]
     #[must_use]
     pub(crate) fn with_rigid(mut self, whisker: usize, rigid: bool) -> Self {
         self.rigid[whisker] = rigid;
@@ -48,7 +50,7 @@ impl Scope {
     }
 
     /// The number of parts.
-    #[cfg(test)]
+    #[cfg(all(test, feature = "sim"))]
     pub(crate) fn part_count(&self) -> usize {
         self.parts.len()
     }
@@ -66,6 +68,7 @@ impl Scope {
     }
 
     /// True if both scopes differ only in their rigid whiskers.
+    #[cfg(feature = "sim")]
     #[must_use]
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.parts == other.parts && self.capacity == other.capacity

@@ -62,6 +62,7 @@ impl Index {
     ///
     /// # Errors
     /// The name cannot be changed, or its meaning is not certain.
+    #[cfg(feature = "lsp")]
     pub(crate) fn renamable(&self, at: usize) -> Result<Span, RenameError> {
         self.to_rename(at).map(|(span, _)| span)
     }
