@@ -86,9 +86,8 @@ fn write_model(
 ) -> fmt::Result {
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false" usethread="false"/>"#)?;
-    // There are few contacts. Conjugate gradients give the solution of Newton's method to a millionth, without a
-    // factorisation. The dual solver is faster, but delays the servos by a step. With a pyramidal friction cone, a tip
-    // that slides with a small coefficient vibrates; with an elliptic cone it does not.
+    // With a pyramidal friction cone, a tip that slides with a small coefficient vibrates; with an elliptic cone it does
+    // not. Decision 0049 compares the solvers.
     writeln!(
         xml,
         r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 0" jacobian="dense">"#,

@@ -92,7 +92,8 @@ pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
-    // The model has the whole rig except its longest step, the solids and the start, for every world.
+    // The model has the mechanics of the rig, the solids and the start, for every world. The values of the scenario that
+    // are not in it are in the hash of the scenario, and their defaults change only with the version.
     hash.update(mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start));
     hash.update([u8::from(world.prune)]);
     hash.update(scene.physics.calm_step.to_le_bytes());
