@@ -84,7 +84,7 @@ fn what_cannot_be_calibrated_says_why() {
         (&["calibrate", &wrong][..], "line 1: the column `base_angle_urad` is missing"),
         (&["calibrate", &few], "1 tip contacts are too few, or at too few positions: give 50 positions or more"),
         (&["calibrate", "none.csv"], "cannot read none.csv"),
-        (&["calibrate", &few, "--whisker", "r7"], "`r7`, which the rig does not have"),
+        (&["calibrate", &few, "--whisker", "r7"], "the rig has no whisker `r7`; it has"),
     ] {
         let output = vibrissa(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

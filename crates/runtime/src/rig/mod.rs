@@ -30,7 +30,7 @@ pub struct Rig {
 
 /// A whisker that a policy binds and the rig lacks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the whisker `{name}` is asked for, which the rig does not have; the rig has {known}")]
+#[error("the rig has no whisker `{name}`; it has {known}")]
 pub struct UnknownWhisker {
     name: String,
     known: String,
