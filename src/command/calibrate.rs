@@ -27,20 +27,20 @@ const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa cali
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CalibrateArguments {
-    /// Measured contacts, as comma-separated values with the columns `x_mm`, `y_mm`, `base_angle_urad`, and optionally `normal_deg`
-    /// and `contact`; without a file, contacts are simulated
+    /// Measured contacts, as comma-separated values. The columns are `x_mm`, `y_mm`, `base_angle_urad`, and optionally
+    /// `normal_deg` and `contact`. Without a file, contacts are simulated
     #[arg(value_name = "SETS")]
     sets: Option<PathBuf>,
-    /// Scenario whose rig has the whisker, instead of the reference rig
+    /// Scenario with the rig of the whisker. The default is the reference rig
     #[arg(long, value_name = "SCENARIO")]
     rig: Option<PathBuf>,
-    /// Whisker to calibrate; by default the first of the rig
+    /// Whisker to calibrate. The default is the first whisker of the rig
     #[arg(long, value_name = "NAME")]
     whisker: Option<String>,
     /// Simulate the estimated noise and resolution of the real sensors
     #[arg(long, conflicts_with = "sets")]
     noise: bool,
-    /// Seed of that noise
+    /// Seed of the simulated noise
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = parse_seed)]
     seed: u64,
     /// Write the calibration, the contacts and a picture of the deflection profile into this directory

@@ -26,16 +26,18 @@ const EXAMPLE: &str = "Example:\n  vibrissa compare policies/thesis.fsm policies
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CompareArguments {
-    /// Two or more policies, which are compared with the first; and scenarios (.yaml), by default those of the bench
+    /// Two or more policies, and scenarios (.yaml). The first policy is compared with each other one. The default scenarios are those of
+    /// the bench
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Number of runs of each scenario, from 1 to 100000: the first as it is, the others with other seeds of noise and start
+    /// Number of runs of each scenario, from 1 to 100000. The first run is the scenario itself. Each other run has its own seed of
+    /// noise and start
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_runs)]
     seeds: u64,
-    /// Greatest deviation of starts along x and y, from 0 to 10 m: --jitter "20 mm"
+    /// Largest deviation of starts along x and y, from 0 to 10 m: --jitter "20 mm"
     #[arg(long, value_name = "LENGTH", default_value = "0 mm", allow_hyphen_values = true, value_parser = parse_jitter)]
     jitter: f64,
-    /// Greatest deviation of headings, from 0 to 180 deg: --jitter-heading "10 deg"
+    /// Largest deviation of headings, from 0 to 180 deg: --jitter-heading "10 deg"
     #[arg(long, value_name = "ANGLE", default_value = "0 deg", allow_hyphen_values = true, value_parser = parse_jitter_heading)]
     jitter_heading: f64,
     #[command(flatten)]

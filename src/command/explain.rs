@@ -23,7 +23,7 @@ pub(super) struct ExplainArguments {
     /// Scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// Policy, or compiled machine, instead of that of the scenario; `vibrissa.fsm` where the scenario names none
+    /// Policy or compiled machine. Overrides the policy of the scenario. Without either, `vibrissa.fsm` is used
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
     #[command(flatten)]

@@ -27,10 +27,10 @@ const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct FamiliesArguments {
-    /// Families; all of them by default
+    /// Families to run. The default is all families
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Policy, or compiled machine, instead of `vibrissa.fsm`; it needs a parameter `speed`
+    /// Policy or compiled machine, with a parameter `speed`. The default is `vibrissa.fsm`
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
     #[command(flatten)]

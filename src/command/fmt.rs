@@ -19,10 +19,10 @@ const EXAMPLE: &str = "Example:\n  vibrissa fmt --check policies/*.fsm\n\nExit s
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct FmtArguments {
-    /// Policy files; `-` formats standard input and prints it
+    /// Policy files. `-` reads standard input and prints the formatted text
     #[arg(value_name = "POLICY", required = true)]
     policies: Vec<PathBuf>,
-    /// Change no file: print the differences, with exit status 1 if there are any
+    /// Print the differences and change no file. The exit status is 1 if there are differences
     #[arg(long)]
     check: bool,
 }

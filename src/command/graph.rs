@@ -25,13 +25,13 @@ pub(super) struct GraphArguments {
     /// Format of the statechart
     #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
     format: ChartFormat,
-    /// Show N levels of states, from 1 to 8; transitions of deeper states are drawn at the state around them
+    /// Show N levels of states, from 1 to 8. Transitions of hidden states are drawn at the outer state that is shown
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_depth)]
     depth: Option<usize>,
-    /// Show only the inside of this state and its targets; with --depth, N levels of it
+    /// Show only this state, its inner states and the targets of its transitions. --depth counts from this state
     #[arg(long, value_name = "NAME")]
     state: Option<String>,
-    /// File of the chart; by default standard output
+    /// File of the chart. The default is standard output
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }

@@ -22,7 +22,7 @@ pub(super) struct MergeArguments {
     /// Files with results of shards, or a directory with them
     #[arg(value_name = "DIR|FILE", required = true)]
     paths: Vec<PathBuf>,
-    /// File of the results, by default results.jsonl beside the first input
+    /// File of the merged results. The default is results.jsonl in the directory of the first file
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -58,13 +58,13 @@ const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an e
 enum Command {
     /// Run scenarios and score the estimated contours
     Run(run::RunArguments),
-    /// Run the scenes of the thesis and compare the figures with those of its program
+    /// Run the ten scenes of the bench and compare the figures with those of the baseline
     Bench(bench::BenchArguments),
     /// Run random scenes of families
     Families(families::FamiliesArguments),
     /// Compare policies over the same runs
     Compare(compare::CompareArguments),
-    /// Run a parameter sweep in worker processes; an interrupted sweep continues
+    /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
     Sweep(sweep::SweepArguments),
     /// Merge the results of the parts of a sweep
     Merge(merge::MergeArguments),
@@ -82,7 +82,7 @@ enum Command {
     Calibrate(calibrate::CalibrateArguments),
     /// Compare contact estimators on the samples of the same runs
     Estimators(estimators::EstimatorsArguments),
-    /// Compare simulations of the same runs with MuJoCo
+    /// Compare other simulations with MuJoCo along the same paths
     Worlds(worlds::WorldsArguments),
     /// Measure run times
     Timing(timing::TimingArguments),
@@ -92,7 +92,7 @@ enum Command {
     Stress(stress::StressArguments),
     /// Print the MuJoCo model of a scenario
     Mjcf(mjcf::MjcfArguments),
-    /// List the parts of a scenario that a run leaves out, and why that has no effect
+    /// List the parts of a scenario that a run omits, with the reasons
     Explain(explain::ExplainArguments),
     /// Serve an editor over standard input and output (language server protocol)
     // It says how to get one where there is none, and is not offered there.

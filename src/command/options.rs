@@ -25,7 +25,7 @@ pub(super) struct Format {
     /// Print JSON instead of tables
     #[arg(long)]
     pub(super) json: bool,
-    /// Print every column of tables; without this, tables are at most 100 characters wide
+    /// Print all columns of tables. Without this option, tables are at most 100 characters wide
     #[arg(long, conflicts_with = "json")]
     pub(super) wide: bool,
 }
@@ -33,7 +33,7 @@ pub(super) struct Format {
 /// The number of runs at a time.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct Jobs {
-    /// Number of runs at a time, from 1 to 32 for each processor; by default one for each processor
+    /// Number of runs at a time, from 1 to 32 for each processor. The default is one for each processor
     #[arg(short, long, value_name = "J", allow_negative_numbers = true, value_parser = parse_jobs)]
     jobs: Option<NonZeroUsize>,
 }
@@ -69,7 +69,7 @@ pub(super) enum World {
 /// The world of a run.
 #[derive(Debug, Args)]
 pub(super) struct WorldOption {
-    /// World of the run, instead of the scenario's; `mujoco` where the scenario names none
+    /// Simulator of the run. Overrides the simulator of the scenario. Without either, `mujoco` is used if the program contains it
     #[arg(long, value_enum)]
     world: Option<World>,
 }
@@ -88,7 +88,7 @@ impl WorldOption {
 /// The pruning of a run.
 #[derive(Debug, Args)]
 pub(super) struct PruneOption {
-    /// Simulate every part of the scene; by default, parts without effect are left out (`vibrissa explain` lists them)
+    /// Simulate every part of the scene. By default, parts without effect are omitted (`vibrissa explain` lists them)
     #[arg(long)]
     pub(super) no_prune: bool,
 }
@@ -152,7 +152,7 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
 /// Several policies, by default those of the bench.
 #[derive(Debug, Args)]
 pub(super) struct Policies {
-    /// Policy, or compiled machine, instead of the built-in ones; may be given several times
+    /// Policy or compiled machine. Replaces the built-in policies, and may be given several times
     #[arg(long = "policy", value_name = "FILE")]
     policies: Vec<PathBuf>,
     #[command(flatten)]

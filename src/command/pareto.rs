@@ -26,13 +26,13 @@ const EXAMPLE: &str = "Example:\n  vibrissa pareto scenarios/box.yaml --repeats 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct ParetoArguments {
-    /// Scenario; by default the disk of the bench
+    /// Scenario. The default is the disk of the bench
     #[arg(value_name = "SCENARIO")]
     scenario: Option<PathBuf>,
-    /// Policy, or compiled machine, instead of `vibrissa.fsm`
+    /// Policy or compiled machine. The default is `vibrissa.fsm`
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
-    /// Number of runs of every setting, from 1 to 1000; run times are medians
+    /// Number of runs of every setting, from 1 to 1000. Run times are medians
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, value_parser = parse_repeats)]
     repeats: usize,
     /// Write the results and a picture of time against error into this directory

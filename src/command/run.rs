@@ -30,14 +30,14 @@ pub(super) struct RunArguments {
     /// Scenario files, one run each
     #[arg(value_name = "SCENARIO", required = true)]
     pub(super) scenarios: Vec<PathBuf>,
-    /// Policy, or compiled machine, instead of that of the scenario; `vibrissa.fsm` where the scenario names none
+    /// Policy or compiled machine. Overrides the policy of the scenario. Without either, `vibrissa.fsm` is used
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     #[command(flatten)]
     settings: Settings,
     #[command(flatten)]
     world: WorldOptions,
-    /// Seed of the sensor noise, instead of the scenario's; it has no effect without noise
+    /// Seed of the sensor noise. Overrides the seed of the scenario, and has no effect without noise
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
     /// Write a picture and the result of every run into this directory
@@ -48,7 +48,7 @@ pub(super) struct RunArguments {
     ticks: Option<PathBuf>,
     #[command(flatten)]
     format: Format,
-    /// Run again whenever a scenario or policy is saved; print a line for every simulated second
+    /// Run again whenever a scenario or policy is saved, and print a line for every simulated second
     #[arg(long, conflicts_with = "json")]
     watch: bool,
 }

@@ -28,12 +28,12 @@ pub(super) struct SweepArguments {
     file: PathBuf,
     #[command(flatten)]
     prune: PruneOption,
-    /// Run only the K-th of N parts; the part of a run depends on its key alone
+    /// Run only the K-th of N parts. The part of a run depends only on its key
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     shard: Shard,
     #[command(flatten)]
     jobs: Jobs,
-    /// Directory of the results, by default out/NAME; a sweep continues with the results in it
+    /// Directory of the results. The default is out/NAME. Runs whose results are already in it are skipped
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

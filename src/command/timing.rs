@@ -22,7 +22,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa timing --repeats 5\n\nExit status: 0
 pub(super) struct TimingArguments {
     #[command(flatten)]
     trials: BenchTrials,
-    /// Number of runs of every scene, from 1 to 1000; the figures are medians
+    /// Number of runs of every scene, from 1 to 1000. The figures are medians
     #[arg(long, value_name = "N", default_value = "5", allow_negative_numbers = true, value_parser = parse_repeats)]
     repeats: usize,
     #[command(flatten)]

@@ -62,8 +62,9 @@ impl Contour {
     /// ```
     ///
     /// # Errors
-    /// If the distance is not finite, or no parallel contour was found that stands its check: rounding decides its form,
-    /// because at this very distance it touches itself, splits or vanishes. A micrometre more or less has one.
+    /// [`OffsetError`] if the distance is not finite, or if no result passes the verification. The second case is rare: at
+    /// exactly this distance, the parallel contour touches itself, splits or vanishes, and rounding determines its form.
+    /// A distance that differs by a micrometre has a result.
     pub fn offset(&self, distance: f64) -> Result<Vec<Self>, OffsetError> {
         if !distance.is_finite() {
             return Err(OffsetError::NotFinite { distance });

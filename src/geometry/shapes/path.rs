@@ -19,7 +19,7 @@ const NEARLY_CLOSED: f64 = 1e-6;
 /// // A stadium, from the start of its lower side.
 /// let stadium = Path::from(Pose::default()).straight(0.3).arc(0.1, PI).straight(0.3).arc(0.1, PI).close()?;
 /// assert!((stadium.length() - (0.6 + 0.2 * PI)).abs() < 1e-15);
-/// // The last side of a closed path goes without saying.
+/// // `close` adds the last side.
 /// let square = Path::from(Pose::default())
 ///     .straight(0.2)
 ///     .turn(FRAC_PI_2)

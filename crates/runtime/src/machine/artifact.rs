@@ -1,12 +1,12 @@
 //! The artifact: a compiled policy as bytes, for a robot or for storage.
 //!
-//! | bytes | hold |
+//! | bytes | content |
 //! |---|---|
 //! | 8 | [`MAGIC`] |
-//! | 4 | the format's number, little endian |
-//! | 4 | length of the content, little endian |
-//! | length | the content: an [`Artifact`] in postcard's wire format |
-//! | 32 | SHA-256 of all before |
+//! | 4 | [`FORMAT`], little endian |
+//! | 4 | length of the next part, little endian |
+//! | length | an [`Artifact`] in postcard's wire format |
+//! | 32 | SHA-256 of all preceding bytes |
 //!
 //! An artifact has exactly one encoding. The reader trusts nothing. The checksum detects damage, but not manipulation,
 //! so everything that the execution relies on is verified afterwards.

@@ -13,9 +13,11 @@ use super::shot::{Load, Shot, Varied};
 /// A frictionless contact in two coordinates. In them, contacts of the shaft and of the tip form one continuous plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionlessContact {
-    /// Below 0 it is the logarithm of the length to the contact over that of the shaft. From 0 on the contact is at the
-    /// tip, and the coordinate is the force direction. Its angle to the force straight against the shaft is π/2 at 0
-    /// and decreases by a factor e per π/2.
+    /// Position of the contact, or direction of the force.
+    ///
+    /// Below 0 the contact is on the shaft. The coordinate is then the logarithm of the contact's length over the length
+    /// of the shaft. From 0 on the contact is at the tip. The coordinate then gives the angle between the force and a force
+    /// straight against the shaft: `π/2 exp(−2 position / π)`.
     pub(super) position: f64,
     /// Logarithm of the force, in the unit of [`Load`].
     pub(super) force: f64,
