@@ -1,6 +1,6 @@
 //! The order of the modules: each imports only what the table in ARCHITECTURE.md allows.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ pub(crate) fn check(root: &Path) -> Result<(), ImportsError> {
     let table = Table::parse(&page).ok_or(ImportsError::NoTable)?;
     let mut faults = table.faults();
     let source = root.join("src");
-    let mut modules = BTreeMap::new();
+    let mut modules = BTreeSet::new();
     for (path, text) in files(&source)? {
         let inside = path.strip_prefix(&source).unwrap_or(&path).to_path_buf();
         let first = inside.components().next().map(|part| part.as_os_str().to_string_lossy().into_owned());
@@ -46,10 +46,10 @@ pub(crate) fn check(root: &Path) -> Result<(), ImportsError> {
                 faults.push(format!("src/{}:{line}: {fault}", inside.display()));
             }
         }
-        modules.insert(module, ());
+        modules.insert(module);
     }
-    faults.extend(modules.keys().filter(|name| !table.has(name)).map(|name| format!("{PAGE}: src/{name} has no row")));
-    let missing = table.0.iter().filter(|(name, _)| !modules.contains_key(name));
+    faults.extend(modules.iter().filter(|name| !table.has(name)).map(|name| format!("{PAGE}: src/{name} has no row")));
+    let missing = table.0.iter().filter(|(name, _)| !modules.contains(name));
     faults.extend(missing.map(|(name, _)| format!("{PAGE}: there is no src/{name}")));
     if faults.is_empty() { Ok(()) } else { Err(ImportsError::Imports(faults)) }
 }

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::answer::THESIS;
-use super::editor::{Editor, covered, position};
+use super::client::{Editor, covered, position};
 
 #[test]
 fn a_completion_takes_the_place_of_what_is_typed_and_has_fields_to_fill_in() {

@@ -6,7 +6,7 @@ use serde_json::json;
 use vibrissa::diagnostic::Source;
 
 use super::answer::{THESIS, code};
-use super::editor::{Editor, position_of};
+use super::client::{Editor, position_of};
 
 /// An edit of a text: from where, how much, what instead.
 type Edit = (usize, usize, String);

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::answer::{THESIS, labels};
-use super::editor::{Editor, URI, edited, position};
+use super::client::{Editor, URI, edited, position};
 
 #[test]
 fn what_nothing_uses_is_faded_and_what_is_misspelt_can_be_mended() {

@@ -7,7 +7,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 
 use super::answer::THESIS;
-use super::editor::{Editor, covered, edited, position};
+use super::client::{Editor, covered, edited, position};
 
 #[test]
 fn used_files_are_read_from_the_editor_or_else_from_where_they_lie() {

@@ -3,8 +3,8 @@
 #![allow(clippy::needless_pass_by_value, reason = "JSON literals read better without `&`")]
 
 mod answer;
+mod client;
 mod completion;
-mod editor;
 mod edits;
 mod fault;
 mod files;

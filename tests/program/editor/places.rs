@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::answer::THESIS;
-use super::editor::{Editor, URI, covered, position};
+use super::client::{Editor, URI, covered, position};
 
 #[test]
 fn references_highlights_and_the_outline_show_all_places() {

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::answer::{THESIS, code};
-use super::editor::{Editor, URI, position};
+use super::client::{Editor, URI, position};
 
 #[test]
 fn an_exit_without_a_shutdown_and_an_editor_that_goes_away_have_exit_status_1() {

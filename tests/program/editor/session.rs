@@ -7,7 +7,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::compile;
 
 use super::answer::{BANG, THESIS, labels};
-use super::editor::{Editor, URI, covered, edited, position};
+use super::client::{Editor, URI, covered, edited, position};
 
 #[test]
 fn a_session_from_the_first_word_to_the_last() {

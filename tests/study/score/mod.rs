@@ -4,7 +4,7 @@ mod corners;
 mod passage;
 mod reach;
 mod retrieval;
-#[allow(clippy::module_inception, reason = "the score as a whole")]
+#[expect(clippy::module_inception, reason = "the score as a whole")]
 mod score;
 mod united;
 mod verdicts;
