@@ -103,7 +103,7 @@ const WHISKER: [Member; 13] = [
         "tip_spread",
         Type::LENGTH,
         WhiskerScalar::TipDeviation,
-        "how far off `tip` may be by its tip model, as a standard deviation; infinite beyond the model's range",
+        "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range",
     ),
     position("base", WhiskerVector::Base, "the position of the base"),
     scalar(
