@@ -7,11 +7,6 @@ use std::borrow::Cow;
 /// These are control characters other than line ends and tabs, characters that change the text direction, and line
 /// separators. File names and quoted texts may come from other people. They could otherwise recolour, hide or reorder
 /// the output of a terminal.
-///
-/// ```
-/// use vibrissa::diagnostic::printable;
-/// assert_eq!(printable("a\u{1b}[31m.fsm"), "a\\u{1b}[31m.fsm");
-/// ```
 #[must_use]
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| letter.escape_unicode().to_string())
@@ -65,6 +60,11 @@ fn is_interpreted(letter: char) -> bool {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_colour_is_shown_as_its_code() {
+        assert_eq!(printable("a\u{1b}[31m.fsm"), "a\\u{1b}[31m.fsm");
+    }
 
     /// Texts in which many characters are control characters.
     fn texts() -> impl Strategy<Value = String> {

@@ -45,16 +45,6 @@ impl TunnelAxis {
 
     /// The arc length (m) of a point between the walls, projected on the [line](Self::line). `None` for a point beyond
     /// a wall, before the beginning of the tunnel or beyond its end.
-    ///
-    /// ```
-    /// use vibrissa::geometry::{Contour, Piece, Point2, TunnelAxis};
-    /// let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]);
-    /// let axis = TunnelAxis::new(up(0.0)?, up(-0.12)?, up(0.1)?);
-    /// assert_eq!(axis.arc_length_between(Point2::new(0.09, 0.5)), Some(0.5));
-    /// assert_eq!(axis.arc_length_between(Point2::new(0.11, 0.5)), None);
-    /// assert_eq!(axis.arc_length_between(Point2::new(0.0, 1.5)), None);
-    /// # Ok::<(), vibrissa::geometry::ContourError>(())
-    /// ```
     #[must_use]
     pub(crate) fn arc_length_between(&self, point: Point2) -> Option<f64> {
         let left_of = |wall: &Contour| {
@@ -115,6 +105,15 @@ mod tests {
     use super::*;
     use crate::geometry::{Piece, circle};
     use proptest::prelude::*;
+
+    #[test]
+    fn only_points_between_the_walls_have_an_arc_length() {
+        let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]).unwrap();
+        let axis = TunnelAxis::new(up(0.0), up(-0.12), up(0.1)).unwrap();
+        assert_eq!(axis.arc_length_between(Point2::new(0.09, 0.5)), Some(0.5));
+        assert_eq!(axis.arc_length_between(Point2::new(0.11, 0.5)), None);
+        assert_eq!(axis.arc_length_between(Point2::new(0.0, 1.5)), None);
+    }
 
     proptest! {
         /// The points with equal distances from a straight wall and from a round post are a parabola.
