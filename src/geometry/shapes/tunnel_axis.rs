@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn only_points_between_the_walls_have_an_arc_length() {
         let up = |x| Contour::open(vec![Piece::segment(Point2::new(x, 0.0), Point2::new(x, 1.0))]).unwrap();
-        let axis = TunnelAxis::new(up(0.0), up(-0.12), up(0.1)).unwrap();
+        let axis = TunnelAxis::new(up(0.0), up(-0.12), up(0.1));
         assert_eq!(axis.arc_length_between(Point2::new(0.09, 0.5)), Some(0.5));
         assert_eq!(axis.arc_length_between(Point2::new(0.11, 0.5)), None);
         assert_eq!(axis.arc_length_between(Point2::new(0.0, 1.5)), None);
