@@ -1,11 +1,12 @@
 //! The doc comments of the code: the share that begins with a question word, and terms that are not the field's.
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use thiserror::Error;
 
 use crate::prose::{TERMS, has_words};
+use crate::sources::rust_files;
 
 /// The folders with code.
 const FOLDERS: [&str; 3] = ["src", "crates", "xtask/src"];
@@ -35,8 +36,8 @@ type Comment = (usize, String);
 pub(crate) fn check(root: &Path) -> Result<(), CommentsError> {
     let (mut all, mut asking, mut terms) = (0, Vec::new(), Vec::new());
     for folder in FOLDERS {
-        for path in sources(&root.join(folder))? {
-            let text = fs::read_to_string(&path).map_err(|cause| CommentsError::Read { path: path.clone(), cause })?;
+        let sources = rust_files(&root.join(folder)).map_err(|(path, cause)| CommentsError::Read { path, cause })?;
+        for (path, text) in sources {
             let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
             for (line, comment) in comments(&text) {
                 all += 1;
@@ -80,22 +81,6 @@ fn comments(text: &str) -> Vec<Comment> {
 fn is_question(comment: &str) -> bool {
     let first: String = comment.chars().take_while(|letter| letter.is_alphabetic()).collect();
     QUESTIONS.contains(&first.as_str())
-}
-
-/// All Rust files below a folder, in the order of their paths.
-fn sources(folder: &Path) -> Result<Vec<PathBuf>, CommentsError> {
-    let failed = |cause| CommentsError::Read { path: folder.to_owned(), cause };
-    let mut entries = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
-    entries.sort_by_key(fs::DirEntry::path);
-    let mut found = Vec::new();
-    for path in entries.iter().map(fs::DirEntry::path) {
-        if path.is_dir() {
-            found.extend(sources(&path)?);
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            found.push(path);
-        }
-    }
-    Ok(found)
 }
 
 #[cfg(test)]

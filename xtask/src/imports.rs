@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::sources::rust_files;
+
 /// The page with the table, and the heading above it.
 const PAGE: &str = "ARCHITECTURE.md";
 const HEADING: &str = "## Modules of `src`";
@@ -36,7 +38,7 @@ pub(crate) fn check(root: &Path) -> Result<(), ImportsError> {
     let mut faults = table.faults();
     let source = root.join("src");
     let mut modules = BTreeSet::new();
-    for (path, text) in files(&source)? {
+    for (path, text) in rust_files(&source).map_err(|(path, cause)| ImportsError::Read { path, cause })? {
         let inside = path.strip_prefix(&source).unwrap_or(&path).to_path_buf();
         let first = inside.components().next().map(|part| part.as_os_str().to_string_lossy().into_owned());
         let Some(first) = first.filter(|first| !ROOTS.contains(&first.as_str())) else { continue };
@@ -149,24 +151,6 @@ fn listed(code: &str, mut depth: usize, number: usize, found: &mut Vec<(usize, S
 
 fn name(text: &str) -> String {
     text.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
-}
-
-/// All Rust files below a folder with their texts, in the order of their paths.
-fn files(folder: &Path) -> Result<Vec<(PathBuf, String)>, ImportsError> {
-    let failed = |cause| ImportsError::Read { path: folder.to_owned(), cause };
-    let mut entries = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
-    entries.sort_by_key(fs::DirEntry::path);
-    let mut found = Vec::new();
-    for entry in entries {
-        let path = entry.path();
-        if path.is_dir() {
-            found.extend(files(&path)?);
-        } else if path.extension().is_some_and(|end| end == "rs") {
-            let text = read(&path)?;
-            found.push((path, text));
-        }
-    }
-    Ok(found)
 }
 
 fn read(path: &Path) -> Result<String, ImportsError> {

@@ -21,6 +21,7 @@ mod results;
 mod runtime;
 mod setup;
 mod sign_of_life;
+mod sources;
 mod stamp;
 mod wheel;
 

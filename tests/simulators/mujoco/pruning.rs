@@ -62,7 +62,7 @@ fn pruning_does_not_change_the_estimated_contour() {
 }
 
 #[test]
-#[ignore = "takes minutes; `cargo test --release --test study pruning -- --ignored` runs it"]
+#[ignore = "takes minutes; `cargo test --release --test simulators pruning -- --ignored` runs it"]
 fn pruning_does_not_change_the_estimated_contour_of_hundreds_of_scenes() {
     assert!(compare(30, 20.0) > 10_000);
 }
