@@ -109,6 +109,7 @@ mod command;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]
 mod editor;
+pub mod emulated;
 pub mod family;
 mod file;
 pub mod geometry;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 #[cfg(feature = "sim")]
 use crate::calibration::CalibrationRigError;
 use crate::calibration::MIN_POSITIONS;
+use crate::emulated::EmulatedError;
 use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
 use crate::load::LoadError;
@@ -100,6 +101,12 @@ pub(super) enum Failure {
     Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("{}: {cause}", policy.display())]
     View { policy: PathBuf, cause: UnknownState },
+    #[error("{}: {cause}", path.display())]
+    RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
+    #[error("{} is no list of faults: {cause}", path.display())]
+    Injections { path: PathBuf, cause: String },
+    #[error("{}: {cause}", scenario.display())]
+    Emulated { scenario: PathBuf, cause: EmulatedError },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

@@ -6,6 +6,7 @@ mod check;
 mod compare;
 mod compile;
 mod completions;
+mod drive;
 mod estimators;
 mod exit;
 mod explain;
@@ -76,6 +77,8 @@ enum Command {
     Test(test::TestArguments),
     /// Compile a policy into a file that runs without its text
     Compile(compile::CompileArguments),
+    /// Drive a simulated array by a compiled machine with the robot's own loop, through emulated sensors
+    Drive(drive::DriveArguments),
     /// Draw the statechart of a policy
     Graph(graph::GraphArguments),
     /// Calibrate the contact estimators of a whisker
@@ -129,6 +132,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Test(arguments) => test::test(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
+        Command::Drive(arguments) => drive::drive(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Estimators(arguments) => estimators::estimators(arguments),

@@ -1,11 +1,13 @@
 //! Results as JSON documents: runs, ticks, and counts over runs.
 
 mod document;
+mod drive_result;
 mod run_result;
 mod tally;
 mod tick_line;
 
 pub use document::{Document, Versioned};
+pub use drive_result::{DriveResult, FaultRecord};
 pub use run_result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,
     RunResult, TickUs, TipErrorMm,

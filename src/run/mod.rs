@@ -2,8 +2,10 @@
 
 mod drive;
 mod loop_watch;
+mod monitor;
 mod stall_watch;
 mod trace;
 
 pub use drive::{Run, drive};
+pub use monitor::{Ending, Monitor};
 pub use trace::{Contact, MarkRecord, TickRecord, Trace};

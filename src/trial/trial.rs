@@ -147,7 +147,8 @@ impl Trial {
         drive(world, control, &self.scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
     }
 
-    fn scored(&self, run: Run) -> TrialResult {
+    /// Scores a run of this trial.
+    pub(crate) fn scored(&self, run: Run) -> TrialResult {
         let score = Score::new(&run, &self.scene.truth, &self.scene.rig);
         let expectations = self.scene.expect.iter();
         let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));

@@ -97,7 +97,7 @@ const CHECKS: [Check; 17] = [
         &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent"), SAME_CASES],
         "tests of the core, without MuJoCo",
         // All other tests would do here just what they do below, and are linted without MuJoCo too.
-        &["test", "--package", "vibrissa", "--no-default-features", "--test", "program"],
+        &["test", "--package", "vibrissa", "--no-default-features", "--test", "program", "command::"],
     ),
     Check { title: "book", work: Work::Book },
     Check { title: "set-up", work: Work::Setup },

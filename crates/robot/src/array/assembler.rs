@@ -1,0 +1,160 @@
+//! Assembly of the rounds of all buses to samples.
+
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
+
+use super::magnet::Magnet;
+use super::pose_history::PoseHistory;
+use super::round::Round;
+use crate::config::{Config, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS};
+
+/// Number of sample periods that are kept until all buses have delivered.
+const SLOTS: usize = 2 * MAX_ROUNDS as usize;
+
+/// Assembles rounds to samples: counts to base angles, and the pose at the time of the sample.
+#[derive(Debug, Clone)]
+pub struct Assembler {
+    /// For each board on each bus, the index of its whisker.
+    whisker: [[Option<usize>; MAX_BOARDS]; MAX_BUSES],
+    transducers: [Transducer; MAX_WHISKERS],
+    /// The counts of each sample period. The entry of a period is its number modulo [`SLOTS`].
+    slots: [[Option<i32>; MAX_WHISKERS]; SLOTS],
+    /// The next sample period that becomes a sample.
+    next_slot: u64,
+    period_ns: u64,
+    /// Age of a value when it is read (ns): half of a conversion for its mean age, and half for its mean.
+    delay_ns: u64,
+    samples: Vec<Sample>,
+    /// Readings that came after their sample.
+    late: u64,
+}
+
+/// Conversion of counts to the base angle of a whisker.
+#[derive(Debug, Clone, Copy)]
+struct Transducer {
+    magnet: Magnet,
+    microtesla_per_count: f64,
+    hinge_stiffness: f64,
+    neutral: f64,
+}
+
+impl Transducer {
+    fn base_angle(&self, counts: i32) -> f64 {
+        let field_microtesla = (f64::from(counts) - self.neutral) * self.microtesla_per_count;
+        self.magnet.moment(field_microtesla) / self.hinge_stiffness
+    }
+}
+
+impl Assembler {
+    /// The assembler of an array. `delay_ns` is the age of a value when it is read.
+    #[must_use]
+    pub fn new(config: &Config, microtesla_per_count: f64, delay_ns: u64) -> Self {
+        let none = Transducer {
+            magnet: Magnet { field_per_moment: 1.0, cubic: 0.0 },
+            microtesla_per_count,
+            hinge_stiffness: 1.0,
+            neutral: 0.0,
+        };
+        let (mut whisker, mut transducers) = ([[None; MAX_BOARDS]; MAX_BUSES], [none; MAX_WHISKERS]);
+        for (bus, board, index) in config.boards() {
+            let entry = config.buses.get(bus).and_then(|bus| bus.boards.get(board));
+            let cell = whisker.get_mut(bus).and_then(|boards| boards.get_mut(board));
+            let transducer = transducers.get_mut(index);
+            let rig = config.rig.whiskers.get(index);
+            if let (Some(entry), Some(cell), Some(transducer), Some(rig)) = (entry, cell, transducer, rig) {
+                *cell = Some(index);
+                transducer.magnet = Magnet { field_per_moment: entry.field_per_moment, cubic: entry.cubic };
+                transducer.hinge_stiffness = rig.perceived().hinge.stiffness;
+            }
+        }
+        Self {
+            whisker,
+            transducers,
+            slots: [[None; MAX_WHISKERS]; SLOTS],
+            next_slot: 0,
+            period_ns: period_ns(config.rig.sensing.sample_rate),
+            delay_ns,
+            samples: Vec::with_capacity(SLOTS),
+            late: 0,
+        }
+    }
+
+    /// The whiskers of a round with their counts, if they are new.
+    pub fn counts<'a>(&'a self, round: &'a Round) -> impl Iterator<Item = (usize, Option<i32>)> + 'a {
+        let boards = self.whisker.get(usize::from(round.bus)).into_iter().flatten();
+        let readings = round.readings.iter().take(usize::from(round.count));
+        boards.zip(readings).filter_map(|(whisker, reading)| whisker.map(|index| (index, reading.state.counts())))
+    }
+
+    /// Sets the neutral values (counts) of all whiskers.
+    pub fn set_neutral(&mut self, neutral: [f64; MAX_WHISKERS]) {
+        for (transducer, neutral) in self.transducers.iter_mut().zip(neutral) {
+            transducer.neutral = neutral;
+        }
+    }
+
+    /// Drops all sample periods before `slot`.
+    pub fn skip_to(&mut self, slot: u64) {
+        self.next_slot = self.next_slot.max(slot);
+    }
+
+    /// Adds a round. Its values are dropped if its sample period has become a sample already.
+    pub fn take(&mut self, round: &Round) {
+        if round.slot < self.next_slot {
+            self.late += 1;
+            return;
+        }
+        let mut values = [None; MAX_WHISKERS];
+        for (whisker, counts) in self.counts(round) {
+            if let Some(value) = values.get_mut(whisker) {
+                *value = counts;
+            }
+        }
+        if let Some(slot) = self.slots.get_mut(cell(round.slot)) {
+            for (kept, value) in slot.iter_mut().zip(values) {
+                *kept = value.or(*kept);
+            }
+        }
+    }
+
+    /// The samples of all periods until `last_slot`, oldest first. `paused_ns` is the time that does not count. A
+    /// whisker without a new value has the base angle NaN. The function allocates no memory.
+    pub fn samples(&mut self, last_slot: u64, poses: &PoseHistory, paused_ns: u64) -> &[Sample] {
+        self.samples.clear();
+        // After a long gap, older periods than the ring has are gone.
+        self.next_slot = self.next_slot.max((last_slot + 1).saturating_sub(SLOTS as u64));
+        while self.next_slot <= last_slot {
+            let counts = self.slots.get_mut(cell(self.next_slot)).map(std::mem::take).unwrap_or_default();
+            let read_ns = self.next_slot * self.period_ns;
+            let time_ns = read_ns.saturating_sub(self.delay_ns);
+            let mut whiskers = [Reading::default(); MAX_WHISKERS];
+            for ((reading, counts), transducer) in whiskers.iter_mut().zip(counts).zip(&self.transducers) {
+                reading.base_angle = counts.map_or(f64::NAN, |counts| transducer.base_angle(counts));
+            }
+            let time = time_ns.saturating_sub(paused_ns) as f64 * 1e-9;
+            self.samples.push(Sample { time, body: poses.at(time_ns), whiskers });
+            self.next_slot += 1;
+        }
+        &self.samples
+    }
+
+    /// Rounds that came after their sample.
+    #[must_use]
+    pub fn late(&self) -> u64 {
+        self.late
+    }
+}
+
+/// Entry of a sample period in the ring.
+fn cell(slot: u64) -> usize {
+    #[expect(clippy::cast_possible_truncation, reason = "below the length of the ring")]
+    let cell = (slot % SLOTS as u64) as usize;
+    cell
+}
+
+/// The period of a rate (Hz), in whole nanoseconds.
+#[must_use]
+pub fn period_ns(rate: f64) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated rate")]
+    let period = (1e9 / rate).round() as u64;
+    period
+}

@@ -1,0 +1,17 @@
+//! The sensor array: acquisition of rounds, and their assembly to samples.
+
+mod acquisition;
+mod assembler;
+mod bus;
+mod magnet;
+mod pose_history;
+mod round;
+mod zeroing;
+
+pub use acquisition::{Acquisition, StartFault};
+pub use assembler::{Assembler, period_ns};
+pub use bus::Bus;
+pub use magnet::Magnet;
+pub use pose_history::{PoseHistory, StampedPose};
+pub use round::{BoardReading, ReadingState, Round};
+pub use zeroing::{Zeroing, ZeroingFault};

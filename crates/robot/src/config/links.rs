@@ -1,0 +1,93 @@
+//! The sections `actuator`, `pose`, `mqtt` and `record`.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+use super::quantity;
+
+/// The receiver of the commands.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ActuatorConfig {
+    /// No command leaves the program.
+    #[default]
+    DryRun,
+    /// Packets to this address.
+    Udp {
+        /// Address of the actuator.
+        address: SocketAddr,
+        /// True if the actuator acknowledges every packet.
+        #[serde(default = "yes")]
+        acknowledged: bool,
+    },
+    /// Messages with the topic `vibrissa/NAME/command`.
+    Mqtt {},
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The source of the platform's pose.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PoseConfig {
+    /// The sender.
+    #[serde(flatten)]
+    pub source: PoseSource,
+    /// Age of a pose when it arrives (s).
+    #[serde(default, deserialize_with = "quantity::time")]
+    pub latency: f64,
+}
+
+/// The sender of poses.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PoseSource {
+    /// Packets to this address of the robot.
+    Udp {
+        /// Address on which the program listens.
+        listen: SocketAddr,
+    },
+    /// Messages with the topic `vibrissa/NAME/pose`.
+    Mqtt {},
+}
+
+/// An MQTT broker.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MqttConfig {
+    /// Name or address of the broker.
+    pub host: String,
+    /// Port of the broker.
+    #[serde(default = "mqtt_port")]
+    pub port: u16,
+    /// Messages that are kept while the broker is away.
+    #[serde(default = "mqtt_buffer")]
+    pub buffer: usize,
+}
+
+fn mqtt_port() -> u16 {
+    1883
+}
+
+fn mqtt_buffer() -> usize {
+    20_000
+}
+
+/// The recording on the device.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordConfig {
+    /// Directory of the recordings.
+    pub directory: PathBuf,
+    /// Largest total size of the recordings, in megabytes. The oldest ones are deleted.
+    #[serde(default = "record_limit")]
+    pub limit_mb: u64,
+}
+
+fn record_limit() -> u64 {
+    1000
+}

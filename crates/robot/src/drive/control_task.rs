@@ -1,0 +1,212 @@
+//! The control task: one step per control period, from rounds and poses to a command.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use rtrb::{Consumer, Producer};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{Status, Tick};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
+
+use super::report::TickReport;
+use crate::array::{Assembler, PoseHistory, Round, StampedPose, Zeroing, ZeroingFault, period_ns};
+use crate::config::Config;
+use crate::link::StampedCommand;
+use crate::vitals::Vitals;
+
+/// The receiving ends of the control task.
+#[derive(Debug)]
+pub struct Inputs {
+    /// The rounds of each bus.
+    pub rounds: Vec<Consumer<Round>>,
+    /// Poses.
+    pub poses: Consumer<StampedPose>,
+}
+
+/// The sending ends of the control task. A full ring loses the newest entry and is counted.
+#[derive(Debug)]
+pub struct Outputs {
+    /// Commands to the supervisor.
+    pub commands: Producer<StampedCommand>,
+    /// Reports to the telemetry.
+    pub reports: Producer<TickReport>,
+}
+
+/// The control task.
+#[derive(Debug)]
+pub struct ControlTask {
+    control: Control,
+    assembler: Assembler,
+    poses: PoseHistory,
+    inputs: Inputs,
+    outputs: Outputs,
+    vitals: Arc<Vitals>,
+    zeroing: Option<Zeroing>,
+    sample_period_ns: u64,
+    base_angle_limit: f64,
+    /// Time during which the machine has waited (ns).
+    paused_ns: u64,
+    /// The last sample period of the previous tick.
+    last_slot: u64,
+    lost_reports: u64,
+}
+
+/// The result of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Started {
+    /// Neutral values are still measured.
+    Zeroing,
+    /// The machine runs, or waits while the robot is stopped.
+    Running,
+}
+
+impl ControlTask {
+    /// Creates the task. It begins with the measurement of the neutral values.
+    #[must_use]
+    pub fn new(
+        config: &Config,
+        control: Control,
+        assembler: Assembler,
+        inputs: Inputs,
+        outputs: Outputs,
+        vitals: Arc<Vitals>,
+    ) -> Self {
+        Self {
+            control,
+            assembler,
+            poses: PoseHistory::default(),
+            inputs,
+            outputs,
+            vitals,
+            zeroing: Some(Zeroing::new(config.rig.whiskers.len())),
+            sample_period_ns: period_ns(config.rig.sensing.sample_rate),
+            base_angle_limit: config.limits.base_angle,
+            paused_ns: 0,
+            last_slot: 0,
+            lost_reports: 0,
+        }
+    }
+
+    /// The control loop inside.
+    #[must_use]
+    pub fn control(&self) -> &Control {
+        &self.control
+    }
+
+    /// Reports that found no room.
+    #[must_use]
+    pub fn lost_reports(&self) -> u64 {
+        self.lost_reports
+    }
+
+    /// Executes the step that is due at `due_ns`, with the samples until the sample period `last_slot`.
+    ///
+    /// `observe` receives the control loop after every tick of the machine. `now` gives the time.
+    ///
+    /// # Errors
+    /// [`ZeroingFault`] if a whisker moves while its neutral value is measured.
+    pub fn step(
+        &mut self,
+        due_ns: u64,
+        last_slot: u64,
+        now: impl Fn() -> u64,
+        mut observe: impl FnMut(&Control, Command, &Tick),
+    ) -> Result<Started, ZeroingFault> {
+        let started_ns = now();
+        self.take_poses();
+        self.take_rounds();
+        if let Some(zeroing) = &self.zeroing {
+            let Some(neutral) = zeroing.finish()? else {
+                self.assembler.skip_to(last_slot + 1);
+                self.last_slot = last_slot;
+                return Ok(Started::Zeroing);
+            };
+            self.zeroing = None;
+            self.assembler.set_neutral(neutral);
+            self.assembler.skip_to(last_slot);
+            self.last_slot = last_slot;
+            // The time of the run begins now.
+            self.paused_ns = last_slot.saturating_sub(1) * self.sample_period_ns;
+            self.vitals.is_running.store(true, Ordering::Release);
+        }
+        let is_paused = self.vitals.is_stopped.load(Ordering::Acquire);
+        if is_paused {
+            self.paused_ns += (last_slot - self.last_slot.min(last_slot)) * self.sample_period_ns;
+        }
+        self.last_slot = last_slot;
+        let samples = self.assembler.samples(last_slot, &self.poses, self.paused_ns);
+        watch(samples, self.base_angle_limit, &self.vitals);
+        let (mut command, mut status) = (Command::STOP, Status::Running);
+        if !is_paused {
+            let (next, tick) = self.control.tick(samples);
+            (command, status) = (next, tick.status);
+            observe(&self.control, command, &tick);
+            if status == Status::Failed {
+                self.vitals.has_machine_failed.store(true, Ordering::Release);
+            }
+        }
+        let ended_ns = now();
+        self.vitals.tick_ns.store(ended_ns, Ordering::Release);
+        // Without room the supervisor is late, and its own watch reports that.
+        let _ = self.outputs.commands.push(StampedCommand { time_ns: ended_ns, command });
+        let newest_ns = last_slot * self.sample_period_ns;
+        self.report(TickReport {
+            due_ns,
+            started_ns,
+            ended_ns,
+            sample_age_ns: started_ns.saturating_sub(newest_ns),
+            state: u16::try_from(self.control.machine().state()).unwrap_or(u16::MAX),
+            status,
+            pose: self.control.perception().pose(),
+            base_angles: [0.0; MAX_WHISKERS],
+            tips: [None; MAX_WHISKERS],
+            command,
+            is_paused,
+        });
+        Ok(Started::Running)
+    }
+
+    fn take_poses(&mut self) {
+        while let Ok(stamped) = self.inputs.poses.pop() {
+            self.poses.push(stamped);
+        }
+    }
+
+    fn take_rounds(&mut self) {
+        for bus in &mut self.inputs.rounds {
+            while let Ok(round) = bus.pop() {
+                if let Some(zeroing) = &mut self.zeroing {
+                    for (whisker, counts) in self.assembler.counts(&round) {
+                        if let Some(counts) = counts {
+                            zeroing.take(whisker, counts);
+                        }
+                    }
+                }
+                self.assembler.take(&round);
+            }
+        }
+    }
+
+    fn report(&mut self, mut report: TickReport) {
+        let perception = self.control.perception();
+        for (bound, _) in perception.fitted() {
+            if let (Some(angle), Some(tip)) = (report.base_angles.get_mut(bound), report.tips.get_mut(bound)) {
+                *angle = perception.base_angle(bound);
+                *tip = perception.recorded_tip(bound).filter(|_| !report.is_paused).map(|tip| [tip.x, tip.y]);
+            }
+        }
+        if self.outputs.reports.push(report).is_err() {
+            self.lost_reports += 1;
+        }
+    }
+}
+
+/// Marks whiskers whose base angle exceeds its limit, also those that the policy does not use.
+fn watch(samples: &[Sample], limit: f64, vitals: &Vitals) {
+    for whisker in 0..MAX_WHISKERS {
+        let exceeds = |sample: &Sample| sample.whiskers.get(whisker).is_some_and(|w| w.base_angle.abs() > limit);
+        if samples.iter().any(exceeds) {
+            vitals.beyond_limit.fetch_or(1 << whisker, Ordering::AcqRel);
+        }
+    }
+}

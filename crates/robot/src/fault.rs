@@ -1,0 +1,131 @@
+//! The faults that stop a robot.
+
+use serde::{Deserialize, Serialize};
+
+use crate::config::FaultResponse;
+
+/// The kinds of faults.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FaultKind {
+    /// A sensor answers, but has no new value.
+    SensorStale,
+    /// A sensor does not answer, or has lost its mode. Its bring-up is tried again.
+    SensorLost,
+    /// A reading or a pose is not a number, or a status byte is impossible.
+    InvalidReading,
+    /// A field is at the end of the sensor's range.
+    Saturated,
+    /// A base angle exceeds its limit.
+    AngleLimit,
+    /// A bus has completed no round. A call may be blocked.
+    BusBlocked,
+    /// The last pose is too old.
+    PoseOld,
+    /// The actuator acknowledges no command.
+    LinkLost,
+    /// The MQTT broker is gone. Only telemetry needs it.
+    BrokerGone,
+    /// The control loop has not completed a tick in time.
+    ControlLate,
+    /// The machine has failed.
+    MachineFailed,
+    /// A thread has panicked.
+    Panic,
+    /// The system has asked the program to end.
+    Terminated,
+}
+
+impl FaultKind {
+    /// All kinds.
+    pub const ALL: [Self; 13] = [
+        Self::SensorStale,
+        Self::SensorLost,
+        Self::InvalidReading,
+        Self::Saturated,
+        Self::AngleLimit,
+        Self::BusBlocked,
+        Self::PoseOld,
+        Self::LinkLost,
+        Self::BrokerGone,
+        Self::ControlLate,
+        Self::MachineFailed,
+        Self::Panic,
+        Self::Terminated,
+    ];
+
+    /// The response to a fault of this kind, unless the configuration has another one.
+    #[must_use]
+    pub fn default_response(self) -> FaultResponse {
+        match self {
+            Self::BrokerGone => FaultResponse::Log,
+            Self::SensorStale
+            | Self::SensorLost
+            | Self::InvalidReading
+            | Self::Saturated
+            | Self::BusBlocked
+            | Self::PoseOld
+            | Self::LinkLost
+            | Self::ControlLate => FaultResponse::Pause,
+            Self::AngleLimit | Self::MachineFailed | Self::Panic | Self::Terminated => FaultResponse::Stop,
+        }
+    }
+
+    /// The name of the kind in files and messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SensorStale => "sensor_stale",
+            Self::SensorLost => "sensor_lost",
+            Self::InvalidReading => "invalid_reading",
+            Self::Saturated => "saturated",
+            Self::AngleLimit => "angle_limit",
+            Self::BusBlocked => "bus_blocked",
+            Self::PoseOld => "pose_old",
+            Self::LinkLost => "link_lost",
+            Self::BrokerGone => "broker_gone",
+            Self::ControlLate => "control_late",
+            Self::MachineFailed => "machine_failed",
+            Self::Panic => "panic",
+            Self::Terminated => "terminated",
+        }
+    }
+
+    /// The number of the kind, from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// A fault and its cause.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fault {
+    /// Its kind.
+    pub kind: FaultKind,
+    /// Index of the bus or whisker that has it. 0 for other kinds.
+    pub part: u8,
+}
+
+/// A change of a fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FaultEvent {
+    /// Time since the start of the program (ns).
+    pub time_ns: u64,
+    /// The fault.
+    pub fault: Fault,
+    /// The change.
+    pub change: FaultChange,
+}
+
+/// The changes of a fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FaultChange {
+    /// The fault has begun, as the supervisor sees it.
+    Detected,
+    /// The first stop command after it has been sent.
+    Reacted,
+    /// The fault is over, and the loop has resumed if it was stopped.
+    Recovered,
+}

@@ -1,0 +1,24 @@
+//! Drives a whisker array on a robot by a compiled policy.
+//!
+//! # The loop
+//!
+//! | thread | work | rate |
+//! |---|---|---|
+//! | acquisition, one per bus | reads every board once: [`array::Acquisition`] | 300 Hz |
+//! | control | assembles samples and executes the machine: [`drive::ControlTask`] | 30 Hz |
+//! | supervision | looks for faults, limits and sends commands: [`drive::Supervisor`] | 100 Hz |
+//!
+//! The threads share [`vitals::Vitals`], which are atomic, and rings without locks. None of them allocates memory or waits
+//! for another one. So the supervisor stops the robot within 100 ms, whichever part fails.
+//!
+//! Each task is a step function of the time. On a robot, `realtime` threads call it. In the `emulation`, a scheduler
+//! calls it in emulated time, with emulated sensors on emulated buses.
+
+pub mod array;
+pub mod config;
+pub mod drive;
+#[cfg(feature = "emulation")]
+pub mod emulation;
+pub mod fault;
+pub mod link;
+pub mod vitals;

@@ -1,0 +1,143 @@
+//! Signs of life that the threads of the loop share without locks.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use vibrissa_runtime::geometry::Pose;
+use vibrissa_runtime::signal::MAX_WHISKERS;
+
+use crate::array::Round;
+use crate::config::MAX_BUSES;
+use crate::fault::FaultKind;
+
+/// Signs of life. Every field is written by one thread and read by the supervisor. Times are in nanoseconds since the
+/// start of the program.
+#[derive(Debug, Default)]
+pub struct Vitals {
+    /// End of the last round of each bus.
+    pub round_ns: [AtomicU64; MAX_BUSES],
+    /// Last time at which each whisker had a new, valid value.
+    pub fresh_ns: [AtomicU64; MAX_WHISKERS],
+    /// The kind of fault that each whisker has now, and when it began.
+    pub sensor: [SensorVital; MAX_WHISKERS],
+    /// One bit for each whisker whose base angle has exceeded its limit.
+    pub beyond_limit: AtomicU64,
+    /// Arrival of the last valid pose.
+    pub pose_ns: AtomicU64,
+    /// End of the last control tick.
+    pub tick_ns: AtomicU64,
+    /// True once the control loop has begun. Before that, no tick is late.
+    pub is_running: AtomicBool,
+    /// True while the supervisor stops the robot. The machine waits.
+    pub is_stopped: AtomicBool,
+    /// True if the machine has failed.
+    pub has_machine_failed: AtomicBool,
+    /// True if a thread has panicked.
+    pub has_panicked: AtomicBool,
+    /// True if the program must end.
+    pub is_terminated: AtomicBool,
+    /// True if the last pose was not a number.
+    pub is_invalid: AtomicBool,
+    /// True while the telemetry has no broker.
+    pub is_broker_gone: AtomicBool,
+    /// Missed periods of acquisition on each bus, of control and of supervision.
+    pub missed: [AtomicU64; Phase::COUNT],
+}
+
+/// The newest fault of a whisker's sensor.
+#[derive(Debug, Default)]
+pub struct SensorVital {
+    /// Its kind, by its index plus one. 0 is none.
+    kind: AtomicU64,
+    /// Number of readings that were faults by themselves.
+    count: AtomicU64,
+}
+
+/// The phases of the loop, for counts of missed periods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Reading of the sensors.
+    Acquisition,
+    /// The control tick.
+    Control,
+    /// Supervision and sending of commands.
+    Supervision,
+}
+
+impl Phase {
+    /// Number of phases.
+    pub const COUNT: usize = 3;
+    /// All phases.
+    pub const ALL: [Self; Self::COUNT] = [Self::Acquisition, Self::Control, Self::Supervision];
+
+    /// The name of the phase in messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Acquisition => "acquisition",
+            Self::Control => "control",
+            Self::Supervision => "supervision",
+        }
+    }
+}
+
+impl SensorVital {
+    /// Sets the fault of a reading. One that is a fault by itself is counted.
+    fn set(&self, kind: FaultKind, is_fault_at_once: bool) {
+        self.kind.store(kind.index() as u64 + 1, Ordering::Release);
+        if is_fault_at_once {
+            self.count.fetch_add(1, Ordering::AcqRel);
+        }
+    }
+
+    /// The kind of the newest fault, if there was one.
+    #[must_use]
+    pub fn kind(&self) -> Option<FaultKind> {
+        let index = usize::try_from(self.kind.load(Ordering::Acquire)).ok()?.checked_sub(1)?;
+        FaultKind::ALL.get(index).copied()
+    }
+
+    /// Number of readings that were faults by themselves.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.count.load(Ordering::Acquire)
+    }
+}
+
+impl Vitals {
+    /// Notes the arrival of a pose. True if it is valid.
+    pub fn pose_arrived(&self, pose: &Pose, now_ns: u64) -> bool {
+        let is_valid = pose.is_finite();
+        self.is_invalid.store(!is_valid, Ordering::Release);
+        if is_valid {
+            self.pose_ns.store(now_ns, Ordering::Release);
+        }
+        is_valid
+    }
+
+    /// Notes a round on a bus whose boards belong to these whiskers.
+    pub fn round_ended(&self, round: &Round, whiskers: &[usize]) {
+        for (&whisker, reading) in whiskers.iter().zip(&round.readings) {
+            let (Some(vital), Some(fresh)) = (self.sensor.get(whisker), self.fresh_ns.get(whisker)) else { continue };
+            match reading.state.fault() {
+                None => fresh.store(round.ended_ns, Ordering::Release),
+                Some(kind) => vital.set(kind, reading.state.is_fault_at_once()),
+            }
+        }
+        if let Some(last) = self.round_ns.get(usize::from(round.bus)) {
+            last.store(round.ended_ns, Ordering::Release);
+        }
+    }
+
+    /// Counts missed periods of a phase.
+    pub fn miss(&self, phase: Phase, periods: u64) {
+        if let Some(count) = self.missed.get(phase as usize) {
+            count.fetch_add(periods, Ordering::Relaxed);
+        }
+    }
+
+    /// Missed periods of a phase.
+    #[must_use]
+    pub fn missed(&self, phase: Phase) -> u64 {
+        self.missed.get(phase as usize).map_or(0, |count| count.load(Ordering::Relaxed))
+    }
+}

@@ -1,0 +1,41 @@
+//! The loop without faults.
+
+use vibrissa_robot::emulation::{Settings, Stopped};
+use vibrissa_robot::vitals::Phase;
+
+use super::robot::{MS, robot};
+
+#[test]
+fn a_robot_without_faults_misses_no_period_and_reports_no_fault() {
+    let mut robot = robot(&Settings::default());
+    let mut ticks = 0;
+    let stopped = robot.run(10_000 * MS, |_, _, _, _| {
+        ticks += 1;
+        true
+    });
+    assert_eq!(stopped.unwrap(), Stopped::Time);
+    assert!(robot.take_events().is_empty());
+    assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::COUNT]);
+    // The first second goes to the neutral values.
+    assert!((265..=270).contains(&ticks), "{ticks}");
+    let report = robot.next_report().unwrap();
+    assert!(report.sample_age_ns < 4 * MS, "{} ns", report.sample_age_ns);
+}
+
+#[test]
+fn the_same_seed_gives_the_same_commands_bit_for_bit() {
+    let commands = |seed: u64| {
+        let mut robot = robot(&Settings { seed, ..Settings::default() });
+        let mut commands = Vec::new();
+        let observe = |_: &_, command: vibrissa_runtime::signal::Command, _: &_, _: &mut _| {
+            commands.push([command.velocity_world.x, command.velocity_world.y, command.yaw_rate].map(f64::to_bits));
+            true
+        };
+        robot.run(6000 * MS, observe).unwrap();
+        commands
+    };
+    let first = commands(5);
+    assert!(first == commands(5));
+    // The policy compares angles with thresholds, so noise can change a command only near one.
+    assert!(first.len() > 140);
+}

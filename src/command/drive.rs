@@ -1,0 +1,125 @@
+//! `vibrissa drive`
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use clap::Args;
+use sha2::Digest;
+use vibrissa_robot::config::Config;
+use vibrissa_robot::emulation::{Injection, Settings as EmulationSettings};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, WorldOptions};
+use super::output;
+use super::trials::{ReportFiles, inputs, make_directory, report_events};
+use super::values::parse_seed;
+use crate::emulated;
+use crate::file::CommandFiles;
+use crate::load::{self, Loaded};
+use crate::report::{faults_table, results_table};
+use crate::results::DriveResult;
+use crate::trial::{Inputs, Trial};
+
+const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+
+/// The arguments of `vibrissa drive`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct DriveArguments {
+    /// Compiled machine, or a policy
+    #[arg(value_name = "MACHINE")]
+    machine: PathBuf,
+    /// Scenario whose rig is driven in a simulation, with emulated sensors on emulated buses. On a robot, the program
+    /// `vibrissa-robot` drives the real array
+    #[arg(long, value_name = "SCENARIO")]
+    emulate: PathBuf,
+    /// Configuration of the array, such as deploy/pi/array.yaml. By default, one is made for the scenario's rig
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Faults to inject, as a list in YAML: - {at_ms: 5000, for_ms: 300, kind: stale_sensor, part: 0}
+    #[arg(long, value_name = "FILE")]
+    inject: Option<PathBuf>,
+    /// Standard deviation of the noise of the emulated sensors in microtesla
+    #[arg(long, value_name = "UT", default_value_t = EmulationSettings::default().noise_microtesla)]
+    sensor_noise: f64,
+    /// Seed of the noise of the emulated sensors. Overrides the seed of the scenario
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: Option<u64>,
+    #[command(flatten)]
+    world: WorldOptions,
+    /// Write a picture and the result into this directory
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+}
+
+pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
+    let before = Instant::now();
+    let mut files = CommandFiles::new();
+    let source = load::read(&arguments.emulate, &mut files)?;
+    let Loaded { value: scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
+    let policy = load::policy(&arguments.machine, &mut files)?;
+    output::warnings(&policy.value);
+    let injections = match &arguments.inject {
+        Some(path) => injections(path, &mut files)?,
+        None => Vec::new(),
+    };
+    let settings = EmulationSettings {
+        seed: arguments.seed.unwrap_or(scene.seed),
+        noise_microtesla: arguments.sensor_noise,
+        injections,
+    };
+    let config = match &arguments.config {
+        Some(path) => config(path, &mut files)?,
+        None => Config::emulated(scene.rig.clone(), settings.noise_microtesla),
+    };
+    let report = match &arguments.out {
+        Some(directory) => {
+            make_directory(Some(directory))?;
+            Some(ReportFiles::new(&directory.join(&scene.name), &mut files)?)
+        }
+        None => None,
+    };
+    let world = arguments.world.of(&scene);
+    let inputs = inputs(&arguments.emulate, &scenario_hash.finalize(), &policy.hash.finalize());
+    let program = Arc::new(policy.value.artifact.program);
+    let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
+    let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
+    let emulated = emulated::run(&trial, &config, &settings).map_err(|cause| {
+        let scenario = trial.inputs.scenario.clone();
+        Failure::Emulated { scenario, cause }
+    })?;
+    let document = trial.document(&emulated.result);
+    report_events(&document);
+    for violation in &emulated.result.violations {
+        output::message(format_args!("{}: {violation}", trial.scene.name));
+    }
+    let exit = if emulated.result.violations.is_empty() { Exit::Done } else { Exit::Unexpected };
+    if let Some(report) = report {
+        report.write(&trial, &emulated.result, &document)?;
+    }
+    let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed);
+    if result.faults.is_empty() {
+        output::document(arguments.format, &result, || [results_table(std::slice::from_ref(&result.run))])?;
+    } else {
+        output::document(arguments.format, &result, || {
+            [results_table(std::slice::from_ref(&result.run)), faults_table(&result.faults)]
+        })?;
+    }
+    Ok(exit)
+}
+
+fn config(path: &std::path::Path, files: &mut CommandFiles) -> Result<Config, Failure> {
+    let text = load::read(path, files)?;
+    Config::from_text(&text.text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })
+}
+
+/// Reads a list of faults.
+fn injections(path: &std::path::Path, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
+    let text = load::read(path, files)?;
+    serde_yaml::from_str(&text.text)
+        .map_err(|cause| Failure::Injections { path: path.to_owned(), cause: cause.to_string() })
+}

@@ -1,0 +1,86 @@
+//! A trial with an emulated array.
+
+use std::sync::Arc;
+
+use vibrissa_robot::config::{Config, ConfigError};
+use vibrissa_robot::emulation::{Emulation, EmulationError, Settings, Stopped};
+use vibrissa_robot::fault::FaultEvent;
+use vibrissa_robot::vitals::Phase;
+use vibrissa_runtime::control::{BindError, Control};
+
+use super::world_plant::WorldPlant;
+use crate::run::{Ending, Monitor};
+use crate::scene::Outcome;
+use crate::trial::{ExecuteError, Trial, TrialResult};
+
+/// The result of a trial with an emulated array.
+#[derive(Debug, Clone)]
+pub struct EmulatedResult {
+    /// The run and its score.
+    pub result: TrialResult,
+    /// The changes of faults, in the order of time.
+    pub events: Vec<FaultEvent>,
+    /// Time at which the machine has begun (ns), after the start of the sensors and the measurement of neutral values.
+    pub begun_ns: u64,
+    /// Missed periods of each phase.
+    pub missed: [u64; Phase::COUNT],
+}
+
+/// A trial that cannot be emulated.
+#[derive(Debug, thiserror::Error)]
+pub enum EmulatedError {
+    /// The world refuses the scene.
+    #[error(transparent)]
+    Execute(#[from] ExecuteError),
+    /// The rig does not have what the policy needs.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// The rig has no valid array.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The array cannot be started.
+    #[error(transparent)]
+    Emulation(#[from] EmulationError),
+}
+
+/// Runs a trial with the robot's own loop under `config`. Control assumes the rig of the configuration.
+///
+/// # Errors
+/// [`EmulatedError`] if the run cannot begin. The outcome of a run is part of the result.
+pub fn run(trial: &Trial, config: &Config, settings: &Settings) -> Result<EmulatedResult, EmulatedError> {
+    let mut plant_trial = trial.clone();
+    let sensing = &mut plant_trial.scene.rig.sensing;
+    // The emulated sensors have the noise, and commands take effect at every sample.
+    (sensing.angle_noise, sensing.angle_resolution) = (0.0, 0.0);
+    sensing.sample_rate = config.rig.sensing.sample_rate;
+    sensing.control_rate = sensing.sample_rate;
+    let plant = WorldPlant::new(plant_trial.world()?, &trial.scene.rig, trial.scene.start);
+    let control = Control::new(&config.rig, Arc::clone(&trial.program))?;
+    let mut monitor = Monitor::new(&control, &trial.scene.stop, config.rig.sensing.control_rate.recip());
+    let mut emulation = Emulation::new(config, control, plant, settings)?;
+    let (mut ending, mut crash) = (None, None);
+    // The robot may be stopped for good, so the time is limited beside the ticks. Neutral values take a second.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the time of a run")]
+    let limit_ns = ((trial.scene.stop.time * 2.0 + 10.0) * 1e9) as u64;
+    let stopped = emulation.run(limit_ns, |control, command, tick, plant| {
+        ending = monitor.observe(control, command, tick, plant);
+        plant.next_tick();
+        crash = plant.fault().cloned();
+        ending.is_none()
+    })?;
+    let ending = match (ending, stopped) {
+        (Some(ending), _) => ending,
+        (None, Stopped::Plant(fault)) => match crash {
+            Some(fault) => monitor.crashed(&fault),
+            None => Ending { outcome: Outcome::Diverged, reason: Some(fault.0) },
+        },
+        (None, _) => {
+            let reason = "the robot remained stopped by a fault".to_owned();
+            Ending { outcome: Outcome::Failed, reason: Some(reason) }
+        }
+    };
+    let run = monitor.finish(emulation.control(), ending);
+    let missed = Phase::ALL.map(|phase| emulation.vitals().missed(phase));
+    let begun_ns = emulation.begun_ns().unwrap_or_default();
+    Ok(EmulatedResult { result: trial.scored(run), events: emulation.take_events(), begun_ns, missed })
+}

@@ -1,0 +1,196 @@
+//! The monitor of a run: it records the trace and decides when the run ends.
+
+use std::time::{Duration, Instant};
+
+use crate::geometry::{Point2, Vector2};
+use crate::scene::{Outcome, Reached, Stop};
+use crate::world::{Fault, World};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{Fallback, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
+
+use super::drive::Run;
+use super::loop_watch::LoopWatch;
+use super::stall_watch::StallWatch;
+use super::trace::{Contact, MarkRecord, TickRecord, Trace};
+
+/// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
+const INITIAL_CAPACITY: usize = 108_000;
+
+/// Records the ticks of a control loop, and decides when the run ends.
+#[derive(Debug)]
+pub struct Monitor {
+    trace: Trace,
+    tick_times: Vec<Duration>,
+    loops: [LoopWatch; MAX_WHISKERS],
+    stall: Option<StallWatch>,
+    stop: Stop,
+    most_ticks: usize,
+    start: Instant,
+    first_tick: Option<Duration>,
+}
+
+/// The end of a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ending {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Its reason. `None` for a completed run.
+    pub reason: Option<String>,
+}
+
+impl Ending {
+    const COMPLETED: Self = Self { outcome: Outcome::Completed, reason: None };
+
+    fn failed(reason: Option<String>) -> Self {
+        Self { outcome: Outcome::Failed, reason }
+    }
+
+    fn timeout(reason: String) -> Self {
+        Self { outcome: Outcome::Timeout, reason: Some(reason) }
+    }
+}
+
+impl Monitor {
+    /// A monitor of `control` until `stop`, with this control period (s). The run begins now.
+    #[must_use]
+    pub fn new(control: &Control, stop: &Stop, period: f64) -> Self {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of ticks of a run")]
+        let most_ticks = (stop.time / period).ceil() as usize;
+        let program = control.machine().program();
+        let trace = Trace {
+            whiskers: control.perception().fitted().map(|(whisker, _)| program.whiskers[whisker].clone()).collect(),
+            states: program.states.iter().map(|state| state.name.to_string()).collect(),
+            parents: program.states.iter().map(|state| state.parent).collect(),
+            period,
+            ticks: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
+            marks: Vec::new(),
+            crashed: false,
+        };
+        Self {
+            trace,
+            tick_times: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
+            loops: Default::default(),
+            stall: stop.stalled.map(StallWatch::new),
+            stop: *stop,
+            most_ticks,
+            start: Instant::now(),
+            first_tick: None,
+        }
+    }
+
+    /// The trace so far.
+    #[must_use]
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    /// Notes the wall time of the tick that [`observe`](Self::observe) receives next.
+    pub fn tick_took(&mut self, duration: Duration) {
+        self.tick_times.push(duration);
+        self.first_tick.get_or_insert_with(|| self.start.elapsed());
+    }
+
+    /// The ending after a fault of the world.
+    pub fn crashed(&mut self, fault: &Fault) -> Ending {
+        self.trace.crashed = matches!(fault, Fault::Crash { .. });
+        let outcome = if self.trace.crashed { Outcome::Failed } else { Outcome::Diverged };
+        Ending { outcome, reason: Some(fault.to_string()) }
+    }
+
+    /// Records a tick. The result is the ending if the run ends with it.
+    pub fn observe(&mut self, control: &Control, command: Command, ticked: &Tick, world: &dyn World) -> Option<Ending> {
+        let tick = record(control, command, ticked.fallback, world);
+        self.trace.marks.extend(marks(control, self.trace.ticks.len()));
+        self.trace.ticks.push(tick);
+        if ticked.status == Status::Failed {
+            return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
+        }
+        if let Some(aim) = &self.stop.loop_closed {
+            let mut watches = self.loops.iter_mut().zip(tick.tips);
+            if watches.any(|(watch, tip)| watch.closes(tick.time, tip, tick.body.position, aim)) {
+                return Some(Ending::COMPLETED);
+            }
+        }
+        if self.stop.reached.is_some_and(|aim| is_reached(&tick, &aim)) {
+            return Some(Ending::COMPLETED);
+        }
+        if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(&tick)) {
+            return Some(Ending::failed(Some(reason)));
+        }
+        if self.trace.ticks.len() < self.most_ticks {
+            return None;
+        }
+        let time = self.stop.time;
+        Some(match self.stop {
+            Stop { loop_closed: None, reached: None, .. } => Ending::COMPLETED,
+            Stop { loop_closed: None, .. } => Ending::timeout(format!("the place was not reached within {time} s")),
+            Stop { .. } => Ending::timeout(format!("the loop did not close within {time} s")),
+        })
+    }
+
+    /// The finished run.
+    #[must_use]
+    pub fn finish(self, control: &Control, ending: Ending) -> Run {
+        Run {
+            outcome: ending.outcome,
+            reason: ending.reason,
+            final_state: control.machine().state_name().to_owned(),
+            trace: self.trace,
+            wall: self.start.elapsed(),
+            start: self.first_tick.unwrap_or_default(),
+            tick_times: self.tick_times,
+        }
+    }
+}
+
+/// True if the platform has reached the position of `aim`.
+fn is_reached(tick: &TickRecord, aim: &Reached) -> bool {
+    tick.time >= aim.after && (tick.body.position - aim.place).norm() <= aim.within
+}
+
+/// The marks of the tick with this index.
+fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
+    control.perception().fitted().enumerate().flat_map(move |(whisker, (bound, _))| {
+        let marks = control.perception().marks(bound);
+        marks.map(move |(mark, tip_world)| MarkRecord { mark, whisker, tick, tip_world })
+    })
+}
+
+fn record(control: &Control, command: Command, fallback: Option<Fallback>, world: &dyn World) -> TickRecord {
+    let (perception, machine) = (control.perception(), control.machine());
+    let mut tick = TickRecord {
+        time: perception.time(),
+        body: perception.pose(),
+        state: machine.failure().is_none().then(|| machine.state()),
+        deflections: [0.0; MAX_WHISKERS],
+        tips: [None; MAX_WHISKERS],
+        contacts: Default::default(),
+        tip_deviations: [0.0; MAX_WHISKERS],
+        command,
+        fallback,
+        tip_ends: [None; MAX_WHISKERS],
+        body_touches: world.body_touches(),
+        snap_offs: [false; MAX_WHISKERS],
+    };
+    for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
+        tick.snap_offs[whisker] = world.snapped_off(in_rig);
+        tick.tip_ends[whisker] = Some(world.tip(in_rig));
+        tick.deflections[whisker] = perception.base_angle(bound);
+        tick.tips[whisker] = perception.recorded_tip(bound);
+        tick.contacts[whisker] = contact(perception, bound);
+        tick.tip_deviations[whisker] = perception.recorded_deviation(bound);
+    }
+    tick
+}
+
+fn contact(perception: &Perception, whisker: usize) -> Contact {
+    let known = |vector: Vector2| vector.iter().all(|part| part.is_finite()).then_some(vector);
+    let vector = |quantity| known(perception.whisker_vector(whisker, quantity));
+    Contact {
+        is_touching: perception.whisker(whisker, WhiskerScalar::Touching) > 0.0,
+        tip_world: vector(WhiskerVector::Tip).map(Point2::from),
+        tangent_world: vector(WhiskerVector::ContourTangent),
+    }
+}
