@@ -40,6 +40,7 @@
 //! The noise of a conversion is a function of the seed, the number of the start of its mode, and its own number. Reading
 //! more or fewer conversions does not change the noise of the others.
 
+mod answer;
 mod bus;
 mod bus_error;
 mod clock;

@@ -1,5 +1,6 @@
 //! An emulated sensor.
 
+use crate::answer::Answer;
 use crate::counts::{field_word, temperature_word};
 use crate::fault::{SensorFault, count_down};
 use crate::field::FieldSource;
@@ -44,26 +45,6 @@ pub struct EmulatedSensor {
     answer: Answer,
     faults: Vec<SensorFault>,
     stopped_since_ns: Option<u64>,
-}
-
-/// The answer to the last command: a status without RS and SED, then data.
-#[derive(Debug, Clone, Copy)]
-struct Answer {
-    bytes: [u8; 9],
-    length: usize,
-}
-
-impl Answer {
-    fn status(status: u8) -> Self {
-        let mut bytes = [0; 9];
-        bytes[0] = status;
-        Self { bytes, length: 1 }
-    }
-
-    fn push(&mut self, word: u16) {
-        self.bytes[self.length..self.length + 2].copy_from_slice(&word.to_be_bytes());
-        self.length += 2;
-    }
 }
 
 impl EmulatedSensor {
@@ -185,9 +166,9 @@ impl EmulatedSensor {
         self.answer = Answer::status(self.mode_bits(now_ns) | if accepted { 0 } else { ERROR });
     }
 
-    /// A byte of the answer. Index 0 is the status. Nobody drives the bus after the end of the answer.
+    /// A byte of the answer. Index 0 is the status.
     pub(crate) fn read(&mut self, index: usize) -> u8 {
-        let mut byte = if index < self.answer.length { self.answer.bytes[index] } else { 0xFF };
+        let mut byte = self.answer.byte(index);
         if index == 0 {
             byte |= if self.reset { RESET } else { 0 };
             byte |= if self.faults.contains(&SensorFault::CorrectedBit) { CORRECTED_BIT } else { 0 };

@@ -121,7 +121,7 @@ mod tests {
                 clocks += 1 + 9 * (1 + bytes as u64);
             }
             self.transactions += 1;
-            let interruption_ns = if self.transactions.is_multiple_of(3) { 400_000 } else { 0 };
+            let interruption_ns = if self.transactions.is_multiple_of(4) { 400_000 } else { 0 };
             let time_ns = clocks * 1_000_000_000 / self.frequency_hz + self.overhead_ns + interruption_ns;
             self.now_ns.set(self.now_ns.get() + time_ns);
             Ok(())

@@ -85,7 +85,7 @@ pub fn decode(settings: &CheckedSettings, bytes: &[u8]) -> Result<Measurement, R
     if status.error() {
         return Err(ReadError::Stale { status, raw });
     }
-    if false {
+    if status.length() != 2 * axes.count() {
         return Err(ReadError::Garbled { status, raw });
     }
     let data = bytes.get(1..).unwrap_or_default();

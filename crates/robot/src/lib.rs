@@ -20,5 +20,8 @@ pub mod drive;
 #[cfg(feature = "emulation")]
 pub mod emulation;
 pub mod fault;
+pub mod histogram;
 pub mod link;
+#[cfg(feature = "program")]
+pub mod program;
 pub mod vitals;

@@ -1,3 +1,7 @@
 //! The program on the robot.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    vibrissa_robot::program::main()
+}

@@ -8,6 +8,7 @@ use vibrissa_runtime::signal::MAX_WHISKERS;
 use crate::array::Round;
 use crate::config::MAX_BUSES;
 use crate::fault::FaultKind;
+use crate::histogram::Histogram;
 
 /// Signs of life. Every field is written by one thread and read by the supervisor. Times are in nanoseconds since the
 /// start of the program.
@@ -39,6 +40,16 @@ pub struct Vitals {
     pub is_invalid: AtomicBool,
     /// True while the telemetry has no broker.
     pub is_broker_gone: AtomicBool,
+    /// End of the last step of the supervisor.
+    pub supervised_ns: AtomicU64,
+    /// Time from the scheduled start to the end of a round, for each bus.
+    pub round_time: [Histogram; MAX_BUSES],
+    /// Duration of a control tick.
+    pub tick_time: Histogram,
+    /// Time from the scheduled start of a control tick to its start.
+    pub tick_lateness: Histogram,
+    /// Age of the newest sample at the start of a control tick.
+    pub sample_age: Histogram,
     /// Missed periods of acquisition on each bus, of control and of supervision.
     pub missed: [AtomicU64; Phase::COUNT],
 }

@@ -103,7 +103,16 @@ fn a_single_measurement_ends_after_its_time_and_is_read_once() {
     assert_eq!(send(&mut bus, &[0x00]), 0x00);
     // 45 µT of Z are 37 counts of 1.21 µT. The temperature of 25 °C is 46244.
     assert_eq!(answer(&mut bus, &[0x4F]), [0x03, 0xB4, 0xA4, 0, 20, 0, 40, 0, 37]);
+    bus.clock().advance_ns(50_000_000);
     assert_eq!(send(&mut bus, &[0x4F]), 0x13);
+}
+
+#[test]
+fn an_axis_that_is_not_converted_keeps_its_old_value() {
+    let mut bus = idle();
+    send(&mut bus, &[0x14]);
+    bus.clock().advance_ns(10_000_000);
+    assert_eq!(answer(&mut bus, &[0x46]), [0x81, 0, 0, 0, 40]);
 }
 
 #[test]
@@ -118,6 +127,26 @@ fn the_length_code_counts_the_requested_quantities() {
         assert_eq!(usize::from(bytes[0] & 3) * 2 + 2, length);
         assert_eq!(bytes[1 + length..], [0xFF, 0xFF], "nobody drives the bus after the answer");
     }
+}
+
+#[test]
+fn a_read_without_quantities_is_rejected() {
+    let mut bus = idle();
+    send(&mut bus, &[0x14]);
+    bus.clock().advance_ns(10_000_000);
+    assert_eq!(send(&mut bus, &[0x40]), 0x90);
+}
+
+#[test]
+fn a_reset_clears_the_data() {
+    let mut bus = idle();
+    send(&mut bus, &[0x14]);
+    bus.clock().advance_ns(10_000_000);
+    assert_eq!(answer(&mut bus, &[0x44]), [0x80, 0, 40]);
+    assert_eq!(answer(&mut bus, &[0x44]), [0x90, 0, 40], "stale data is sent again");
+    bus.write(ADDRESS, &[0xF0]).unwrap();
+    bus.clock().advance_ns(1_500_000);
+    assert_eq!(answer(&mut bus, &[0x44]), [0x14, 0, 0]);
 }
 
 #[test]

@@ -21,6 +21,32 @@ fn a_stopped_oscillator_is_stale_until_it_runs_again() {
 }
 
 #[test]
+fn conversions_continue_where_the_oscillator_stopped() {
+    let (mut bus, mut sensor) = array();
+    next(&mut bus, &mut sensor).unwrap();
+    bus.inject_at(ADDRESS, SensorFault::ClockStopped).unwrap();
+    bus.clock().advance_ns(1_000_000_000);
+    bus.clear();
+    // Without the pause, hundreds of conversions would have ended.
+    assert!(matches!(sensor.read(&mut bus), Err(ReadError::Stale { .. })));
+    assert!(next(&mut bus, &mut sensor).is_ok());
+}
+
+#[test]
+fn a_sensor_that_is_started_without_an_oscillator_converts_when_it_has_one() {
+    let (mut bus, mut sensor) = array();
+    bus.inject_at(ADDRESS, SensorFault::ClockStopped).unwrap();
+    bus.clock().advance_ns(1_000_000_000);
+    let mut delay = bus.clock();
+    sensor.start(&mut bus, &mut delay).unwrap();
+    assert!(matches!(next(&mut bus, &mut sensor), Err(ReadError::Stale { .. })));
+    bus.clear();
+    assert!(matches!(sensor.read(&mut bus), Err(ReadError::Stale { .. })));
+    // The first data needs a start and a conversion, 3.3 ms in all.
+    assert!(next(&mut bus, &mut sensor).is_ok());
+}
+
+#[test]
 fn a_brown_out_is_seen_once_as_a_reset_and_then_as_a_lost_mode() {
     let (mut bus, mut sensor) = array();
     bus.inject_at(ADDRESS, SensorFault::BrownOut).unwrap();

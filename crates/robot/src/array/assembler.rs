@@ -116,9 +116,10 @@ impl Assembler {
         }
     }
 
-    /// The samples of all periods until `last_slot`, oldest first. `paused_ns` is the time that does not count. A
-    /// whisker without a new value has the base angle NaN. The function allocates no memory.
-    pub fn samples(&mut self, last_slot: u64, poses: &PoseHistory, paused_ns: u64) -> &[Sample] {
+    /// The samples of all periods until `last_slot`, oldest first. Period 0 begins at `origin_ns`, and `paused_ns` is the
+    /// time after it that does not count. A whisker without a new value has the base angle NaN. The function allocates
+    /// no memory.
+    pub fn samples(&mut self, last_slot: u64, poses: &PoseHistory, origin_ns: u64, paused_ns: u64) -> &[Sample] {
         self.samples.clear();
         // After a long gap, older periods than the ring has are gone.
         self.next_slot = self.next_slot.max((last_slot + 1).saturating_sub(SLOTS as u64));
@@ -131,7 +132,7 @@ impl Assembler {
                 reading.base_angle = counts.map_or(f64::NAN, |counts| transducer.base_angle(counts));
             }
             let time = time_ns.saturating_sub(paused_ns) as f64 * 1e-9;
-            self.samples.push(Sample { time, body: poses.at(time_ns), whiskers });
+            self.samples.push(Sample { time, body: poses.at(origin_ns + time_ns), whiskers });
             self.next_slot += 1;
         }
         &self.samples

@@ -15,22 +15,20 @@ pub struct StampedPose {
 
 /// Number of poses that are kept: half a second at 1 kHz.
 const CAPACITY: usize = 512;
-/// Longest time (ns) over which a pose is extrapolated.
-const REACH_NS: u64 = 50_000_000;
-
 /// The newest poses, for the pose at the time of a sample.
 #[derive(Debug, Clone)]
 pub struct PoseHistory {
     poses: VecDeque<StampedPose>,
-}
-
-impl Default for PoseHistory {
-    fn default() -> Self {
-        Self { poses: VecDeque::with_capacity(CAPACITY) }
-    }
+    reach_ns: u64,
 }
 
 impl PoseHistory {
+    /// An empty history. A pose is extrapolated over at most `reach_ns`.
+    #[must_use]
+    pub fn new(reach_ns: u64) -> Self {
+        Self { poses: VecDeque::with_capacity(CAPACITY), reach_ns }
+    }
+
     /// Adds a pose. One that is not finite, or older than the newest, is ignored, and the result is false.
     pub fn push(&mut self, stamped: StampedPose) -> bool {
         if !stamped.pose.is_finite() || self.poses.back().is_some_and(|newest| stamped.time_ns <= newest.time_ns) {
@@ -43,7 +41,7 @@ impl PoseHistory {
         true
     }
 
-    /// The pose at a time (ns): interpolated, or extrapolated by at most 50 ms from the two newest. Otherwise it is
+    /// The pose at a time (ns): interpolated, or extrapolated from the two newest. Otherwise it is
     /// [`Pose::UNKNOWN`].
     #[must_use]
     pub fn at(&self, time_ns: u64) -> Pose {
@@ -51,13 +49,13 @@ impl PoseHistory {
         let (first, second) = match (after.checked_sub(1).and_then(|i| self.poses.get(i)), self.poses.get(after)) {
             (_, Some(exact)) if exact.time_ns == time_ns => return exact.pose,
             (Some(before), Some(after)) => (before, after),
-            (Some(newest), None) if time_ns - newest.time_ns <= REACH_NS => {
+            (Some(newest), None) if time_ns - newest.time_ns <= self.reach_ns => {
                 match self.poses.len().checked_sub(2).and_then(|index| self.poses.get(index)) {
                     Some(previous) => (previous, newest),
                     None => return newest.pose,
                 }
             }
-            (None, Some(oldest)) if oldest.time_ns - time_ns <= REACH_NS => return oldest.pose,
+            (None, Some(oldest)) if oldest.time_ns - time_ns <= self.reach_ns => return oldest.pose,
             _ => return Pose::UNKNOWN,
         };
         let share = (time_ns - first.time_ns) as f64 / (second.time_ns - first.time_ns) as f64;
@@ -84,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_uniform_motion_is_exact_between_poses_and_shortly_after_them() {
-        let mut history = PoseHistory::default();
+        let mut history = PoseHistory::new(50_000_000);
         for index in 1..2000 {
             assert!(history.push(moving(index * 1_000_000)));
         }
@@ -98,7 +96,7 @@ mod tests {
 
     #[test]
     fn poses_out_of_order_and_poses_without_numbers_are_ignored() {
-        let mut history = PoseHistory::default();
+        let mut history = PoseHistory::new(50_000_000);
         assert!(history.push(moving(10)));
         assert!(!history.push(moving(10)) && !history.push(moving(5)));
         assert!(!history.push(StampedPose { time_ns: 20, pose: Pose::UNKNOWN }));

@@ -138,6 +138,15 @@ impl Config {
         settings.map_err(|error| ConfigError::Inconsistent(error.to_string()))
     }
 
+    /// Number of acquisition rounds in a control period.
+    #[must_use]
+    pub fn rounds_per_tick(&self) -> u64 {
+        let ratio = self.rig.sensing.sample_rate / self.rig.sensing.control_rate;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated ratio")]
+        let count = ratio.round() as u64;
+        count.max(1)
+    }
+
     /// The whiskers of a bus, in the order of its boards.
     #[must_use]
     pub fn whiskers_on(&self, bus: usize) -> Vec<usize> {

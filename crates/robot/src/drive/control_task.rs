@@ -74,7 +74,7 @@ impl ControlTask {
         Self {
             control,
             assembler,
-            poses: PoseHistory::default(),
+            poses: PoseHistory::new(pose_reach_ns(config)),
             inputs,
             outputs,
             vitals,
@@ -99,7 +99,8 @@ impl ControlTask {
         self.lost_reports
     }
 
-    /// Executes the step that is due at `due_ns`, with the samples until the sample period `last_slot`.
+    /// Executes the step that is due at `due_ns`, with the samples until the sample period `last_slot`. Period 0 begins
+    /// at `origin_ns`.
     ///
     /// `observe` receives the control loop after every tick of the machine. `now` gives the time.
     ///
@@ -109,6 +110,7 @@ impl ControlTask {
         &mut self,
         due_ns: u64,
         last_slot: u64,
+        origin_ns: u64,
         now: impl Fn() -> u64,
         mut observe: impl FnMut(&Control, Command, &Tick),
     ) -> Result<Started, ZeroingFault> {
@@ -134,7 +136,7 @@ impl ControlTask {
             self.paused_ns += (last_slot - self.last_slot.min(last_slot)) * self.sample_period_ns;
         }
         self.last_slot = last_slot;
-        let samples = self.assembler.samples(last_slot, &self.poses, self.paused_ns);
+        let samples = self.assembler.samples(last_slot, &self.poses, origin_ns, self.paused_ns);
         watch(samples, self.base_angle_limit, &self.vitals);
         let (mut command, mut status) = (Command::STOP, Status::Running);
         if !is_paused {
@@ -147,14 +149,18 @@ impl ControlTask {
         }
         let ended_ns = now();
         self.vitals.tick_ns.store(ended_ns, Ordering::Release);
+        self.vitals.tick_time.add(ended_ns.saturating_sub(started_ns));
+        self.vitals.tick_lateness.add(started_ns.saturating_sub(due_ns));
         // Without room the supervisor is late, and its own watch reports that.
         let _ = self.outputs.commands.push(StampedCommand { time_ns: ended_ns, command });
-        let newest_ns = last_slot * self.sample_period_ns;
+        let newest_ns = origin_ns + last_slot * self.sample_period_ns;
+        let sample_age_ns = started_ns.saturating_sub(newest_ns);
+        self.vitals.sample_age.add(sample_age_ns);
         self.report(TickReport {
             due_ns,
             started_ns,
             ended_ns,
-            sample_age_ns: started_ns.saturating_sub(newest_ns),
+            sample_age_ns,
             state: u16::try_from(self.control.machine().state()).unwrap_or(u16::MAX),
             status,
             pose: self.control.perception().pose(),
@@ -199,6 +205,14 @@ impl ControlTask {
             self.lost_reports += 1;
         }
     }
+}
+
+/// Longest time (ns) over which a pose is extrapolated. Within the timeout of poses the machine always has one, and the
+/// supervisor needs some more time to stop it.
+fn pose_reach_ns(config: &Config) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    let timeout_ns = (config.timeouts.pose * 1e9) as u64;
+    timeout_ns.saturating_add(50_000_000)
 }
 
 /// Marks whiskers whose base angle exceeds its limit, also those that the policy does not use.

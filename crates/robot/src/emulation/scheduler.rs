@@ -109,6 +109,7 @@ struct Pending {
 
 /// Faults outside the buses that are present now.
 #[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent switches")]
 struct Switches {
     has_no_pose: bool,
     is_pose_invalid: bool,
@@ -225,7 +226,7 @@ impl<P: Plant> Emulation<P> {
             switches: Switches::default(),
             overbent_moment: OVERBENT * config.limits.base_angle * stiffness,
             sample_period_ns,
-            rounds_per_tick: sample_period_count(sensing.sample_rate / sensing.control_rate),
+            rounds_per_tick: config.rounds_per_tick(),
             now_ns: 0,
             next_supervision_ns: 0,
             next_pose: 0,
@@ -410,6 +411,7 @@ impl<P: Plant> Emulation<P> {
         let step = self.control.step(
             due_ns,
             last_slot,
+            0,
             || now_ns,
             |control, command, tick| {
                 goes_on = observe(control, command, tick, &mut timeline.borrow_mut().plant);
@@ -560,11 +562,4 @@ fn emulated_bus<P: Plant>(
         }));
     }
     emulated
-}
-
-/// Rounds a validated ratio of rates.
-fn sample_period_count(ratio: f64) -> u64 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated ratio")]
-    let count = ratio.round() as u64;
-    count.max(1)
 }

@@ -1,0 +1,54 @@
+//! The command line of the program on the robot.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use super::drive::{self, DriveArguments};
+use super::sensors::{self, SensorsArguments};
+
+/// Drives a whisker array by a compiled machine.
+#[derive(Debug, Parser)]
+#[command(name = "vibrissa-robot", version, about, max_term_width = 100, after_help = EXIT_STATUS)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_STATUS: &str = "Exit status: 0 done; 1 the robot was stopped by a fault; 2 unusable input or device.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Drive the robot by a compiled machine until a signal ends the program
+    Drive(DriveArguments),
+    /// Show the values, rates and errors of all sensors
+    Sensors(SensorsArguments),
+}
+
+/// Runs the program with the arguments of the process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Drive(arguments) => drive::drive(&arguments),
+        Command::Sensors(arguments) => sensors::sensors(&arguments),
+    };
+    match result {
+        Ok(code) => code,
+        Err(error) => {
+            print_error(&error.to_string());
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints a message to standard error, where the journal of the system reads it.
+#[expect(clippy::print_stderr, reason = "the only place that prints messages")]
+pub(super) fn print_error(message: &str) {
+    eprintln!("vibrissa-robot: {message}");
+}
+
+/// Prints a result to standard output.
+#[expect(clippy::print_stdout, reason = "the only place that prints results")]
+pub(super) fn print_result(text: &str) {
+    println!("{text}");
+}

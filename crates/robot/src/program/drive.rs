@@ -1,0 +1,208 @@
+//! `vibrissa-robot drive`
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use clap::Args;
+use vibrissa_mlx90393::{Address, measure_bus_clock};
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
+
+use super::admission::{Measured, admit, measure_tick};
+use super::command_line::print_error;
+use super::real_time::RealTime;
+use super::system_bus::SystemBus;
+use super::system_clock::SystemClock;
+use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
+use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
+use crate::fault::{FaultChange, FaultEvent};
+use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
+
+const EXAMPLE: &str = "Example:\n  vibrissa-robot drive thesis.machine --config /etc/vibrissa/array.yaml";
+
+/// The arguments of `vibrissa-robot drive`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct DriveArguments {
+    /// Compiled machine
+    #[arg(value_name = "MACHINE")]
+    machine: PathBuf,
+    /// Configuration of the robot
+    #[arg(long, value_name = "FILE")]
+    config: PathBuf,
+    /// End after this many seconds
+    #[arg(long = "for", value_name = "SECONDS")]
+    duration: Option<u64>,
+    /// Start without the measurement of the device
+    #[arg(long)]
+    skip_admission: bool,
+}
+
+/// An error of the program.
+pub(super) type Error = Box<dyn std::error::Error>;
+
+/// Time between looks at the threads.
+const LOOK: Duration = Duration::from_millis(20);
+/// Age (ns) of a sign of life up to which the watchdog of the system is fed.
+const ALIVE_NS: u64 = 500_000_000;
+/// Time for stop commands at the end.
+const FAREWELL: Duration = Duration::from_millis(100);
+
+pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
+    let config = read_config(&arguments.config)?;
+    let bytes = read(&arguments.machine, ARTIFACT_LIMIT)?;
+    let artifact = Artifact::from_bytes(&bytes).map_err(|error| format!("{}: {error}", arguments.machine.display()))?;
+    let program = Arc::new(artifact.program);
+    let real_time = RealTime::request(|warning| print_error(&format!("warning: {warning}")));
+    let clock = SystemClock::start();
+    let control = Control::new(&config.rig, Arc::clone(&program))?;
+    if !arguments.skip_admission {
+        let clocks = bus_clocks(&config, clock)?;
+        let measured = Measured { tick: measure_tick(control.clone(), &config.rig), clocks };
+        admit(&program, &config, &measured)?;
+    }
+    let termination = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
+        signal_hook::flag::register(signal, Arc::clone(&termination))?;
+    }
+    let mut buses: Vec<Box<dyn FnOnce() -> SystemBus + Send>> = Vec::new();
+    for bus in &config.buses {
+        let opened = SystemBus::open(&bus.device, clock)?;
+        buses.push(Box::new(move || opened));
+    }
+    let (actuator, poses) = (actuator(&config)?, poses(&config)?);
+    let robot = Robot { config, control, buses, actuator, poses, clock };
+    let threads = robot.start()?;
+    print_error(&format!(
+        "driving by {} with {}",
+        program.name,
+        if real_time.has_priority { "real-time priority" } else { "ordinary priority" }
+    ));
+    watch(threads, clock, &termination, arguments.duration.map(Duration::from_secs))
+}
+
+/// Looks after the threads until the end, feeds the watchdog of the system, and logs faults.
+fn watch(
+    mut threads: Threads,
+    clock: SystemClock,
+    termination: &AtomicBool,
+    duration: Option<Duration>,
+) -> Result<ExitCode, Error> {
+    let _ = sd_notify::notify(&[sd_notify::NotifyState::Ready]);
+    let end_ns = duration.map(|duration| u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX));
+    let mut error = None;
+    loop {
+        std::thread::sleep(LOOK);
+        while let Ok(event) = threads.events.pop() {
+            print_error(&line(&event));
+        }
+        while threads.reports.pop().is_ok() {}
+        for rounds in &mut threads.rounds {
+            while rounds.pop().is_ok() {}
+        }
+        if let Ok(cause) = threads.errors.try_recv() {
+            error = Some(cause);
+            break;
+        }
+        if termination.load(Ordering::Acquire) || end_ns.is_some_and(|end_ns| clock.now_ns() >= end_ns) {
+            break;
+        }
+        if is_alive(&threads, clock.now_ns()) {
+            let _ = sd_notify::notify(&[sd_notify::NotifyState::Watchdog]);
+        }
+    }
+    let has_ended = threads.vitals.has_machine_failed.load(Ordering::Acquire)
+        || threads.vitals.has_panicked.load(Ordering::Acquire);
+    let _ = sd_notify::notify(&[sd_notify::NotifyState::Stopping]);
+    threads.terminate();
+    std::thread::sleep(FAREWELL);
+    threads.end();
+    match error {
+        Some(cause @ ThreadError::Machine(_)) => {
+            print_error(&cause.to_string());
+            Ok(ExitCode::from(1))
+        }
+        Some(cause) => Err(cause.into()),
+        None if has_ended => Ok(ExitCode::from(1)),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// True if every thread has given a sign of life. The watchdog is fed only then.
+fn is_alive(threads: &Threads, now_ns: u64) -> bool {
+    let vitals = &threads.vitals;
+    if !vitals.is_running.load(Ordering::Acquire) {
+        return true;
+    }
+    let is_recent =
+        |last: &std::sync::atomic::AtomicU64| now_ns.saturating_sub(last.load(Ordering::Acquire)) < ALIVE_NS;
+    let buses = vitals.round_ns.iter().take(threads.rounds.len());
+    buses.chain([&vitals.tick_ns, &vitals.supervised_ns]).all(is_recent)
+}
+
+fn line(event: &FaultEvent) -> String {
+    let change = match event.change {
+        FaultChange::Detected => "detected",
+        FaultChange::Reacted => "stopped the robot",
+        FaultChange::Recovered => "is over",
+    };
+    format!(
+        "{:.3} s: fault {} of part {} {change}",
+        event.time_ns as f64 * 1e-9,
+        event.fault.kind.name(),
+        event.fault.part
+    )
+}
+
+pub(super) fn read_config(path: &Path) -> Result<Config, Error> {
+    let bytes = read(path, CONFIG_LIMIT)?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{} is not UTF-8 text", path.display()))?;
+    Ok(Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?)
+}
+
+#[expect(clippy::disallowed_methods, reason = "the size is bounded below")]
+fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
+    use std::io::Read;
+    let cannot = |error: std::io::Error| format!("cannot read {}: {error}", path.display());
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(cannot)?;
+    file.take(limit as u64 + 1).read_to_end(&mut bytes).map_err(cannot)?;
+    if bytes.len() > limit {
+        return Err(format!("{} is larger than {limit} bytes; it is probably another file", path.display()).into());
+    }
+    Ok(bytes)
+}
+
+/// Measures the clock of every bus at its first board.
+fn bus_clocks(config: &Config, clock: SystemClock) -> Result<Vec<vibrissa_mlx90393::BusClock>, Error> {
+    let measure = |bus: &crate::config::BusConfig| {
+        let mut opened = SystemBus::open(&bus.device, clock)?;
+        let board = bus.boards.first().ok_or("a bus has no board")?;
+        let address = Address::new(board.address)?;
+        let measured = measure_bus_clock(&mut opened, address, || clock.now_ns());
+        measured.map_err(|error| Error::from(format!("{}: {error}", bus.device.display())))
+    };
+    config.buses.iter().map(measure).collect()
+}
+
+fn actuator(config: &Config) -> Result<Box<dyn Actuator>, Error> {
+    Ok(match config.actuator {
+        ActuatorConfig::DryRun => Box::new(DryRun),
+        ActuatorConfig::Udp { address, acknowledged } => Box::new(UdpActuator::new(address, acknowledged)?),
+        ActuatorConfig::Mqtt {} => return Err("the actuator `mqtt` is not part of this build".into()),
+    })
+}
+
+fn poses(config: &Config) -> Result<PoseReceiver, Error> {
+    Ok(match config.pose.source {
+        PoseSource::Udp { listen } => {
+            let mut poses = UdpPoses::new(listen, Duration::from_millis(10))?;
+            Box::new(move || poses.receive().map(|packet| packet.pose))
+        }
+        PoseSource::Mqtt {} => return Err("the pose source `mqtt` is not part of this build".into()),
+    })
+}

@@ -1,0 +1,17 @@
+//! The program on the robot: command line, threads, system buses.
+
+mod admission;
+mod command_line;
+mod drive;
+mod real_time;
+mod sensors;
+mod system_bus;
+mod system_clock;
+mod threads;
+
+pub use admission::Refusal;
+pub use command_line::main;
+pub use real_time::RealTime;
+pub use system_bus::{SystemBus, SystemBusError};
+pub use system_clock::SystemClock;
+pub use threads::{PoseReceiver, Robot, ThreadError, Threads};

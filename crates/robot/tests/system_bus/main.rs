@@ -1,0 +1,69 @@
+//! The program of the robot on `/dev/i2c-N`, which a preloaded library answers by emulated sensors.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may open files")]
+
+mod robot;
+mod server;
+
+use std::time::{Duration, Instant};
+
+use robot::{Outside, program};
+use server::Server;
+use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
+
+#[test]
+fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
+    let server = Server::start();
+    let outside = Outside::new("sensors");
+    let output = program(&server, &["sensors", "--for", "2", "--json", "--config", &outside.config]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let last = &lines[lines.len() - 2..];
+    assert_eq!(last.iter().map(|line| line["whisker"].as_str().unwrap()).collect::<Vec<_>>(), ["r0", "l0"]);
+    for line in last {
+        // A loaded machine loses rounds, but no reading is wrong.
+        assert!(line["rate_hz"].as_u64().unwrap() > 100, "{line}");
+        assert_eq!([&line["garbled"], &line["silent"], &line["saturated"]], [0, 0, 0], "{line}");
+        assert!(line["field_microtesla"].as_f64().unwrap().abs() < 100.0, "{line}");
+    }
+}
+
+#[test]
+fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_and_stops_at_the_end() {
+    let server = Server::start();
+    let outside = Outside::new("drive");
+    let mut child = outside.drive(&server);
+    let moving = outside.wait_for(|packet| !packet.is_stop && packet.command.velocity_world.norm() > 0.0);
+    assert!(moving.command.velocity_world.norm() <= 0.2 + 1e-12, "the limit of the configuration");
+    server.inject_at(1, 0x0C, SensorFault::NoAcknowledge { transactions: None });
+    outside.wait_for(|packet| packet.is_stop);
+    server.clear_at(1, 0x0C);
+    outside.wait_for(|packet| !packet.is_stop);
+    server.inject(3, BusFault::STUCK);
+    let before = Instant::now();
+    outside.wait_for(|packet| packet.is_stop);
+    assert!(before.elapsed() < Duration::from_secs(1), "the stop did not wait for the blocked call");
+    server.clear(3);
+    outside.wait_for(|packet| !packet.is_stop);
+    outside.pause_poses(true);
+    outside.wait_for(|packet| packet.is_stop);
+    outside.pause_poses(false);
+    outside.wait_for(|packet| !packet.is_stop);
+    child.terminate();
+    outside.wait_for(|packet| packet.is_stop);
+    let status = child.wait();
+    assert!(status.success(), "{status}");
+}
+
+#[test]
+fn a_device_without_the_bus_is_told_with_the_setting_that_enables_it() {
+    let outside = Outside::new("missing");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa-robot"))
+        .args(["sensors", "--for", "1", "--config", &outside.config])
+        .output()
+        .unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("/dev/i2c-1 cannot be opened") && message.contains("config.txt"), "{message}");
+}

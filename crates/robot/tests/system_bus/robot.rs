@@ -1,0 +1,136 @@
+//! The program under test, and the actuator and localisation around it.
+
+use std::net::{SocketAddr, UdpSocket};
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use vibrissa_robot::link::{CommandPacket, PosePacket};
+use vibrissa_runtime::geometry::{Point2, Pose};
+
+use crate::server::{Server, scratch, shim};
+
+/// The longest wait for a packet. It is only reached when the test fails.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// The program on the emulated buses.
+pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa-robot"));
+    command.args(arguments).env("LD_PRELOAD", shim()).env("VIBRISSA_I2C", &server.socket);
+    command
+}
+
+/// An actuator that acknowledges every command, and a localisation that sends poses.
+pub(crate) struct Outside {
+    pub(crate) config: String,
+    machine: String,
+    actuator: UdpSocket,
+    are_poses_paused: Arc<AtomicBool>,
+    has_ended: Arc<AtomicBool>,
+}
+
+impl Outside {
+    pub(crate) fn new(name: &str) -> Self {
+        let actuator = UdpSocket::bind("127.0.0.1:0").unwrap();
+        actuator.set_read_timeout(Some(PATIENCE)).unwrap();
+        // The program binds this port after it has been released here.
+        let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+        let config = scratch().join(format!("{name}.yaml"));
+        let text = format!(
+            "name: test\n\
+             buses:\n\
+             - {{device: /dev/i2c-1, clock: 1 kHz, boards: [{{whisker: r0, address: 12}}]}}\n\
+             - {{device: /dev/i2c-3, clock: 1 kHz, boards: [{{whisker: l0, address: 12}}]}}\n\
+             limits: {{speed: 0.2 m/s, yaw_rate: 1 rad/s}}\n\
+             timeouts: {{bus: 80 ms, sensor: 80 ms, pose: 120 ms, control: 120 ms, link: 160 ms}}\n\
+             actuator: {{udp: {{address: '{}'}}}}\n\
+             pose: {{udp: {{listen: '{poses}'}}}}\n",
+            actuator.local_addr().unwrap()
+        );
+        std::fs::write(&config, text).unwrap();
+        let machine = scratch().join(format!("{name}.machine"));
+        std::fs::write(&machine, include_bytes!("../../../runtime/fixtures/bang.machine")).unwrap();
+        let outside = Self {
+            config: config.display().to_string(),
+            machine: machine.display().to_string(),
+            actuator,
+            are_poses_paused: Arc::default(),
+            has_ended: Arc::default(),
+        };
+        outside.send_poses(poses);
+        outside
+    }
+
+    pub(crate) fn drive(&self, server: &Server) -> Running {
+        // The emulated bus is slower than a real one, so its clock is not measured.
+        let arguments = ["drive", &self.machine, "--config", &self.config, "--skip-admission"];
+        Running(program(server, &arguments).stderr(Stdio::inherit()).spawn().unwrap())
+    }
+
+    pub(crate) fn pause_poses(&self, is_paused: bool) {
+        self.are_poses_paused.store(is_paused, Ordering::Relaxed);
+    }
+
+    /// Acknowledges commands until one of them is as `wanted`.
+    pub(crate) fn wait_for(&self, wanted: impl Fn(&CommandPacket) -> bool) -> CommandPacket {
+        let before = Instant::now();
+        let mut bytes = [0; 64];
+        loop {
+            let (length, sender) = self.actuator.recv_from(&mut bytes).unwrap();
+            let packet = CommandPacket::from_bytes(&bytes[..length]).unwrap();
+            self.actuator.send_to(&packet.acknowledgement(), sender).unwrap();
+            assert!(!packet.is_stop || packet.command.velocity_world.norm() == 0.0);
+            if wanted(&packet) {
+                return packet;
+            }
+            assert!(before.elapsed() < PATIENCE, "no such command, the last was {packet:?}");
+        }
+    }
+
+    fn send_poses(&self, to: SocketAddr) {
+        let (is_paused, has_ended) = (Arc::clone(&self.are_poses_paused), Arc::clone(&self.has_ended));
+        std::thread::spawn(move || {
+            let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+            let pose = Pose { position: Point2::origin(), heading: 0.0 };
+            for sequence in 1.. {
+                if has_ended.load(Ordering::Relaxed) {
+                    break;
+                }
+                if !is_paused.load(Ordering::Relaxed) {
+                    let _ = socket.send_to(&PosePacket { sequence, pose }.to_bytes(), to);
+                }
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        });
+    }
+}
+
+impl Drop for Outside {
+    fn drop(&mut self) {
+        self.has_ended.store(true, Ordering::Relaxed);
+    }
+}
+
+/// The running program. It ends with the test.
+pub(crate) struct Running(Child);
+
+impl Running {
+    /// Sends SIGTERM.
+    pub(crate) fn terminate(&self) {
+        let status = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status().unwrap();
+        assert!(status.success());
+    }
+
+    pub(crate) fn wait(&mut self) -> std::process::ExitStatus {
+        self.0.wait().unwrap()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It fails for a program that has ended.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
