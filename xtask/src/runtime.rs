@@ -10,7 +10,7 @@ use crate::cargo::{NotStarted, cargo};
 /// The package.
 const PACKAGE: &str = "vibrissa-runtime";
 /// The direct dependencies that it may have. Each must build for small targets and need no system library.
-const ALLOWED: [&str; 7] = ["biquad", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
+const ALLOWED: [&str; 8] = ["biquad", "libm", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
 /// The targets that it must build for: the Raspberry Pi, and pages in a browser.
 const TARGETS: [&str; 2] = ["aarch64-unknown-linux-gnu", "wasm32-unknown-unknown"];
 
