@@ -4,16 +4,15 @@
 //! same run.
 
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::SystemTime;
-use std::{env, fs, io};
+use std::{fs, io};
 
 use thiserror::Error;
 
-use crate::cargo::{NotStarted, cargo};
+use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::setup::{self, Options, SetupError};
 
 /// The bench that all others are measured by.
@@ -68,7 +67,7 @@ pub(crate) fn bench(root: &Path, save: bool) -> Result<(), BenchError> {
         return Err(BenchError::Failed(status));
     }
     let mut times = BTreeMap::new();
-    let results = target(root, env::var_os("CARGO_TARGET_DIR")).join("criterion");
+    let results = target_directory(root).join("criterion");
     if !results.is_dir() {
         return Err(BenchError::NoResults(results));
     }
@@ -83,11 +82,6 @@ pub(crate) fn bench(root: &Path, save: bool) -> Result<(), BenchError> {
     let (table, slower) = compare(&times, &ratios, &baseline);
     println!("\n{table}");
     if slower.is_empty() { Ok(()) } else { Err(BenchError::Slower(slower)) }
-}
-
-/// Where Cargo builds, and criterion writes: a relative directory is one of the checkout, in which both are run.
-fn target(root: &Path, set: Option<OsString>) -> PathBuf {
-    root.join(set.filter(|directory| !directory.is_empty()).unwrap_or_else(|| "target".into()))
 }
 
 /// The baseline that is stored in a file.
@@ -219,15 +213,6 @@ mod tests {
     fn a_baseline_that_is_not_there_is_told_with_what_to_do() {
         let error = stored(Path::new("/nowhere/baseline.csv")).map_err(|error| error.to_string());
         assert!(error.is_err_and(|text| text.contains("/nowhere/") && text.contains("cargo x bench --save")));
-    }
-
-    #[test]
-    fn results_are_where_cargo_builds() {
-        let target = |set: Option<&str>| target(Path::new("/checkout"), set.map(OsString::from));
-        assert_eq!(target(None), Path::new("/checkout/target"));
-        assert_eq!(target(Some("")), Path::new("/checkout/target"));
-        assert_eq!(target(Some("/shared")), Path::new("/shared"));
-        assert_eq!(target(Some("mine")), Path::new("/checkout/mine"));
     }
 
     #[test]

@@ -29,6 +29,7 @@ enum Work {
     Setup,
     Imports,
     Runtime,
+    Aarch64,
     Prose,
     Links,
     Book,
@@ -85,7 +86,7 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 17] = [
+const CHECKS: [Check; 18] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
@@ -107,6 +108,7 @@ const CHECKS: [Check; 17] = [
         &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
     ),
     check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
+    Check { title: "tests of the runtime on aarch64, under an emulator", work: Work::Aarch64 },
     // The tests have built them.
     Check { title: "examples", work: Work::Examples },
     check_in(
@@ -173,6 +175,7 @@ impl Check {
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
             Work::Imports => Ok(imports::check(root)?),
             Work::Runtime => Ok(runtime::check(root)?),
+            Work::Aarch64 => Ok(runtime::test_on_aarch64(root, SAME_CASES)?),
             Work::Prose => {
                 prose::check(root)?;
                 Ok(comments::check(root)?)

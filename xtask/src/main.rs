@@ -9,6 +9,7 @@ mod cargo;
 mod checkout;
 mod checks;
 mod comments;
+mod cross;
 mod demo;
 mod fuzz;
 mod hash;
@@ -23,6 +24,7 @@ mod setup;
 mod sign_of_life;
 mod sources;
 mod stamp;
+mod standard_library;
 mod wheel;
 
 use std::env;

@@ -6,13 +6,15 @@ use std::process::{Command, ExitStatus, Stdio};
 use thiserror::Error;
 
 use crate::cargo::{NotStarted, cargo};
+use crate::cross::{self, Cross, CrossError};
+use crate::standard_library::is_installed;
 
 /// The package.
 const PACKAGE: &str = "vibrissa-runtime";
 /// The direct dependencies that it may have. Each must build for small targets and need no system library.
 const ALLOWED: [&str; 8] = ["biquad", "libm", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
-/// The targets that it must build for: the Raspberry Pi, and pages in a browser.
-const TARGETS: [&str; 2] = ["aarch64-unknown-linux-gnu", "wasm32-unknown-unknown"];
+/// The targets that packages must build for: pages in a browser. The Raspberry Pi has a check of its own.
+const BUILDS: [(&str, &str); 1] = [(PACKAGE, "wasm32-unknown-unknown")];
 
 /// A fault of the crate of the robot.
 #[derive(Debug, Error)]
@@ -22,10 +24,12 @@ pub(crate) enum RuntimeError {
     #[error("cargo {arguments}: it failed ({status}); what it found is above")]
     Failed { arguments: String, status: ExitStatus },
     #[error(transparent)]
+    Cross(#[from] CrossError),
+    #[error(transparent)]
     NotStarted(#[from] NotStarted),
 }
 
-/// Compares the direct dependencies with the list, and checks the crate for every target whose standard library is installed.
+/// Compares the direct dependencies with the list, and checks packages for every target whose library is installed.
 pub(crate) fn check(root: &Path) -> Result<(), RuntimeError> {
     let arguments = ["tree", "--package", PACKAGE, "--edges", "normal", "--depth", "1", "--prefix", "none"];
     let output = run(cargo(root, &arguments).stdout(Stdio::piped()), &arguments)?;
@@ -33,15 +37,36 @@ pub(crate) fn check(root: &Path) -> Result<(), RuntimeError> {
     if !unknown.is_empty() {
         return Err(RuntimeError::Dependencies(unknown));
     }
-    for target in TARGETS {
+    for (package, target) in BUILDS {
         if !is_installed(target) {
-            println!("      left out: the standard library of {target} is not installed (rustup target add {target})");
+            println!(
+                "      left out: {package} for {target}, whose library is not installed (rustup target add {target})"
+            );
             continue;
         }
-        println!("      cargo check for {target}");
-        let arguments = ["check", "--quiet", "--package", PACKAGE, "--target", target];
+        println!("      cargo check of {package} for {target}");
+        let arguments = ["check", "--quiet", "--package", package, "--target", target];
         run(&mut cargo(root, &arguments), &arguments)?;
     }
+    Ok(())
+}
+
+/// Runs the tests of the crate on aarch64, under an emulator. One of them compares commands with those of x86-64, bit by
+/// bit. `environment` is a variable and its value.
+pub(crate) fn test_on_aarch64(root: &Path, environment: (&str, &str)) -> Result<(), RuntimeError> {
+    let cross = match Cross::find(root) {
+        Ok(cross) => cross,
+        Err(error) if error.may_be_left_out() => {
+            println!("      left out: {error}");
+            return Ok(());
+        }
+        Err(error) => return Err(error.into()),
+    };
+    // Rustdoc would need the settings too, and its examples are tested on this machine.
+    let arguments = ["test", "--package", PACKAGE, "--lib", "--tests", "--target", cross::TARGET];
+    println!("      cargo {}", arguments.join(" "));
+    let mut command = cargo(root, &arguments);
+    run(cross.set(&mut command).env(environment.0, environment.1).stdout(Stdio::inherit()), &arguments)?;
     Ok(())
 }
 
@@ -51,16 +76,7 @@ fn not_allowed(tree: &str) -> Vec<String> {
     names.filter(|name| !ALLOWED.contains(name)).map(str::to_owned).collect()
 }
 
-/// True if the compiler finds a standard library for the target.
-fn is_installed(target: &str) -> bool {
-    let arguments = ["--print", "target-libdir", "--target", target];
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = Command::new(rustc).args(arguments).stderr(Stdio::null()).output();
-    let folder = output.ok().map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
-    let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-    entries.into_iter().any(|entry| entry.file_name().to_string_lossy().starts_with("libstd"))
-}
-
+/// Runs Cargo, and gives what it printed if that is piped.
 fn run(command: &mut Command, arguments: &[&str]) -> Result<String, RuntimeError> {
     let output = command.stderr(Stdio::inherit()).output();
     let output = output.map_err(|source| NotStarted { program: "cargo", source })?;
