@@ -26,6 +26,7 @@ Commands:
             --save         make them the baseline
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
             --program FILE use this program of the same commit instead of building it
+  pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
 
@@ -42,6 +43,7 @@ pub(crate) enum Command {
     Book,
     Bench { save: bool },
     Results(Selection),
+    Pi,
     Fuzz(u64),
 }
 
@@ -80,6 +82,7 @@ impl Command {
                 return end("bench", arguments, Self::Bench { save });
             }
             "results" => return parse_results(arguments),
+            "pi" => Self::Pi,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
                 Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)

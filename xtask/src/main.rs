@@ -16,6 +16,7 @@ mod hash;
 mod imports;
 mod json;
 mod links;
+mod pi;
 mod platform;
 mod prose;
 mod results;
@@ -59,6 +60,7 @@ fn main() -> ExitCode {
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Results(selection) => status(results::write(&root, &selection)),
+        Command::Pi => status(pi::pack(&root)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }
