@@ -1,0 +1,152 @@
+//! The state of a store: which machines it has, and which one runs.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::machine_hash::MachineHash;
+use super::text::one_line;
+
+/// Number of machines that are kept beside the good and the tentative one.
+pub const KEPT: usize = 4;
+/// Maximum length of a reason in characters.
+const REASON_LIMIT: usize = 500;
+
+/// The machines of a store.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// The last machine that was marked good.
+    pub good: Option<MachineHash>,
+    /// The machine that was pushed last, until it is marked good or given up.
+    pub tentative: Option<Tentative>,
+    /// The last machine that was given up.
+    pub rejected: Option<Rejection>,
+    /// Up to [`KEPT`] older machines, the latest first.
+    pub previous: Vec<MachineHash>,
+}
+
+/// A machine that has not yet been marked good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tentative {
+    /// The machine.
+    pub hash: MachineHash,
+    /// Number of its starts.
+    pub starts: u32,
+}
+
+/// A machine that was given up.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rejection {
+    /// The machine.
+    pub hash: MachineHash,
+    /// The reason, one line.
+    pub reason: String,
+}
+
+/// The role of a machine that may run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// It was marked good.
+    Good,
+    /// It was pushed and not yet marked good.
+    Tentative,
+}
+
+impl State {
+    /// The machine to run: the tentative one, or else the good one.
+    #[must_use]
+    pub fn current(&self) -> Option<(MachineHash, Role)> {
+        let tentative = self.tentative.map(|tentative| (tentative.hash, Role::Tentative));
+        tentative.or(self.good.map(|hash| (hash, Role::Good)))
+    }
+
+    /// All machines that are kept.
+    pub(super) fn kept(&self) -> impl Iterator<Item = MachineHash> {
+        let current = self.good.into_iter().chain(self.tentative.map(|tentative| tentative.hash));
+        current.chain(self.previous.iter().copied())
+    }
+
+    /// True if no machine has two roles and there are not too many.
+    pub(super) fn is_consistent(&self) -> bool {
+        let mut all: Vec<_> = self.kept().collect();
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        all.len() == count && self.previous.len() <= KEPT
+    }
+
+    /// Makes a new machine tentative, with no start. If it is the good one, the tentative one is withdrawn instead.
+    pub(super) fn receive(&mut self, hash: MachineHash) -> Role {
+        let withdrawn = self.tentative.take().map(|tentative| tentative.hash);
+        self.previous.retain(|previous| *previous != hash);
+        if let Some(withdrawn) = withdrawn.filter(|withdrawn| *withdrawn != hash) {
+            self.retire(withdrawn);
+        }
+        if self.rejected.as_ref().is_some_and(|rejected| rejected.hash == hash) {
+            self.rejected = None;
+        }
+        if self.good == Some(hash) {
+            return Role::Good;
+        }
+        self.tentative = Some(Tentative { hash, starts: 0 });
+        Role::Tentative
+    }
+
+    /// Makes the tentative machine the good one. Returns false if `hash` is neither the tentative nor the good one.
+    pub(super) fn mark_good(&mut self, hash: MachineHash) -> bool {
+        if self.good == Some(hash) {
+            return true;
+        }
+        if self.tentative.is_none_or(|tentative| tentative.hash != hash) {
+            return false;
+        }
+        self.tentative = None;
+        if let Some(old) = self.good.replace(hash) {
+            self.retire(old);
+        }
+        true
+    }
+
+    /// Gives the tentative machine up. Returns false if `hash` is not the tentative one.
+    pub(super) fn reject(&mut self, hash: MachineHash, reason: &str) -> bool {
+        if self.tentative.is_none_or(|tentative| tentative.hash != hash) {
+            return false;
+        }
+        self.tentative = None;
+        self.retire(hash);
+        self.rejected = Some(Rejection { hash, reason: one_line(reason, REASON_LIMIT) });
+        true
+    }
+
+    fn retire(&mut self, hash: MachineHash) {
+        self.previous.insert(0, hash);
+        self.previous.truncate(KEPT);
+    }
+}
+
+/// Lines for a terminal.
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.good {
+            Some(hash) => write!(f, "good:      {hash}")?,
+            None => write!(f, "good:      none")?,
+        }
+        if let Some(Tentative { hash, starts }) = self.tentative {
+            write!(f, "\ntentative: {hash}, starts: {starts}")?;
+        }
+        if let Some(rejected) = &self.rejected {
+            write!(f, "\ngiven up:  {rejected}")?;
+        }
+        self.previous.iter().try_for_each(|hash| write!(f, "\nprevious:  {hash}"))
+    }
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.hash, self.reason)
+    }
+}

@@ -1,0 +1,254 @@
+//! The store.
+
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, Read};
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
+
+use super::answer::Answer;
+use super::disk::{Disk, Folder, Lock, is_temporary, replace};
+use super::keys::{KEY_LIMIT, Keys, KeysError};
+use super::local_disk::{LOCK_FILE, LocalDisk};
+use super::machine_hash::MachineHash;
+use super::signed_machine::SignedMachine;
+use super::state::{Role, State};
+use super::state_file::{self, STATE_FILE, STATE_LIMIT};
+use super::store_error::{ReceiveError, StoreError};
+use super::verified_machine::VerifiedMachine;
+
+/// The usual directory of a store.
+pub const DEFAULT_STORE: &str = "/var/lib/vibrissa";
+/// Endings of the files in the folder `machines`.
+const MACHINE_ENDING: &str = ".machine";
+const SIGNATURE_ENDING: &str = ".machine.minisig";
+/// Ending of the files in the folder `keys`.
+const KEY_ENDING: &str = ".pub";
+/// The starts that a tentative machine has by default.
+const START_LIMIT: NonZeroU32 = NonZeroU32::MIN;
+
+/// A directory with signed machines. Several programs may use it at once.
+#[derive(Debug)]
+pub struct Store {
+    path: PathBuf,
+    disk: Box<dyn Disk>,
+    start_limit: NonZeroU32,
+}
+
+/// A machine of a store that is safe to run.
+#[derive(Debug, Clone)]
+pub struct StoredMachine {
+    /// Its hash.
+    pub hash: MachineHash,
+    /// Its role.
+    pub role: Role,
+    /// The machine.
+    pub artifact: Artifact,
+}
+
+impl Store {
+    /// Opens the store at `path`. Creates missing folders in it, but not the directory itself.
+    ///
+    /// # Errors
+    /// [`StoreError::Open`].
+    pub fn open(path: &Path) -> Result<Self, StoreError> {
+        match LocalDisk::open(path) {
+            Ok(disk) => Ok(Self::on(path, Box::new(disk))),
+            Err(cause) => Err(StoreError::Open { path: path.to_owned(), cause }),
+        }
+    }
+
+    /// A store on another disk. The path is used in messages only.
+    pub(super) fn on(path: &Path, disk: Box<dyn Disk>) -> Self {
+        Self { path: path.to_owned(), disk, start_limit: START_LIMIT }
+    }
+
+    /// Sets the number of starts after which a tentative machine is given up, if it was not marked good. The default is 1.
+    #[must_use]
+    pub fn with_start_limit(self, start_limit: NonZeroU32) -> Self {
+        Self { start_limit, ..self }
+    }
+
+    /// The roles of the machines, and the reason for which the last one was given up.
+    ///
+    /// # Errors
+    /// The state cannot be read.
+    pub fn status(&self) -> Result<State, StoreError> {
+        match self.disk.read(Folder::Root, STATE_FILE, STATE_LIMIT) {
+            Ok(bytes) => state_file::decode(&bytes)
+                .map_err(|cause| StoreError::State { path: self.at(Folder::Root, STATE_FILE), cause }),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => Ok(State::default()),
+            Err(cause) => Err(StoreError::Read { path: self.at(Folder::Root, STATE_FILE), cause }),
+        }
+    }
+
+    /// The machine to run: the tentative one, or else the good one. This function counts no start.
+    ///
+    /// # Errors
+    /// The state cannot be read, there is no machine, or it cannot be used.
+    pub fn current(&self) -> Result<StoredMachine, StoreError> {
+        let state = self.status()?;
+        let (hash, role) = state.current().ok_or(StoreError::NoMachine { rejected: state.rejected })?;
+        self.load(hash, role)
+    }
+
+    /// Receives one push from a stream and verifies it. Then the machine becomes tentative.
+    ///
+    /// If it is the good machine, it stays good, and the tentative one is withdrawn. The function reads up to the end of the
+    /// stream, so the sender must close it.
+    ///
+    /// # Errors
+    /// [`ReceiveError`]. The machine was not taken, except if only the synchronisation at the end failed.
+    pub fn receive(&self, from: impl Read) -> Result<Answer, ReceiveError> {
+        // The lock is taken after the stream was read, because a slow sender must not hold up the control program.
+        let signed = SignedMachine::read_frame(from)?;
+        let verified = self.keys()?.verify(signed)?;
+        Ok(self.take(&verified)?)
+    }
+
+    /// Makes a verified machine tentative.
+    pub(super) fn take(&self, machine: &VerifiedMachine) -> Result<Answer, StoreError> {
+        let _lock = self.lock()?;
+        let mut state = self.status()?;
+        let hash = machine.hash();
+        let signed = machine.signed();
+        self.write(Folder::Machines, &file_name(hash, MACHINE_ENDING), signed.artifact())?;
+        self.write(Folder::Machines, &file_name(hash, SIGNATURE_ENDING), signed.signature().as_bytes())?;
+        self.sync(Folder::Machines)?;
+        let role = state.receive(hash);
+        self.save(&state)?;
+        Ok(Answer { hash, state: role })
+    }
+
+    /// The machine for the run that begins now. A start of the tentative machine is counted and durable before this
+    /// function returns.
+    ///
+    /// A tentative machine that has had its starts, or that cannot be loaded, is given up. Then the good machine is returned.
+    ///
+    /// # Errors
+    /// The state cannot be read or written, there is no machine, or it cannot be used.
+    pub fn begin_run(&self) -> Result<StoredMachine, StoreError> {
+        let _lock = self.lock()?;
+        let mut state = self.status()?;
+        if let Some(tentative) = &mut state.tentative {
+            let hash = tentative.hash;
+            let reason = if tentative.starts >= self.start_limit.get() {
+                format!("it was started ({} of {}) and not marked good", tentative.starts, self.start_limit)
+            } else {
+                match self.load(hash, Role::Tentative) {
+                    Ok(machine) => {
+                        tentative.starts += 1;
+                        self.save(&state)?;
+                        return Ok(machine);
+                    }
+                    Err(cause) => cause.to_string(),
+                }
+            };
+            state.reject(hash, &reason);
+            self.save(&state)?;
+        }
+        let hash = state.good.ok_or(StoreError::NoMachine { rejected: state.rejected })?;
+        self.load(hash, Role::Good)
+    }
+
+    /// Marks the tentative machine good after a run that went well. Marking the good machine again changes nothing.
+    ///
+    /// # Errors
+    /// [`StoreError::NotTentative`] if the machine is neither, or the state cannot be read or written.
+    pub fn mark_good(&self, hash: MachineHash) -> Result<(), StoreError> {
+        self.change(hash, |state| state.mark_good(hash))
+    }
+
+    /// Gives the tentative machine up. The good machine returns. The status shows the reason.
+    ///
+    /// # Errors
+    /// [`StoreError::NotTentative`] if the machine is not tentative, or the state cannot be read or written.
+    pub fn reject(&self, hash: MachineHash, reason: &str) -> Result<(), StoreError> {
+        self.change(hash, |state| state.reject(hash, reason))
+    }
+
+    fn change(&self, hash: MachineHash, change: impl FnOnce(&mut State) -> bool) -> Result<(), StoreError> {
+        let _lock = self.lock()?;
+        let old = self.status()?;
+        let mut new = old.clone();
+        if !change(&mut new) {
+            return Err(StoreError::NotTentative { hash });
+        }
+        if new == old { Ok(()) } else { self.save(&new) }
+    }
+
+    /// The public keys of the store.
+    fn keys(&self) -> Result<Keys, KeysError> {
+        let folder = self.at(Folder::Keys, "");
+        let names = self.disk.names(Folder::Keys);
+        let mut names = names.map_err(|cause| KeysError::Unreadable { path: folder.clone(), cause })?;
+        names.retain(|name| name.ends_with(KEY_ENDING) && !name.starts_with('.'));
+        names.sort_unstable();
+        let files = names.into_iter().map(|name| {
+            let content = self.disk.read(Folder::Keys, &name, KEY_LIMIT);
+            (name.clone(), self.at(Folder::Keys, &name), content)
+        });
+        Keys::decode(files, &folder)
+    }
+
+    /// Reads a machine and verifies it again, because the disk may have damaged it.
+    pub(super) fn load(&self, hash: MachineHash, role: Role) -> Result<StoredMachine, StoreError> {
+        let unusable = |cause: String| StoreError::Unusable { hash, cause };
+        let bytes = self.disk.read(Folder::Machines, &file_name(hash, MACHINE_ENDING), ARTIFACT_LIMIT);
+        let bytes = bytes.map_err(|cause| unusable(cause.to_string()))?;
+        if MachineHash::of(&bytes) != hash {
+            return Err(unusable("its file was changed or damaged".to_owned()));
+        }
+        let artifact = Artifact::from_bytes(&bytes).map_err(|cause| unusable(cause.to_string()))?;
+        Ok(StoredMachine { hash, role, artifact })
+    }
+
+    /// Writes the state, which puts it into force. Then removes files that are no longer needed.
+    fn save(&self, state: &State) -> Result<(), StoreError> {
+        let path = || self.at(Folder::Root, STATE_FILE);
+        let bytes = state_file::encode(state).map_err(|cause| StoreError::State { path: path(), cause })?;
+        self.write(Folder::Root, STATE_FILE, &bytes)?;
+        self.sync(Folder::Root)?;
+        self.prune(state);
+        Ok(())
+    }
+
+    /// Removes the files of machines that the state does not name. Files that cannot be removed now are removed after the
+    /// next change.
+    fn prune(&self, state: &State) {
+        let kept: BTreeSet<_> = state.kept().collect();
+        for name in self.disk.names(Folder::Machines).unwrap_or_default() {
+            let hash = name.strip_suffix(SIGNATURE_ENDING).or(name.strip_suffix(MACHINE_ENDING));
+            let hash = hash.and_then(|hash| hash.parse().ok());
+            if is_temporary(&name) || hash.is_some_and(|hash: MachineHash| !kept.contains(&hash)) {
+                let _ = self.disk.remove(Folder::Machines, &name);
+            }
+        }
+    }
+
+    fn lock(&self) -> Result<Lock, StoreError> {
+        self.disk.lock().map_err(|cause| match cause.kind() {
+            ErrorKind::WouldBlock => StoreError::Busy { path: self.path.clone() },
+            _ => StoreError::Write { path: self.at(Folder::Root, LOCK_FILE), cause },
+        })
+    }
+
+    fn write(&self, folder: Folder, name: &str, content: &[u8]) -> Result<(), StoreError> {
+        replace(&*self.disk, folder, name, content)
+            .map_err(|cause| StoreError::Write { path: self.at(folder, name), cause })
+    }
+
+    fn sync(&self, folder: Folder) -> Result<(), StoreError> {
+        self.disk.sync(folder).map_err(|cause| StoreError::Write { path: self.at(folder, ""), cause })
+    }
+
+    /// The path of a file, for messages.
+    fn at(&self, folder: Folder, name: &str) -> PathBuf {
+        self.path.join(folder.path()).join(name)
+    }
+}
+
+fn file_name(hash: MachineHash, ending: &str) -> String {
+    format!("{hash}{ending}")
+}

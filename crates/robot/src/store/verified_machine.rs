@@ -1,0 +1,102 @@
+//! A machine with a valid signature that is safe to run.
+
+use minisign_verify::{Error as MinisignError, Signature};
+use vibrissa_runtime::machine::{Artifact, ArtifactError};
+
+use super::keys::Keys;
+use super::machine_hash::MachineHash;
+use super::signed_machine::SignedMachine;
+
+/// A machine that was signed with one of some [`Keys`], and whose artifact is safe to run. Only [`Keys::verify`] makes it.
+#[derive(Debug, Clone)]
+pub struct VerifiedMachine {
+    signed: SignedMachine,
+    hash: MachineHash,
+    artifact: Artifact,
+    trusted_comment: String,
+}
+
+/// The reason for which a machine is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// The signature is empty.
+    #[error("the machine is not signed; run `minisign -Sm FILE` and push it again")]
+    Unsigned,
+    /// The signature is not in the format of minisign.
+    #[error("the signature is not one of minisign, or it is damaged; sign the machine again with `minisign -Sm FILE`")]
+    NotASignature,
+    /// The signature was made with another key.
+    #[error(
+        "the machine is signed with a key that is not trusted; sign it with one of these keys: {}, or add the public key of its \
+         signer to the folder `keys` of the store", trusted.join(", ")
+    )]
+    UnknownKey {
+        /// Names of the files of the trusted keys.
+        trusted: Vec<String>,
+    },
+    /// The signature does not fit the machine or its own trusted comment.
+    #[error(
+        "the signature does not fit: the machine, the signature or its trusted comment was changed after signing; \
+         sign the machine again with `minisign -Sm FILE`"
+    )]
+    Changed,
+    /// The signature is in the legacy format.
+    #[error(
+        "the signature is in the legacy format of minisign; sign the machine with `minisign -Sm FILE` without the option -l"
+    )]
+    Legacy,
+    /// The signature is valid, but the content is not a machine that this program can run.
+    #[error(transparent)]
+    Artifact(#[from] ArtifactError),
+}
+
+impl VerifiedMachine {
+    /// Verifies the signature with its trusted comment, and then the artifact.
+    pub(super) fn new(signed: SignedMachine, keys: &Keys) -> Result<Self, Refusal> {
+        let trusted_comment = verify_signature(&signed, keys)?;
+        let artifact = Artifact::from_bytes(signed.artifact())?;
+        Ok(Self { hash: signed.hash(), signed, artifact, trusted_comment })
+    }
+
+    /// The bytes of the artifact and the signature.
+    #[must_use]
+    pub fn signed(&self) -> &SignedMachine {
+        &self.signed
+    }
+
+    /// The hash of the artifact.
+    #[must_use]
+    pub fn hash(&self) -> MachineHash {
+        self.hash
+    }
+
+    /// The artifact, decoded and verified.
+    #[must_use]
+    pub fn artifact(&self) -> &Artifact {
+        &self.artifact
+    }
+
+    /// The comment that the signature covers. By default, minisign writes the time and the name of the file into it.
+    #[must_use]
+    pub fn trusted_comment(&self) -> &str {
+        &self.trusted_comment
+    }
+}
+
+/// Returns the trusted comment.
+fn verify_signature(machine: &SignedMachine, keys: &Keys) -> Result<String, Refusal> {
+    if machine.signature().trim().is_empty() {
+        return Err(Refusal::Unsigned);
+    }
+    let signature = Signature::decode(machine.signature()).map_err(|_| Refusal::NotASignature)?;
+    let mut refusal = None;
+    for key in keys.iter() {
+        match key.verify(machine.artifact(), &signature, false) {
+            Ok(()) => return Ok(signature.trusted_comment().to_owned()),
+            Err(MinisignError::UnexpectedKeyId) => {}
+            Err(MinisignError::UnexpectedAlgorithm) => refusal = Some(Refusal::Legacy),
+            Err(_) => refusal = Some(Refusal::Changed),
+        }
+    }
+    Err(refusal.unwrap_or_else(|| Refusal::UnknownKey { trusted: keys.names() }))
+}
