@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema};
 
 use crate::family::FamilyRun;
 use crate::mujoco::Pruning;
-use crate::results::{Document, RunResult, TickLine, Versioned};
+use crate::results::{Document, DriveResult, RunResult, TickLine, Versioned};
 use crate::study::bench::BenchRow;
 use crate::study::compare::Comparison;
 use crate::study::estimators::EstimatorRow;
@@ -30,6 +30,7 @@ fn schema<D: Document + JsonSchema + 'static>() -> (&'static str, u32, Schema) {
 fn every_json_output_is_as_its_schema_says() {
     let schemas = [
         schema::<RunResult>(),
+        schema::<DriveResult>(),
         schema::<TickLine<'static>>(),
         schema::<BenchRow>(),
         schema::<TimingRow>(),

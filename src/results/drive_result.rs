@@ -37,7 +37,7 @@ pub struct FaultRecord {
 }
 
 impl Document for DriveResult {
-    const FORMAT: &'static str = "vibrissa.drive";
+    const FORMAT: &'static str = "drive";
 }
 
 impl DriveResult {

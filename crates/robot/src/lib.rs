@@ -8,7 +8,7 @@
 //! | control | assembles samples and executes the machine: [`drive::ControlTask`] | 30 Hz |
 //! | supervision | looks for faults, limits and sends commands: [`drive::Supervisor`] | 100 Hz |
 //!
-//! The threads share [`vitals::Vitals`], which are atomic, and rings without locks. None of them allocates memory or waits
+//! The threads share [`vitals::Vitals`], which are atomic, and queues without locks. None of them allocates memory or waits
 //! for another one. So the supervisor stops the robot within 100 ms, whichever part fails.
 //!
 //! Each task is a step function of the time. On a robot, `realtime` threads call it. In the `emulation`, a scheduler
@@ -24,4 +24,6 @@ pub mod histogram;
 pub mod link;
 #[cfg(feature = "program")]
 pub mod program;
+#[cfg(feature = "store")]
+pub mod store;
 pub mod vitals;

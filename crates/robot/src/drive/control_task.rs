@@ -93,7 +93,7 @@ impl ControlTask {
         &self.control
     }
 
-    /// Reports that found no room.
+    /// Reports that were lost because the queue was full.
     #[must_use]
     pub fn lost_reports(&self) -> u64 {
         self.lost_reports

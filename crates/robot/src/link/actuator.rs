@@ -31,7 +31,7 @@ pub enum LinkError {
     /// The socket has refused it.
     #[error("the command cannot be sent: {0}")]
     Io(#[from] std::io::Error),
-    /// The client has no room for it.
+    /// The client accepts no more messages.
     #[error("the command cannot be sent: the MQTT client accepts no message")]
     Full,
 }

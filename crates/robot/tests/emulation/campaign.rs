@@ -120,7 +120,7 @@ fn survives(schedule: &Schedule) -> Result<Vec<(Injection, Stamps)>, TestCaseErr
     Ok(injections.iter().map(|injection| (*injection, stamps(injection, start(injection), &events))).collect())
 }
 
-/// Runs on until a time, and checks every packet on the way.
+/// Runs on until a time, and checks every packet until then.
 fn run_to(
     robot: &mut Emulation<SwayingPlant>,
     events: &mut Vec<FaultEvent>,
