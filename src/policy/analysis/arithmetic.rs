@@ -1,7 +1,5 @@
 //! Interval arithmetic.
 
-use vibrissa_runtime::math;
-
 use super::interval::{Interval, SLACK};
 
 impl Interval {
@@ -118,7 +116,7 @@ impl Interval {
     }
 
     pub(super) fn exponential(self) -> Self {
-        let Self { low, high, .. } = self.rising(math::exp).widened();
+        let Self { low, high, .. } = self.rising(f64::exp).widened();
         Self { low: low.max(0.0), high, nan: self.nan }
     }
 

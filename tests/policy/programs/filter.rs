@@ -1,7 +1,5 @@
 //! What a `lowpass` and a `pid` remember.
 
-use vibrissa_runtime::math;
-
 /// What one of them remembers since its state was entered.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Filter {
@@ -18,7 +16,7 @@ impl Filter {
         let output = match self.computed_at {
             None => input,
             Some(before) => {
-                let share = -math::exp_m1(-std::f64::consts::TAU * cutoff * (now - before));
+                let share = -(-std::f64::consts::TAU * cutoff * (now - before)).exp_m1();
                 self.value + share * (input - self.value)
             }
         };
