@@ -155,7 +155,7 @@ impl<B: Bus + 'static> Robot<B> {
         let supervisor = Supervisor::new(&self.config);
         let actuator = self.actuator;
         handles.push(thread(&common, "supervision", move || {
-            supervise(&own, supervisor, actuator, commands, event_sender)
+            supervise(&own, supervisor, actuator, commands, event_sender);
         })?);
         let (own, receive, latency) = (common.clone(), self.poses, self.config.pose.latency);
         handles.push(thread(&common, "pose", move || receive_poses(&own, receive, latency, pose_sender))?);
