@@ -38,7 +38,7 @@ pub(super) struct DriveArguments {
     /// Configuration of the array, such as deploy/pi/array.yaml. By default, one is made for the scenario's rig
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Faults to inject, as a list in YAML: - {at_ms: 5000, for_ms: 300, kind: stale_sensor, part: 0}
+    /// Faults to inject: a list in YAML with the time, the duration, the kind and the part of each
     #[arg(long, value_name = "FILE")]
     inject: Option<PathBuf>,
     /// Standard deviation of the noise of the emulated sensors in microtesla
