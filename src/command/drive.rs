@@ -35,7 +35,8 @@ pub(super) struct DriveArguments {
     /// `vibrissa-robot` drives the real array
     #[arg(long, value_name = "SCENARIO")]
     emulate: PathBuf,
-    /// Configuration of the array, such as deploy/pi/array.yaml. By default, one is made for the scenario's rig
+    /// Configuration of the array, such as deploy/pi/array.yaml. Its rig replaces that of the scenario. By default, a
+    /// configuration is made for the scenario's rig
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// Faults to inject: a list in YAML with the time, the duration, the kind and the part of each
@@ -60,7 +61,7 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
     let before = Instant::now();
     let mut files = CommandFiles::new();
     let source = load::read(&arguments.emulate, &mut files)?;
-    let Loaded { value: scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
+    let Loaded { value: mut scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
     let policy = load::policy(&arguments.machine, &mut files)?;
     output::warnings(&policy.value);
     let injections = match &arguments.inject {
@@ -73,7 +74,11 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
         injections,
     };
     let config = match &arguments.config {
-        Some(path) => config(path, &mut files)?,
+        Some(path) => {
+            let config = config(path, &mut files)?;
+            scene.rig = config.rig.clone();
+            config
+        }
         None => Config::emulated(scene.rig.clone(), settings.noise_microtesla),
     };
     let report = match &arguments.out {

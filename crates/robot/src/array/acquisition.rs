@@ -8,7 +8,7 @@ use vibrissa_mlx90393::{
 
 use super::bus::{Bus, Port};
 use super::round::{BoardReading, ReadingState, Round};
-use crate::config::{BusConfig, MAX_BOARDS};
+use crate::config::{BoardConfig, MAX_BOARDS};
 
 /// Time (ns) until the bring-up of a lost board is tried again. A bring-up takes about 4 ms of the bus.
 const RETRY_NS: u64 = 100_000_000;
@@ -46,16 +46,16 @@ pub struct StartFault {
 }
 
 impl Acquisition {
-    /// The acquisition of the bus with this index.
+    /// The acquisition of these boards on the bus with this index.
     ///
     /// # Errors
     /// [`InvalidAddress`] if a board has an address that the sensor cannot have.
-    pub fn new(bus: u8, config: &BusConfig, settings: CheckedSettings) -> Result<Self, InvalidAddress> {
+    pub fn new(bus: u8, boards: &[BoardConfig], settings: CheckedSettings) -> Result<Self, InvalidAddress> {
         let board = |address| {
             let sensor = Sensor::new(Address::new(address)?, settings);
             Ok(Board { sensor, is_started: false, failures: 0, stale: 0, retry_ns: 0 })
         };
-        let boards = config.boards.iter().take(MAX_BOARDS).map(|config| board(config.address));
+        let boards = boards.iter().take(MAX_BOARDS).map(|config| board(config.address));
         Ok(Self { bus, boards: boards.collect::<Result<_, _>>()? })
     }
 

@@ -1,5 +1,6 @@
 //! Assembly of the rounds of all buses to samples.
 
+use vibrissa_mlx90393::{Axis, CheckedSettings};
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 use super::magnet::Magnet;
@@ -16,8 +17,8 @@ pub struct Assembler {
     /// For each board on each bus, the index of its whisker.
     whisker: [[Option<usize>; MAX_BOARDS]; MAX_BUSES],
     transducers: [Transducer; MAX_WHISKERS],
-    /// The counts of each sample period. The entry of a period is its number modulo [`SLOTS`].
-    slots: [[Option<i32>; MAX_WHISKERS]; SLOTS],
+    /// The counts of the newest sample periods. The entry of a period is its number modulo [`SLOTS`].
+    slots: [Slot; SLOTS],
     /// The next sample period that becomes a sample.
     next_slot: u64,
     period_ns: u64,
@@ -26,6 +27,14 @@ pub struct Assembler {
     samples: Vec<Sample>,
     /// Readings that came after their sample.
     late: u64,
+}
+
+/// The counts of a sample period.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slot {
+    /// Number of the period. Entries of older periods have no values for it.
+    number: u64,
+    counts: [Option<i32>; MAX_WHISKERS],
 }
 
 /// Conversion of counts to the base angle of a whisker.
@@ -45,9 +54,10 @@ impl Transducer {
 }
 
 impl Assembler {
-    /// The assembler of an array. `delay_ns` is the age of a value when it is read.
+    /// The assembler of an array whose sensors have these settings.
     #[must_use]
-    pub fn new(config: &Config, microtesla_per_count: f64, delay_ns: u64) -> Self {
+    pub fn new(config: &Config, settings: &CheckedSettings) -> Self {
+        let microtesla_per_count = f64::from(settings.field_per_count_microtesla(Axis::Y));
         let none = Transducer {
             magnet: Magnet { field_per_moment: 1.0, cubic: 0.0 },
             microtesla_per_count,
@@ -69,10 +79,10 @@ impl Assembler {
         Self {
             whisker,
             transducers,
-            slots: [[None; MAX_WHISKERS]; SLOTS],
+            slots: [Slot::default(); SLOTS],
             next_slot: 0,
             period_ns: period_ns(config.rig.sensing.sample_rate),
-            delay_ns,
+            delay_ns: u64::from(settings.conversion_time().nominal_us) * 1000,
             samples: Vec::with_capacity(SLOTS),
             late: 0,
         }
@@ -110,7 +120,10 @@ impl Assembler {
             }
         }
         if let Some(slot) = self.slots.get_mut(cell(round.slot)) {
-            for (kept, value) in slot.iter_mut().zip(values) {
+            if slot.number != round.slot {
+                *slot = Slot { number: round.slot, ..Slot::default() };
+            }
+            for (kept, value) in slot.counts.iter_mut().zip(values) {
                 *kept = value.or(*kept);
             }
         }
@@ -124,7 +137,8 @@ impl Assembler {
         // After a long gap, older periods than the ring has are gone.
         self.next_slot = self.next_slot.max((last_slot + 1).saturating_sub(SLOTS as u64));
         while self.next_slot <= last_slot {
-            let counts = self.slots.get_mut(cell(self.next_slot)).map(std::mem::take).unwrap_or_default();
+            let slot = self.slots.get(cell(self.next_slot)).filter(|slot| slot.number == self.next_slot);
+            let counts = slot.map_or([None; MAX_WHISKERS], |slot| slot.counts);
             let read_ns = self.next_slot * self.period_ns;
             let time_ns = read_ns.saturating_sub(self.delay_ns);
             let mut whiskers = [Reading::default(); MAX_WHISKERS];
@@ -158,4 +172,57 @@ pub fn period_ns(rate: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated rate")]
     let period = (1e9 / rate).round() as u64;
     period
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use super::*;
+    use crate::array::{BoardReading, ReadingState};
+    use vibrissa_mlx90393::RawRead;
+    use vibrissa_runtime::rig::Rig;
+
+    fn assembler() -> Assembler {
+        let config = Config::emulated(Rig::default(), 1.5);
+        Assembler::new(&config, &config.settings().unwrap())
+    }
+
+    fn round(bus: u8, slot: u64, state: ReadingState) -> Round {
+        let reading = BoardReading { state, raw: RawRead::from_bytes(&[]) };
+        Round { bus, slot, started_ns: 0, ended_ns: 0, count: 1, readings: [reading; MAX_BOARDS] }
+    }
+
+    #[test]
+    fn the_buses_of_a_period_make_one_sample_and_a_missing_one_makes_nan() {
+        let mut assembler = assembler();
+        assembler.take(&round(0, 0, ReadingState::Fresh(1000)));
+        assembler.take(&round(1, 0, ReadingState::Fresh(-1000)));
+        assembler.take(&round(0, 1, ReadingState::Stale));
+        let samples = assembler.samples(1, &PoseHistory::new(0), 0, 0).to_vec();
+        let angles = |sample: &Sample| [sample.whiskers[0].base_angle, sample.whiskers[1].base_angle];
+        let [right, left] = angles(&samples[0]);
+        // 1000 counts of 0.15 µT under 4.38 µT per µN m, with a hinge of 1 N m/rad.
+        assert!((right - 150e-6 / 4.38).abs() < 1e-9 && (left + right).abs() < 1e-15, "{right} {left}");
+        assert!(angles(&samples[1]).iter().all(|angle| angle.is_nan()));
+    }
+
+    #[test]
+    fn a_value_of_a_skipped_period_never_becomes_a_later_sample() {
+        let mut assembler = assembler();
+        for slot in 0..10 {
+            assembler.take(&round(0, slot, ReadingState::Fresh(1000)));
+        }
+        assembler.skip_to(10);
+        let samples = assembler.samples(SLOTS as u64 + 9, &PoseHistory::new(0), 0, 0);
+        assert!(samples.iter().all(|sample| sample.whiskers[0].base_angle.is_nan()));
+    }
+
+    #[test]
+    fn a_round_after_its_sample_is_late() {
+        let mut assembler = assembler();
+        assembler.samples(5, &PoseHistory::new(0), 0, 0);
+        assembler.take(&round(0, 5, ReadingState::Fresh(1000)));
+        assert_eq!(assembler.late(), 1);
+    }
 }

@@ -2,8 +2,10 @@
 
 mod control_task;
 mod report;
+mod schedule;
 mod supervisor;
 
 pub use control_task::{ControlTask, Inputs, Outputs, Started};
 pub use report::TickReport;
+pub(crate) use schedule::{QUEUE, SUPERVISION_NS, TICK_OFFSET_NS};
 pub use supervisor::Supervisor;

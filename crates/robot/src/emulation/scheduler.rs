@@ -5,35 +5,30 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use embedded_hal::i2c::{ErrorType, I2c, Operation};
 use rtrb::{Consumer, Producer, RingBuffer};
 use vibrissa_mlx90393::InvalidAddress;
-use vibrissa_mlx90393_emulator::{
-    BusFault, EmulatedBus, EmulatedBusError, EmulatedSensor, FieldSource, SensorFault, SensorOptions,
-};
+use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::machine::Tick;
 use vibrissa_runtime::signal::Command;
 
+use super::bus_thread::BusThread;
 use super::injection::{Injection, InjectionKind};
+use super::pending_injection::PendingInjection;
 use super::plant::{Plant, PlantFault};
 use super::timeline::Timeline;
-use crate::array::{Acquisition, Assembler, Bus, Magnet, Round, StampedPose, StartFault, ZeroingFault, period_ns};
+use crate::array::{Assembler, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
-use crate::drive::{ControlTask, Inputs, Outputs, Supervisor, TickReport};
+use crate::drive::{
+    ControlTask, Inputs, Outputs, QUEUE, SUPERVISION_NS, Started, Supervisor, TICK_OFFSET_NS, TickReport,
+};
 use crate::fault::FaultEvent;
 use crate::link::{CommandPacket, StampedCommand};
 use crate::vitals::{Phase, Vitals};
 
-/// Period of the supervisor (ns).
-const SUPERVISION_NS: u64 = 10_000_000;
-/// Start of a control tick after that of its last round (ns), when the round has ended.
-const TICK_OFFSET_NS: u64 = 1_500_000;
 /// Base angle of a whisker that is bent too far, as a ratio to the limit.
 const OVERBENT: f64 = 1.03;
-/// Entries of a ring between two threads, for at least half a second.
-const RING: usize = 256;
 
 /// Properties of the emulated array.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +59,7 @@ pub struct Emulation<P> {
     poses: Producer<StampedPose>,
     commands: Consumer<StampedCommand>,
     reports: Consumer<TickReport>,
-    injections: Vec<Pending>,
+    injections: Vec<PendingInjection>,
     switches: Switches,
     /// Base moment (N m) of a whisker that is bent too far.
     overbent_moment: f64,
@@ -80,31 +75,11 @@ pub struct Emulation<P> {
     events: Vec<FaultEvent>,
 }
 
-/// An acquisition thread.
-struct BusThread<P> {
-    bus: TimedBus<P>,
-    acquisition: Acquisition,
-    rounds: Producer<Round>,
-    whiskers: Vec<usize>,
-    addresses: Vec<u8>,
-    next_slot: u64,
-    /// A round that has not ended yet.
-    pending: Option<Round>,
-}
-
 /// The control thread.
 #[derive(Debug, Default)]
 struct ControlThread {
     next_tick: u64,
     is_gone: bool,
-}
-
-/// An injection and its progress.
-#[derive(Debug, Clone, Copy)]
-struct Pending {
-    injection: Injection,
-    is_injected: bool,
-    is_cleared: bool,
 }
 
 /// Faults outside the buses that are present now.
@@ -115,29 +90,6 @@ struct Switches {
     is_pose_invalid: bool,
     is_actuator_silent: bool,
     does_control_stall: bool,
-}
-
-/// An emulated bus with its own time.
-struct TimedBus<P>(EmulatedBus<ArrayField<P>>);
-
-impl<P> ErrorType for TimedBus<P> {
-    type Error = EmulatedBusError;
-}
-
-impl<P: Plant> I2c for TimedBus<P> {
-    fn transaction(&mut self, address: u8, operations: &mut [Operation<'_>]) -> Result<(), Self::Error> {
-        self.0.transaction(address, operations)
-    }
-}
-
-impl<P: Plant> Bus for TimedBus<P> {
-    fn now_ns(&self) -> u64 {
-        self.0.clock().now_ns()
-    }
-
-    fn pause_ns(&mut self, duration_ns: u64) {
-        self.0.clock().advance_ns(duration_ns);
-    }
 }
 
 /// A robot that cannot be emulated.
@@ -180,37 +132,19 @@ impl<P: Plant> Emulation<P> {
         let timeline = Rc::new(RefCell::new(Timeline::new(plant, sample_period_ns)));
         let vitals = Arc::new(Vitals::default());
         let (mut buses, mut consumers) = (Vec::new(), Vec::new());
-        for (index, bus) in (0_u8..).zip(&config.buses) {
-            let (producer, consumer) = RingBuffer::new(RING);
+        for (index, _) in (0_u8..).zip(&config.buses) {
+            let (rounds, consumer) = RingBuffer::new(QUEUE);
             consumers.push(consumer);
-            let mut thread = BusThread {
-                bus: TimedBus(emulated_bus(config, usize::from(index), &timeline, settings)),
-                acquisition: Acquisition::new(index, bus, checked)?,
-                rounds: producer,
-                whiskers: config.whiskers_on(usize::from(index)),
-                addresses: bus.boards.iter().map(|board| board.address).collect(),
-                next_slot: 0,
-                pending: None,
-            };
-            thread.acquisition.start(&mut thread.bus)?;
-            // The first round begins after the bring-up.
-            thread.next_slot = thread.bus.now_ns() / sample_period_ns + 1;
-            buses.push(thread);
+            buses.push(BusThread::start(config, index, checked, &timeline, settings, rounds)?);
         }
-        let (pose_producer, pose_consumer) = RingBuffer::new(RING);
-        let (command_producer, commands) = RingBuffer::new(RING);
-        let (report_producer, reports) = RingBuffer::new(RING);
+        let (pose_producer, pose_consumer) = RingBuffer::new(QUEUE);
+        let (command_producer, commands) = RingBuffer::new(QUEUE);
+        let (report_producer, reports) = RingBuffer::new(QUEUE);
         let inputs = Inputs { rounds: consumers, poses: pose_consumer };
         let outputs = Outputs { commands: command_producer, reports: report_producer };
-        let conversion_ns = u64::from(checked.conversion_time().nominal_us) * 1000;
-        let microtesla = f64::from(checked.field_per_count_microtesla(vibrissa_mlx90393::Axis::Y));
-        let assembler = Assembler::new(config, microtesla, conversion_ns);
+        let assembler = Assembler::new(config, &checked);
         let stiffness = config.rig.whiskers.first().map_or(1.0, |whisker| whisker.hinge.stiffness);
-        let mut injections: Vec<Pending> = settings
-            .injections
-            .iter()
-            .map(|&injection| Pending { injection, is_injected: false, is_cleared: false })
-            .collect();
+        let mut injections: Vec<_> = settings.injections.iter().copied().map(PendingInjection::new).collect();
         injections.sort_by_key(|pending| pending.injection.at_ms);
         Ok(Self {
             timeline,
@@ -296,8 +230,16 @@ impl<P: Plant> Emulation<P> {
             self.now_ns = self.now_ns.max(time_ns);
             match event {
                 Event::Inject => self.inject(),
-                Event::Acquire(bus) => self.acquire(bus),
-                Event::Deliver(bus) => self.deliver(bus),
+                Event::Acquire(bus) => {
+                    if let Some(thread) = self.buses.get_mut(bus) {
+                        thread.acquire(self.now_ns, self.sample_period_ns, &self.vitals);
+                    }
+                }
+                Event::Deliver(bus) => {
+                    if let Some(thread) = self.buses.get_mut(bus) {
+                        thread.deliver(&self.vitals);
+                    }
+                }
                 Event::Pose => self.pose(),
                 Event::Supervise => self.supervise(),
                 Event::Control => {
@@ -342,27 +284,6 @@ impl<P: Plant> Emulation<P> {
 
     fn tick_due_ns(&self) -> u64 {
         self.control_thread.next_tick * self.rounds_per_tick * self.sample_period_ns + TICK_OFFSET_NS
-    }
-
-    fn acquire(&mut self, bus: usize) {
-        let Some(thread) = self.buses.get_mut(bus) else { return };
-        thread.bus.0.clock().advance_to_ns(self.now_ns);
-        let slot = thread.next_slot;
-        let round = thread.acquisition.round(slot, &mut thread.bus);
-        // A round that takes longer than a period misses the periods that begin meanwhile.
-        let next = (round.ended_ns / self.sample_period_ns + 1).max(slot + 1);
-        self.vitals.miss(Phase::Acquisition, next - slot - 1);
-        thread.next_slot = next;
-        thread.pending = Some(round);
-    }
-
-    fn deliver(&mut self, bus: usize) {
-        let Some(thread) = self.buses.get_mut(bus) else { return };
-        if let Some(round) = thread.pending.take() {
-            self.vitals.round_ended(&round, &thread.whiskers);
-            // A full ring means that control hangs, and its own watch reports that.
-            let _ = thread.rounds.push(round);
-        }
     }
 
     fn pose(&mut self) {
@@ -417,7 +338,7 @@ impl<P: Plant> Emulation<P> {
                 goes_on = observe(control, command, tick, &mut timeline.borrow_mut().plant);
             },
         )?;
-        if step == crate::drive::Started::Running && self.begun_ns.is_none() {
+        if step == Started::Running && self.begun_ns.is_none() {
             self.begun_ns = Some(self.now_ns);
         }
         Ok(goes_on)
@@ -465,7 +386,7 @@ impl<P: Plant> Emulation<P> {
             InjectionKind::StuckBus => {
                 let count = self.buses.len();
                 if let Some(thread) = self.buses.get_mut(usize::from(part) % count.max(1)) {
-                    if begins { thread.bus.0.inject(BusFault::STUCK) } else { thread.bus.0.clear() }
+                    thread.switch_bus_fault(begins, BusFault::STUCK);
                 }
             }
             InjectionKind::NoPose => self.switches.has_no_pose = begins,
@@ -484,25 +405,7 @@ impl<P: Plant> Emulation<P> {
 
     fn sensor_fault(&mut self, whisker: u8, begins: bool, fault: SensorFault) {
         for thread in &mut self.buses {
-            let Some(board) = thread.whiskers.iter().position(|&index| index == usize::from(whisker)) else { continue };
-            let Some(&address) = thread.addresses.get(board) else { continue };
-            let bus = &mut thread.bus.0;
-            let changed = if begins { bus.inject_at(address, fault) } else { bus.clear_at(address) };
-            // Every address of the configuration has a sensor.
-            debug_assert!(changed.is_ok());
-        }
-    }
-}
-
-impl Pending {
-    /// Time (ns) of the next change, if there is one.
-    fn due_ns(&self, begun_ns: u64) -> Option<u64> {
-        let Injection { at_ms, for_ms, .. } = self.injection;
-        let at_ns = begun_ns + at_ms * 1_000_000;
-        match (self.is_injected, self.is_cleared) {
-            (false, _) => Some(at_ns),
-            (true, false) => Some(at_ns + for_ms * 1_000_000),
-            (true, true) => None,
+            thread.switch_sensor_fault(whisker, begins, fault);
         }
     }
 }
@@ -516,50 +419,4 @@ enum Event {
     Pose,
     Supervise,
     Control,
-}
-
-/// The fields at the sensors of a bus: those of the plant's base moments, along Y.
-struct ArrayField<P> {
-    timeline: Rc<RefCell<Timeline<P>>>,
-    /// The whisker of each sensor, and its magnet.
-    magnets: Vec<(usize, Magnet)>,
-}
-
-impl<P: Plant> FieldSource for ArrayField<P> {
-    fn field_microtesla(&mut self, sensor: usize, time_ns: u64) -> [f64; 3] {
-        let Some((whisker, magnet)) = self.magnets.get(sensor) else { return [0.0; 3] };
-        let moments = self.timeline.borrow_mut().at(time_ns).base_moments;
-        [0.0, magnet.field_microtesla(moments.get(*whisker).copied().unwrap_or(0.0)), 0.0]
-    }
-}
-
-/// A bus with the boards of the configuration.
-fn emulated_bus<P: Plant>(
-    config: &Config,
-    bus: usize,
-    timeline: &Rc<RefCell<Timeline<P>>>,
-    settings: &Settings,
-) -> EmulatedBus<ArrayField<P>> {
-    let boards: Vec<_> = config.boards().filter(|board| board.0 == bus).collect();
-    let magnets = boards.iter().filter_map(|&(bus, board, whisker)| {
-        let board = config.buses.get(bus)?.boards.get(board)?;
-        Some((whisker, Magnet { field_per_moment: board.field_per_moment, cubic: board.cubic }))
-    });
-    let magnets = magnets.collect();
-    let mut emulated = EmulatedBus::new(ArrayField { timeline: Rc::clone(timeline), magnets });
-    for (field_index, &(bus, board, whisker)) in boards.iter().enumerate() {
-        let Some(board) = config.buses.get(bus).and_then(|bus| bus.boards.get(board)) else { continue };
-        // Oscillators differ by up to 10 %, and offsets by hundreds of counts.
-        let spread = f64::from(u32::try_from((settings.seed * 7 + whisker as u64 * 3) % 9).unwrap_or(0)) / 4.0 - 1.0;
-        emulated.add(EmulatedSensor::new(SensorOptions {
-            address: board.address,
-            field_index,
-            clock_ratio: 1.0 + 0.1 * spread,
-            noise_microtesla: [settings.noise_microtesla; 3],
-            offset_microtesla: [0.0, 60.0 * spread, 0.0],
-            seed: settings.seed.wrapping_mul(31).wrapping_add(whisker as u64),
-            ..SensorOptions::default()
-        }));
-    }
-    emulated
 }

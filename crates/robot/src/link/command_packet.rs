@@ -3,6 +3,8 @@
 use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::signal::Command;
 
+use super::wire::{Content, joined};
+
 /// A command as it leaves the robot's program.
 ///
 /// | bytes | content, little endian |
@@ -46,8 +48,8 @@ impl CommandPacket {
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::LENGTH] {
         let Command { velocity_world, yaw_rate } = self.command;
-        let parts = [
-            &MAGIC[..],
+        joined(&[
+            &MAGIC,
             &self.sequence.to_le_bytes(),
             &self.time_ns.to_le_bytes(),
             &velocity_world.x.to_le_bytes(),
@@ -55,12 +57,7 @@ impl CommandPacket {
             &yaw_rate.to_le_bytes(),
             &[u8::from(self.is_stop)],
             &Self::VALID_MS.to_le_bytes(),
-        ];
-        let mut bytes = [0; Self::LENGTH];
-        for (byte, value) in bytes.iter_mut().zip(parts.into_iter().flatten()) {
-            *byte = *value;
-        }
-        bytes
+        ])
     }
 
     /// Reads a packet.
@@ -68,12 +65,10 @@ impl CommandPacket {
     /// # Errors
     /// [`PacketError`] if the bytes are no such packet, or if a number in it is not finite.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PacketError> {
-        let rest = bytes.strip_prefix(&MAGIC).filter(|_| bytes.len() == Self::LENGTH).ok_or(PacketError)?;
-        let word = |index: usize| rest.get(8 * index..).and_then(|rest| rest.first_chunk::<8>()).ok_or(PacketError);
-        let number = |index: usize| word(index).map(|word| f64::from_le_bytes(*word));
-        let velocity_world = Vector2::new(number(2)?, number(3)?);
-        let command = Command { velocity_world, yaw_rate: number(4)? };
-        let is_stop = match rest.get(40) {
+        let content = Content::of(bytes, MAGIC, Self::LENGTH)?;
+        let velocity_world = Vector2::new(content.number(2)?, content.number(3)?);
+        let command = Command { velocity_world, yaw_rate: content.number(4)? };
+        let is_stop = match content.byte(40) {
             Some(0) => false,
             Some(1) => true,
             _ => return Err(PacketError),
@@ -81,17 +76,13 @@ impl CommandPacket {
         if !command.is_finite() {
             return Err(PacketError);
         }
-        Ok(Self { sequence: u64::from_le_bytes(*word(0)?), time_ns: u64::from_le_bytes(*word(1)?), command, is_stop })
+        Ok(Self { sequence: content.integer(0)?, time_ns: content.integer(1)?, command, is_stop })
     }
 
     /// The acknowledgement of this packet.
     #[must_use]
     pub fn acknowledgement(&self) -> [u8; 12] {
-        let mut bytes = [0; 12];
-        for (byte, value) in bytes.iter_mut().zip(ACKNOWLEDGEMENT.iter().chain(&self.sequence.to_le_bytes())) {
-            *byte = *value;
-        }
-        bytes
+        joined(&[&ACKNOWLEDGEMENT, &self.sequence.to_le_bytes()])
     }
 
     /// The sequence number of an acknowledgement.
@@ -99,8 +90,7 @@ impl CommandPacket {
     /// # Errors
     /// [`PacketError`] if the bytes are no acknowledgement.
     pub fn acknowledged(bytes: &[u8]) -> Result<u64, PacketError> {
-        let sequence = bytes.strip_prefix(&ACKNOWLEDGEMENT).ok_or(PacketError)?;
-        Ok(u64::from_le_bytes(sequence.try_into().map_err(|_| PacketError)?))
+        Content::of(bytes, ACKNOWLEDGEMENT, 12)?.integer(0)
     }
 }
 

@@ -5,6 +5,7 @@ mod command_packet;
 mod dry_run;
 mod pose_packet;
 mod udp;
+mod wire;
 
 pub use actuator::{Actuator, LinkError, StampedCommand};
 pub use command_packet::{CommandPacket, PacketError};

@@ -3,6 +3,7 @@
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use super::command_packet::PacketError;
+use super::wire::{Content, joined};
 
 /// A pose as the localisation sends it.
 ///
@@ -30,18 +31,13 @@ impl PosePacket {
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::LENGTH] {
         let Pose { position, heading } = self.pose;
-        let parts = [
-            &MAGIC[..],
+        joined(&[
+            &MAGIC,
             &self.sequence.to_le_bytes(),
             &position.x.to_le_bytes(),
             &position.y.to_le_bytes(),
             &heading.to_le_bytes(),
-        ];
-        let mut bytes = [0; Self::LENGTH];
-        for (byte, value) in bytes.iter_mut().zip(parts.into_iter().flatten()) {
-            *byte = *value;
-        }
-        bytes
+        ])
     }
 
     /// Reads a packet. Its numbers may be NaN: a localisation says so that it has no pose.
@@ -49,10 +45,27 @@ impl PosePacket {
     /// # Errors
     /// [`PacketError`] if the bytes are no such packet.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PacketError> {
-        let rest = bytes.strip_prefix(&MAGIC).filter(|_| bytes.len() == Self::LENGTH).ok_or(PacketError)?;
-        let word = |index: usize| rest.get(8 * index..).and_then(|rest| rest.first_chunk::<8>()).ok_or(PacketError);
-        let number = |index: usize| word(index).map(|word| f64::from_le_bytes(*word));
-        let position = Point2::new(number(1)?, number(2)?);
-        Ok(Self { sequence: u64::from_le_bytes(*word(0)?), pose: Pose { position, heading: number(3)? } })
+        let content = Content::of(bytes, MAGIC, Self::LENGTH)?;
+        let position = Point2::new(content.number(1)?, content.number(2)?);
+        Ok(Self { sequence: content.integer(0)?, pose: Pose { position, heading: content.number(3)? } })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_packet_is_read_as_it_was_written(sequence: u64, x in -1e3..1e3, y in -1e3..1e3, heading in -9.0..9.0) {
+            let packet = PosePacket { sequence, pose: Pose { position: Point2::new(x, y), heading } };
+            prop_assert_eq!(PosePacket::from_bytes(&packet.to_bytes()), Ok(packet));
+        }
+
+        #[test]
+        fn other_bytes_are_refused(bytes: Vec<u8>) {
+            prop_assert_eq!(PosePacket::from_bytes(&bytes), Err(PacketError));
+        }
     }
 }

@@ -20,7 +20,9 @@ use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
 use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
 use crate::fault::{FaultChange, FaultEvent};
+use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
+use crate::vitals::{Phase, Vitals};
 
 const EXAMPLE: &str = "Example:\n  vibrissa-robot drive thesis.machine --config /etc/vibrissa/array.yaml";
 
@@ -101,9 +103,6 @@ fn watch(
             print_error(&line(&event));
         }
         while threads.reports.pop().is_ok() {}
-        for rounds in &mut threads.rounds {
-            while rounds.pop().is_ok() {}
-        }
         if let Ok(cause) = threads.errors.try_recv() {
             error = Some(cause);
             break;
@@ -114,6 +113,9 @@ fn watch(
         if is_alive(&threads, clock.now_ns()) {
             let _ = sd_notify::notify(&[sd_notify::NotifyState::Watchdog]);
         }
+    }
+    for line in summary(&threads.vitals, threads.buses) {
+        print_error(&line);
     }
     let has_ended = threads.vitals.has_machine_failed.load(Ordering::Acquire)
         || threads.vitals.has_panicked.load(Ordering::Acquire);
@@ -140,8 +142,31 @@ fn is_alive(threads: &Threads, now_ns: u64) -> bool {
     }
     let is_recent =
         |last: &std::sync::atomic::AtomicU64| now_ns.saturating_sub(last.load(Ordering::Acquire)) < ALIVE_NS;
-    let buses = vitals.round_ns.iter().take(threads.rounds.len());
+    let buses = vitals.round_ns.iter().take(threads.buses);
     buses.chain([&vitals.tick_ns, &vitals.supervised_ns]).all(is_recent)
+}
+
+/// The timing of the run: one line for each histogram, and the missed periods.
+fn summary(vitals: &Vitals, buses: usize) -> Vec<String> {
+    let microseconds = |ns: u64| ns as f64 * 1e-3;
+    let line = |name: String, histogram: &Histogram| {
+        let quantile = |share| histogram.quantile_ns(share).map_or(0.0, microseconds);
+        format!(
+            "{name}: median {:.0} µs, 99 % below {:.0} µs, at most {:.0} µs",
+            quantile(0.5),
+            quantile(0.99),
+            microseconds(histogram.largest_ns())
+        )
+    };
+    let rounds = vitals.round_time.iter().take(buses).enumerate();
+    let mut lines: Vec<String> = rounds.map(|(bus, time)| line(format!("round on bus {bus}"), time)).collect();
+    lines.push(line("tick".to_owned(), &vitals.tick_time));
+    lines.push(line("lateness of ticks".to_owned(), &vitals.tick_lateness));
+    lines.push(line("age of the newest sample".to_owned(), &vitals.sample_age));
+    let missed: Vec<String> =
+        Phase::ALL.iter().map(|&phase| format!("{} {}", phase.name(), vitals.missed(phase))).collect();
+    lines.push(format!("missed periods: {}", missed.join(", ")));
+    lines
 }
 
 fn line(event: &FaultEvent) -> String {

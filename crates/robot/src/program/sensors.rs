@@ -51,7 +51,7 @@ pub(super) fn sensors(arguments: &SensorsArguments) -> Result<ExitCode, Error> {
     let mut buses = Vec::new();
     for (index, bus) in (0_u8..).zip(&config.buses) {
         let mut opened = SystemBus::open(&bus.device, clock)?;
-        let mut acquisition = Acquisition::new(index, bus, settings)?;
+        let mut acquisition = Acquisition::new(index, &bus.boards, settings)?;
         if let Err(error) = acquisition.start(&mut opened) {
             super::command_line::print_error(&format!("warning: {}: {error}", bus.device.display()));
         }

@@ -6,26 +6,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use rtrb::{Consumer, Producer, RingBuffer};
-use vibrissa_mlx90393::Axis;
 use vibrissa_runtime::control::Control;
 
 use super::real_time::{ACQUISITION_PRIORITY, CONTROL_PRIORITY, SUPERVISION_PRIORITY, raise_priority};
 use super::system_clock::SystemClock;
 use crate::array::{Acquisition, Assembler, Bus, Round, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
-use crate::drive::{ControlTask, Inputs, Outputs, Supervisor, TickReport};
+use crate::drive::{ControlTask, Inputs, Outputs, QUEUE, SUPERVISION_NS, Supervisor, TICK_OFFSET_NS, TickReport};
 use crate::fault::FaultEvent;
 use crate::link::{Actuator, StampedCommand};
 use crate::vitals::{Phase, Vitals};
 
-/// Period of the supervisor (ns).
-const SUPERVISION_NS: u64 = 10_000_000;
-/// Start of a control tick after that of its last round (ns).
-const TICK_OFFSET_NS: u64 = 1_500_000;
 /// Time (ns) from the start of the threads to the first round, so that all threads are ready.
 const LEAD_NS: u64 = 20_000_000;
-/// Entries of a ring between two threads: almost a second.
-const RING: usize = 256;
 
 /// A source of poses. It waits for at most some milliseconds.
 pub type PoseReceiver = Box<dyn FnMut() -> Option<vibrissa_runtime::geometry::Pose> + Send>;
@@ -55,8 +48,8 @@ pub struct Threads {
     pub events: Consumer<FaultEvent>,
     /// Reports of control ticks.
     pub reports: Consumer<TickReport>,
-    /// Copies of all rounds, one ring for each bus.
-    pub rounds: Vec<Consumer<Round>>,
+    /// Number of buses.
+    pub buses: usize,
     /// Errors that have ended a thread.
     pub errors: std::sync::mpsc::Receiver<ThreadError>,
     must_end: Arc<AtomicBool>,
@@ -122,28 +115,24 @@ impl<B: Bus + 'static> Robot<B> {
             origin_ns: self.clock.now_ns() + LEAD_NS,
         };
         let mut handles = Vec::new();
-        let (mut inputs, mut copies) = (Vec::new(), Vec::new());
+        let mut inputs = Vec::new();
         for (index, (open, bus)) in (0_u8..).zip(self.buses.into_iter().zip(&self.config.buses)) {
-            let (rounds, consumer) = RingBuffer::new(RING);
-            let (copy, copy_consumer) = RingBuffer::new(RING);
+            let (rounds, consumer) = RingBuffer::new(QUEUE);
             inputs.push(consumer);
-            copies.push(copy_consumer);
-            let acquisition = Acquisition::new(index, bus, checked)?;
+            let acquisition = Acquisition::new(index, &bus.boards, checked)?;
             let whiskers = self.config.whiskers_on(usize::from(index));
             let own = common.clone();
-            let body = move || acquire(&own, open(), acquisition, &whiskers, rounds, copy);
+            let body = move || acquire(&own, open(), acquisition, &whiskers, rounds);
             handles.push(thread(&common, &format!("bus {index}"), body)?);
         }
-        let (pose_sender, poses) = RingBuffer::new(RING);
-        let (command_sender, commands) = RingBuffer::new(RING);
-        let (report_sender, reports) = RingBuffer::new(RING);
-        let (event_sender, events) = RingBuffer::new(RING);
-        let conversion_ns = u64::from(checked.conversion_time().nominal_us) * 1000;
-        let microtesla = f64::from(checked.field_per_count_microtesla(Axis::Y));
+        let (pose_sender, poses) = RingBuffer::new(QUEUE);
+        let (command_sender, commands) = RingBuffer::new(QUEUE);
+        let (report_sender, reports) = RingBuffer::new(QUEUE);
+        let (event_sender, events) = RingBuffer::new(QUEUE);
         let task = ControlTask::new(
             &self.config,
             self.control,
-            Assembler::new(&self.config, microtesla, conversion_ns),
+            Assembler::new(&self.config, &checked),
             Inputs { rounds: inputs, poses },
             Outputs { commands: command_sender, reports: report_sender },
             Arc::clone(&vitals),
@@ -159,7 +148,7 @@ impl<B: Bus + 'static> Robot<B> {
         })?);
         let (own, receive, latency) = (common.clone(), self.poses, self.config.pose.latency);
         handles.push(thread(&common, "pose", move || receive_poses(&own, receive, latency, pose_sender))?);
-        Ok(Threads { vitals, events, reports, rounds: copies, errors, must_end, handles })
+        Ok(Threads { vitals, events, reports, buses: self.config.buses.len(), errors, must_end, handles })
     }
 }
 
@@ -199,7 +188,6 @@ fn acquire<B: Bus>(
     mut acquisition: Acquisition,
     whiskers: &[usize],
     mut rounds: Producer<Round>,
-    mut copies: Producer<Round>,
 ) {
     raise_priority(ACQUISITION_PRIORITY);
     if let Err(error) = acquisition.start(&mut bus) {
@@ -224,7 +212,6 @@ fn acquire<B: Bus>(
         }
         // A full ring means that its reader hangs, which the supervisor sees.
         let _ = rounds.push(round);
-        let _ = copies.push(round);
         slot += 1;
     }
 }
