@@ -121,7 +121,7 @@ pub enum Stopped {
 }
 
 impl<P: Plant> Emulation<P> {
-    /// A robot with this configuration, controlled by `control`, in place of `plant`. All sensors are started.
+    /// A robot with this configuration under `control`. Its body and whiskers are `plant`. All sensors are started.
     ///
     /// # Errors
     /// [`EmulationError`] if the configuration has no valid array.
