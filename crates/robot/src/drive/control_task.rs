@@ -8,6 +8,7 @@ use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Status, Tick};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
+use super::loop_record::{LoopRecord, RecordSender, StepInput};
 use super::report::TickReport;
 use crate::array::{Assembler, PoseHistory, Round, StampedPose, Zeroing, ZeroingFault, period_ns};
 use crate::config::Config;
@@ -23,13 +24,13 @@ pub struct Inputs {
     pub poses: Consumer<StampedPose>,
 }
 
-/// The sending ends of the control task. A full ring loses the newest entry and is counted.
+/// The sending ends of the control task.
 #[derive(Debug)]
 pub struct Outputs {
     /// Commands to the supervisor.
     pub commands: Producer<StampedCommand>,
-    /// Reports to the telemetry.
-    pub reports: Producer<TickReport>,
+    /// Records of the loop.
+    pub records: RecordSender,
 }
 
 /// The control task.
@@ -48,7 +49,6 @@ pub struct ControlTask {
     paused_ns: u64,
     /// The last sample period of the previous tick.
     last_slot: u64,
-    lost_reports: u64,
 }
 
 /// The result of a step.
@@ -83,7 +83,6 @@ impl ControlTask {
             base_angle_limit: config.limits.base_angle,
             paused_ns: 0,
             last_slot: 0,
-            lost_reports: 0,
         }
     }
 
@@ -91,12 +90,6 @@ impl ControlTask {
     #[must_use]
     pub fn control(&self) -> &Control {
         &self.control
-    }
-
-    /// Reports that were lost because the queue was full.
-    #[must_use]
-    pub fn lost_reports(&self) -> u64 {
-        self.lost_reports
     }
 
     /// Executes the step that is due at `due_ns`, with the samples until the sample period `last_slot`. Period 0 begins
@@ -117,6 +110,10 @@ impl ControlTask {
         let started_ns = now();
         self.take_poses();
         self.take_rounds();
+        let is_paused = self.vitals.is_stopped.load(Ordering::Acquire);
+        let lost = self.outputs.records.lost();
+        let input = StepInput { due_ns, started_ns, last_slot, origin_ns, is_paused, lost };
+        self.outputs.records.send(&LoopRecord::Step(input));
         if let Some(zeroing) = &self.zeroing {
             let Some(neutral) = zeroing.finish()? else {
                 self.assembler.skip_to(last_slot + 1);
@@ -131,7 +128,6 @@ impl ControlTask {
             self.paused_ns = last_slot.saturating_sub(1) * self.sample_period_ns;
             self.vitals.is_running.store(true, Ordering::Release);
         }
-        let is_paused = self.vitals.is_stopped.load(Ordering::Acquire);
         if is_paused {
             self.paused_ns += (last_slot - self.last_slot.min(last_slot)) * self.sample_period_ns;
         }
@@ -174,6 +170,7 @@ impl ControlTask {
 
     fn take_poses(&mut self) {
         while let Ok(stamped) = self.inputs.poses.pop() {
+            self.outputs.records.send(&LoopRecord::Pose(stamped));
             self.poses.push(stamped);
         }
     }
@@ -181,6 +178,7 @@ impl ControlTask {
     fn take_rounds(&mut self) {
         for bus in &mut self.inputs.rounds {
             while let Ok(round) = bus.pop() {
+                self.outputs.records.send(&LoopRecord::Round(round));
                 if let Some(zeroing) = &mut self.zeroing {
                     for (whisker, counts) in self.assembler.counts(&round) {
                         if let Some(counts) = counts {
@@ -201,9 +199,7 @@ impl ControlTask {
                 *tip = perception.recorded_tip(bound).filter(|_| !report.is_paused).map(|tip| [tip.x, tip.y]);
             }
         }
-        if self.outputs.reports.push(report).is_err() {
-            self.lost_reports += 1;
-        }
+        self.outputs.records.send(&LoopRecord::Tick(report));
     }
 }
 

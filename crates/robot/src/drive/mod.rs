@@ -1,11 +1,14 @@
 //! The loop: control, supervision and the threads that run them.
 
 mod control_task;
+mod loop_record;
 mod report;
 mod schedule;
 mod supervisor;
 
 pub use control_task::{ControlTask, Inputs, Outputs, Started};
+pub(crate) use loop_record::record_queues;
+pub use loop_record::{LoopRecord, RecordSender, Records, StepInput};
 pub use report::TickReport;
 pub(crate) use schedule::{QUEUE, SUPERVISION_NS, TICK_OFFSET_NS};
 pub use supervisor::Supervisor;

@@ -21,7 +21,8 @@ use super::timeline::Timeline;
 use crate::array::{Assembler, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::{
-    ControlTask, Inputs, Outputs, QUEUE, SUPERVISION_NS, Started, Supervisor, TICK_OFFSET_NS, TickReport,
+    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Started, Supervisor,
+    TICK_OFFSET_NS, record_queues,
 };
 use crate::fault::FaultEvent;
 use crate::link::{CommandPacket, StampedCommand};
@@ -58,7 +59,8 @@ pub struct Emulation<P> {
     vitals: Arc<Vitals>,
     poses: Producer<StampedPose>,
     commands: Consumer<StampedCommand>,
-    reports: Consumer<TickReport>,
+    records: Records,
+    supervision_records: RecordSender,
     injections: Vec<PendingInjection>,
     switches: Switches,
     /// Base moment (N m) of a whisker that is bent too far.
@@ -139,9 +141,9 @@ impl<P: Plant> Emulation<P> {
         }
         let (pose_producer, pose_consumer) = RingBuffer::new(QUEUE);
         let (command_producer, commands) = RingBuffer::new(QUEUE);
-        let (report_producer, reports) = RingBuffer::new(QUEUE);
+        let ([control_records, supervision_records], records) = record_queues();
         let inputs = Inputs { rounds: consumers, poses: pose_consumer };
-        let outputs = Outputs { commands: command_producer, reports: report_producer };
+        let outputs = Outputs { commands: command_producer, records: control_records };
         let assembler = Assembler::new(config, &checked);
         let stiffness = config.rig.whiskers.first().map_or(1.0, |whisker| whisker.hinge.stiffness);
         let mut injections: Vec<_> = settings.injections.iter().copied().map(PendingInjection::new).collect();
@@ -155,7 +157,8 @@ impl<P: Plant> Emulation<P> {
             vitals,
             poses: pose_producer,
             commands,
-            reports,
+            records,
+            supervision_records,
             injections,
             switches: Switches::default(),
             overbent_moment: OVERBENT * config.limits.base_angle * stiffness,
@@ -206,9 +209,9 @@ impl<P: Plant> Emulation<P> {
         self.control.control()
     }
 
-    /// The next report of a control tick.
-    pub fn next_report(&mut self) -> Option<TickReport> {
-        self.reports.pop().ok()
+    /// The next record of the loop. The queue has room for some seconds.
+    pub fn next_record(&mut self) -> Option<LoopRecord> {
+        self.records.next_record()
     }
 
     /// Runs until `until_ns` of emulated time, or until `observe` returns false. `observe` receives the control loop and
@@ -305,11 +308,15 @@ impl<P: Plant> Emulation<P> {
         while let Ok(newer) = self.commands.pop() {
             command = Some(newer);
         }
-        let events = &mut self.events;
+        let (events, records) = (&mut self.events, &mut self.supervision_records);
+        let mut note = |event| {
+            events.push(event);
+            records.send(&LoopRecord::Event(event));
+        };
         let acknowledged_ns = Some(self.acknowledged_ns);
-        let packet =
-            self.supervisor.step(self.now_ns, &self.vitals, command, acknowledged_ns, |event| events.push(event));
-        self.supervisor.sent(&packet, self.now_ns, |event| events.push(event));
+        let packet = self.supervisor.step(self.now_ns, &self.vitals, command, acknowledged_ns, &mut note);
+        self.supervisor.sent(&packet, self.now_ns, &mut note);
+        records.send(&LoopRecord::Packet(packet));
         if !self.switches.is_actuator_silent {
             self.acknowledged_ns = self.now_ns;
             self.timeline.borrow_mut().command = packet.command;

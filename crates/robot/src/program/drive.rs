@@ -19,6 +19,7 @@ use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
 use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
+use crate::drive::LoopRecord;
 use crate::fault::{FaultChange, FaultEvent};
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
@@ -99,10 +100,11 @@ fn watch(
     let mut error = None;
     loop {
         std::thread::sleep(LOOK);
-        while let Ok(event) = threads.events.pop() {
-            print_error(&line(&event));
+        while let Some(record) = threads.records.next_record() {
+            if let LoopRecord::Event(event) = record {
+                print_error(&line(&event));
+            }
         }
-        while threads.reports.pop().is_ok() {}
         if let Ok(cause) = threads.errors.try_recv() {
             error = Some(cause);
             break;

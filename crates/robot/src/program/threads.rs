@@ -12,8 +12,10 @@ use super::real_time::{ACQUISITION_PRIORITY, CONTROL_PRIORITY, SUPERVISION_PRIOR
 use super::system_clock::SystemClock;
 use crate::array::{Acquisition, Assembler, Bus, Round, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
-use crate::drive::{ControlTask, Inputs, Outputs, QUEUE, SUPERVISION_NS, Supervisor, TICK_OFFSET_NS, TickReport};
-use crate::fault::FaultEvent;
+use crate::drive::{
+    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Supervisor, TICK_OFFSET_NS,
+    record_queues,
+};
 use crate::link::{Actuator, StampedCommand};
 use crate::vitals::{Phase, Vitals};
 
@@ -44,10 +46,8 @@ pub struct Robot<B> {
 pub struct Threads {
     /// Signs of life of all threads.
     pub vitals: Arc<Vitals>,
-    /// Changes of faults.
-    pub events: Consumer<FaultEvent>,
-    /// Reports of control ticks.
-    pub reports: Consumer<TickReport>,
+    /// Records of the loop.
+    pub records: Records,
     /// Number of buses.
     pub buses: usize,
     /// Errors that have ended a thread.
@@ -127,14 +127,13 @@ impl<B: Bus + 'static> Robot<B> {
         }
         let (pose_sender, poses) = RingBuffer::new(QUEUE);
         let (command_sender, commands) = RingBuffer::new(QUEUE);
-        let (report_sender, reports) = RingBuffer::new(QUEUE);
-        let (event_sender, events) = RingBuffer::new(QUEUE);
+        let ([control_records, supervision_records], records) = record_queues();
         let task = ControlTask::new(
             &self.config,
             self.control,
             Assembler::new(&self.config, &checked),
             Inputs { rounds: inputs, poses },
-            Outputs { commands: command_sender, reports: report_sender },
+            Outputs { commands: command_sender, records: control_records },
             Arc::clone(&vitals),
         );
         let tick_periods = self.config.rounds_per_tick();
@@ -144,11 +143,11 @@ impl<B: Bus + 'static> Robot<B> {
         let supervisor = Supervisor::new(&self.config);
         let actuator = self.actuator;
         handles.push(thread(&common, "supervision", move || {
-            supervise(&own, supervisor, actuator, commands, event_sender);
+            supervise(&own, supervisor, actuator, commands, supervision_records);
         })?);
         let (own, receive, latency) = (common.clone(), self.poses, self.config.pose.latency);
         handles.push(thread(&common, "pose", move || receive_poses(&own, receive, latency, pose_sender))?);
-        Ok(Threads { vitals, events, reports, buses: self.config.buses.len(), errors, must_end, handles })
+        Ok(Threads { vitals, records, buses: self.config.buses.len(), errors, must_end, handles })
     }
 }
 
@@ -250,7 +249,7 @@ fn supervise(
     mut supervisor: Supervisor,
     mut actuator: Box<dyn Actuator>,
     mut commands: Consumer<StampedCommand>,
-    mut events: Producer<FaultEvent>,
+    mut records: RecordSender,
 ) {
     raise_priority(SUPERVISION_PRIORITY);
     let mut due_ns = common.clock.now_ns();
@@ -267,14 +266,12 @@ fn supervise(
         }
         let now_ns = common.clock.now_ns();
         let acknowledged_ns = actuator.acknowledged_ns(now_ns);
-        // A full ring loses events for the log only.
-        let mut log = |event| {
-            let _ = events.push(event);
-        };
+        let mut log = |event| records.send(&LoopRecord::Event(event));
         let packet = supervisor.step(now_ns, &common.vitals, command, acknowledged_ns, &mut log);
         // The missing acknowledgement tells a command that cannot be sent.
         let _ = actuator.send(&packet);
         supervisor.sent(&packet, common.clock.now_ns(), &mut log);
+        records.send(&LoopRecord::Packet(packet));
         common.vitals.supervised_ns.store(now_ns, Ordering::Release);
         due_ns += SUPERVISION_NS;
         let late_periods = common.clock.now_ns().saturating_sub(due_ns) / SUPERVISION_NS;

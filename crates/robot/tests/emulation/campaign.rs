@@ -134,7 +134,7 @@ fn run_to(
             prop_assert!(packet.command.velocity_world.norm() <= 1.0 + 1e-12 && packet.command.yaw_rate.abs() <= 3.2);
             prop_assert!(!packet.is_stop || packet.command == vibrissa_runtime::signal::Command::STOP);
         }
-        while robot.next_report().is_some() {}
+        while robot.next_record().is_some() {}
     }
     events.extend(robot.take_events());
     Ok(())
