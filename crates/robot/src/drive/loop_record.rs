@@ -74,6 +74,12 @@ impl Records {
     pub fn next_record(&mut self) -> Option<LoopRecord> {
         self.0.iter_mut().find_map(|queue| queue.pop().ok())
     }
+
+    /// True if all senders are gone and all records have been taken.
+    #[must_use]
+    pub fn have_ended(&self) -> bool {
+        self.0.iter().all(|queue| queue.is_abandoned() && queue.is_empty())
+    }
 }
 
 /// Number of records in a queue. At 300 Hz with four buses this is two seconds.

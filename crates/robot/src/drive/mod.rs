@@ -2,6 +2,7 @@
 
 mod control_task;
 mod loop_record;
+mod record_sink;
 mod report;
 mod schedule;
 mod supervisor;
@@ -9,6 +10,7 @@ mod supervisor;
 pub use control_task::{ControlTask, Inputs, Outputs, Started};
 pub(crate) use loop_record::record_queues;
 pub use loop_record::{LoopRecord, RecordSender, Records, StepInput};
+pub use record_sink::RecordSink;
 pub use report::TickReport;
 pub(crate) use schedule::{QUEUE, SUPERVISION_NS, TICK_OFFSET_NS};
 pub use supervisor::Supervisor;

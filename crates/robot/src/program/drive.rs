@@ -14,13 +14,12 @@ use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
 
 use super::admission::{Measured, admit, measure_tick};
 use super::command_line::print_error;
+use super::event_log::EventLog;
 use super::real_time::RealTime;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
 use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
-use crate::drive::LoopRecord;
-use crate::fault::{FaultChange, FaultEvent};
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
 use crate::vitals::{Phase, Vitals};
@@ -78,7 +77,7 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
         buses.push(Box::new(move || opened));
     }
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
-    let robot = Robot { config, control, buses, actuator, poses, clock };
+    let robot = Robot { config, control, buses, actuator, poses, sinks: vec![Box::new(EventLog)], clock };
     let threads = robot.start()?;
     print_error(&format!(
         "driving by {} with {}",
@@ -90,7 +89,7 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
 
 /// Looks after the threads until the end, feeds the watchdog of the system, and logs faults.
 fn watch(
-    mut threads: Threads,
+    threads: Threads,
     clock: SystemClock,
     termination: &AtomicBool,
     duration: Option<Duration>,
@@ -100,11 +99,6 @@ fn watch(
     let mut error = None;
     loop {
         std::thread::sleep(LOOK);
-        while let Some(record) = threads.records.next_record() {
-            if let LoopRecord::Event(event) = record {
-                print_error(&line(&event));
-            }
-        }
         if let Ok(cause) = threads.errors.try_recv() {
             error = Some(cause);
             break;
@@ -169,20 +163,6 @@ fn summary(vitals: &Vitals, buses: usize) -> Vec<String> {
         Phase::ALL.iter().map(|&phase| format!("{} {}", phase.name(), vitals.missed(phase))).collect();
     lines.push(format!("missed periods: {}", missed.join(", ")));
     lines
-}
-
-fn line(event: &FaultEvent) -> String {
-    let change = match event.change {
-        FaultChange::Detected => "detected",
-        FaultChange::Reacted => "stopped the robot",
-        FaultChange::Recovered => "is over",
-    };
-    format!(
-        "{:.3} s: fault {} of part {} {change}",
-        event.time_ns as f64 * 1e-9,
-        event.fault.kind.name(),
-        event.fault.part
-    )
 }
 
 pub(super) fn read_config(path: &Path) -> Result<Config, Error> {

@@ -3,6 +3,7 @@
 mod admission;
 mod command_line;
 mod drive;
+mod event_log;
 mod real_time;
 mod sensors;
 mod system_bus;

@@ -13,14 +13,17 @@ use super::system_clock::SystemClock;
 use crate::array::{Acquisition, Assembler, Bus, Round, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::{
-    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Supervisor, TICK_OFFSET_NS,
-    record_queues,
+    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, RecordSink, Records, SUPERVISION_NS, Supervisor,
+    TICK_OFFSET_NS, record_queues,
 };
 use crate::link::{Actuator, StampedCommand};
 use crate::vitals::{Phase, Vitals};
 
 /// Time (ns) from the start of the threads to the first round, so that all threads are ready.
 const LEAD_NS: u64 = 20_000_000;
+
+/// Time between looks at the queue of records.
+const TELEMETRY_PERIOD: std::time::Duration = std::time::Duration::from_millis(10);
 
 /// A source of poses. It waits for at most some milliseconds.
 pub type PoseReceiver = Box<dyn FnMut() -> Option<vibrissa_runtime::geometry::Pose> + Send>;
@@ -37,6 +40,8 @@ pub struct Robot<B> {
     pub actuator: Box<dyn Actuator>,
     /// The source of poses.
     pub poses: PoseReceiver,
+    /// Receivers of the loop's records.
+    pub sinks: Vec<Box<dyn RecordSink>>,
     /// The clock of all threads.
     pub clock: SystemClock,
 }
@@ -46,8 +51,6 @@ pub struct Robot<B> {
 pub struct Threads {
     /// Signs of life of all threads.
     pub vitals: Arc<Vitals>,
-    /// Records of the loop.
-    pub records: Records,
     /// Number of buses.
     pub buses: usize,
     /// Errors that have ended a thread.
@@ -147,7 +150,9 @@ impl<B: Bus + 'static> Robot<B> {
         })?);
         let (own, receive, latency) = (common.clone(), self.poses, self.config.pose.latency);
         handles.push(thread(&common, "pose", move || receive_poses(&own, receive, latency, pose_sender))?);
-        Ok(Threads { vitals, records, buses: self.config.buses.len(), errors, must_end, handles })
+        let (own, sinks) = (common.clone(), self.sinks);
+        handles.push(thread(&common, "telemetry", move || pass_on(&own, records, sinks))?);
+        Ok(Threads { vitals, buses: self.config.buses.len(), errors, must_end, handles })
     }
 }
 
@@ -290,5 +295,24 @@ fn receive_poses(common: &Common, mut receive: PoseReceiver, latency: f64, mut p
         if common.vitals.pose_arrived(&pose, now_ns) {
             let _ = poses.push(StampedPose { time_ns: now_ns.saturating_sub(latency_ns), pose });
         }
+    }
+}
+
+fn pass_on(common: &Common, mut records: Records, mut sinks: Vec<Box<dyn RecordSink>>) {
+    // It outlives the threads that record, so that their last records are passed on.
+    while !records.have_ended() {
+        std::thread::sleep(TELEMETRY_PERIOD);
+        while let Some(record) = records.next_record() {
+            for sink in &mut sinks {
+                sink.take(&record);
+            }
+        }
+        let now_ns = common.clock.now_ns();
+        for sink in &mut sinks {
+            sink.pause(now_ns, &common.vitals);
+        }
+    }
+    for sink in &mut sinks {
+        sink.finish();
     }
 }
