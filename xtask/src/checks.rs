@@ -228,19 +228,28 @@ fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckE
     if tree.contains("mujoco-rs") { Err(CheckError::CoreNeedsMujoco) } else { Ok(()) }
 }
 
-/// Runs every file of `examples` as a program, on the build of the tests.
+/// The folders with examples, and how Cargo runs one of them.
+const EXAMPLES: [(&str, &[&str]); 2] = [
+    // The build of the tests.
+    ("examples", &["run", "--quiet", "--package", "vibrissa", "--features", FEATURES, "--example"]),
+    ("crates/runtime/examples", &["run", "--quiet", "--package", "vibrissa-runtime", "--example"]),
+];
+
+/// Runs every example as a program.
 fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
-    let entries = fs::read_dir(root.join("examples")).map_err(CheckError::Examples)?;
-    let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
-    let mut paths = paths.map_err(CheckError::Examples)?;
-    paths.sort();
-    for name in paths.iter().filter_map(|path| path.file_stem()?.to_str()) {
-        let arguments = ["run", "--quiet", "--package", "vibrissa", "--features", FEATURES, "--example", name];
-        let rerun = format!("cargo {}", arguments.join(" "));
-        println!("      {rerun}");
-        let status = cargo(root, &arguments).status().map_err(|source| NotStarted { program: "cargo", source })?;
-        if !status.success() {
-            return Err(CheckError::Failed { title, status, rerun });
+    for (folder, command) in EXAMPLES {
+        let entries = fs::read_dir(root.join(folder)).map_err(CheckError::Examples)?;
+        let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
+        let mut paths = paths.map_err(CheckError::Examples)?;
+        paths.sort();
+        for name in paths.iter().filter_map(|path| path.file_stem()?.to_str()) {
+            let arguments = [command, &[name]].concat();
+            let rerun = format!("cargo {}", arguments.join(" "));
+            println!("      {rerun}");
+            let status = cargo(root, &arguments).status().map_err(|source| NotStarted { program: "cargo", source })?;
+            if !status.success() {
+                return Err(CheckError::Failed { title, status, rerun });
+            }
         }
     }
     Ok(())

@@ -44,7 +44,7 @@
 //! ```
 //!
 //! A tick does a bounded amount of work and allocates no memory. [`control::Control::tick`] accepts missing and invalid
-//! samples.
+//! samples. The example `own_robot` is a complete loop.
 //!
 //! # Modules
 //!

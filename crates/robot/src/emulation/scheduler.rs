@@ -209,7 +209,7 @@ impl<P: Plant> Emulation<P> {
         self.control.control()
     }
 
-    /// The next record of the loop. The queue has room for some seconds.
+    /// The next record of the loop. The queue keeps those of some seconds.
     pub fn next_record(&mut self) -> Option<LoopRecord> {
         self.records.next_record()
     }
