@@ -1,5 +1,6 @@
 //! Signs of life that the threads of the loop share without locks.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use vibrissa_runtime::geometry::Pose;
@@ -115,6 +116,16 @@ impl SensorVital {
 }
 
 impl Vitals {
+    /// Executes the work of a thread. If it panics, the supervisor stops the robot, and the result is `None`.
+    pub fn guard<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+        // After a panic, the thread ends, and nobody uses what the work has left behind.
+        let result = catch_unwind(AssertUnwindSafe(work));
+        if result.is_err() {
+            self.has_panicked.store(true, Ordering::Release);
+        }
+        result.ok()
+    }
+
     /// Notes the arrival of a pose. True if it is valid.
     pub fn pose_arrived(&self, pose: &Pose, now_ns: u64) -> bool {
         let is_valid = pose.is_finite();

@@ -92,6 +92,7 @@ struct Switches {
     is_pose_invalid: bool,
     is_actuator_silent: bool,
     does_control_stall: bool,
+    does_control_panic: bool,
 }
 
 /// A robot that cannot be emulated.
@@ -334,21 +335,24 @@ impl<P: Plant> Emulation<P> {
         self.vitals.miss(Phase::Control, missed);
         self.control_thread.next_tick += missed + 1;
         let last_slot = (self.now_ns - TICK_OFFSET_NS.min(self.now_ns)) / self.sample_period_ns;
-        let (now_ns, mut goes_on) = (self.now_ns, true);
-        let timeline = &self.timeline;
-        let step = self.control.step(
-            due_ns,
-            last_slot,
-            0,
-            || now_ns,
-            |control, command, tick| {
-                goes_on = observe(control, command, tick, &mut timeline.borrow_mut().plant);
-            },
-        )?;
-        if step == Started::Running && self.begun_ns.is_none() {
+        let (now_ns, does_panic, mut ticked) = (self.now_ns, self.switches.does_control_panic, None);
+        let now = || {
+            assert!(!does_panic, "an injected fault");
+            now_ns
+        };
+        let control = &mut self.control;
+        let step = || control.step(due_ns, last_slot, 0, now, |_, command, tick| ticked = Some((command, *tick)));
+        let Some(step) = self.vitals.guard(step) else {
+            self.control_thread.is_gone = true;
+            return Ok(true);
+        };
+        if step? == Started::Running && self.begun_ns.is_none() {
             self.begun_ns = Some(self.now_ns);
         }
-        Ok(goes_on)
+        // Outside of the guard, so that a panic of the observer ends the run.
+        let observe =
+            |(command, tick)| observe(self.control.control(), command, &tick, &mut self.timeline.borrow_mut().plant);
+        Ok(ticked.is_none_or(observe))
     }
 
     /// Injects and clears the faults that are due.
@@ -401,10 +405,7 @@ impl<P: Plant> Emulation<P> {
             InjectionKind::SilentActuator => self.switches.is_actuator_silent = begins,
             InjectionKind::NoBroker => self.vitals.is_broker_gone.store(begins, Ordering::Release),
             InjectionKind::ControlStalls => self.switches.does_control_stall = begins,
-            InjectionKind::ControlPanics => {
-                self.control_thread.is_gone = true;
-                self.vitals.has_panicked.store(true, Ordering::Release);
-            }
+            InjectionKind::ControlPanics => self.switches.does_control_panic = true,
             InjectionKind::MachineFails => self.vitals.has_machine_failed.store(true, Ordering::Release),
             InjectionKind::Terminate => self.vitals.is_terminated.store(true, Ordering::Release),
         }

@@ -1,6 +1,5 @@
 //! The threads of the loop.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
@@ -179,9 +178,7 @@ impl Threads {
 fn thread(common: &Common, name: &str, body: impl FnOnce() + Send + 'static) -> Result<JoinHandle<()>, ThreadError> {
     let vitals = Arc::clone(&common.vitals);
     let guarded = move || {
-        if catch_unwind(AssertUnwindSafe(body)).is_err() {
-            vitals.has_panicked.store(true, Ordering::Release);
-        }
+        vitals.guard(body);
     };
     Ok(std::thread::Builder::new().name(name.to_owned()).spawn(guarded)?)
 }

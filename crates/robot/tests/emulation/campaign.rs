@@ -114,8 +114,14 @@ fn survives(schedule: &Schedule) -> Result<Vec<(Injection, Stamps)>, TestCaseErr
         let ends = kind.default_response() == FaultResponse::Stop && kind != FaultKind::AngleLimit;
         prop_assert!(!ends || was_detected(kind), "{kind:?} was not detected: {events:?}");
     }
-    let has_ended =
-        FaultKind::ALL.into_iter().any(|kind| kind.default_response() == FaultResponse::Stop && was_detected(kind));
+    let ending = FaultKind::ALL.into_iter().filter(|kind| kind.default_response() == FaultResponse::Stop);
+    let ending: Vec<_> = ending.filter(|&kind| was_detected(kind)).collect();
+    // In particular, no thread panics by itself.
+    for kind in &ending {
+        let was_injected = injections.iter().any(|injection| injection.kind.expected() == *kind);
+        prop_assert!(was_injected, "{kind:?} was not injected: {events:?}");
+    }
+    let has_ended = !ending.is_empty();
     prop_assert_eq!(is_stop, has_ended, "after all faults: {:?}", events);
     Ok(injections.iter().map(|injection| (*injection, stamps(injection, start(injection), &events))).collect())
 }

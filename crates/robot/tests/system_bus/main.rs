@@ -1,7 +1,9 @@
-//! The program of the robot on `/dev/i2c-N`, which a preloaded library answers by emulated sensors.
+//! The program of the robot on `/dev/i2c-N`, which a preloaded library answers by emulated sensors. Its threads on a bus
+//! that panics.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
+mod panic;
 mod robot;
 mod server;
 

@@ -12,7 +12,7 @@ use vibrissa_runtime::geometry::{Point2, Pose};
 use crate::server::{Server, scratch, shim};
 
 /// The longest wait for a packet. It is only reached when the test fails.
-const PATIENCE: Duration = Duration::from_secs(20);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The program on the emulated buses.
 pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
