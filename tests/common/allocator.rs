@@ -63,3 +63,8 @@ pub fn peak<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let result = work();
     (result, (HELD.get().1 - before).cast_unsigned())
 }
+
+/// Bytes that this thread holds now.
+pub fn held() -> isize {
+    HELD.get().0
+}
