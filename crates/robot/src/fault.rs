@@ -129,3 +129,18 @@ pub enum FaultChange {
     /// The fault is over, and the loop has resumed if it was stopped.
     Recovered,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_explained_and_has_a_remedy_in_the_book() {
+        let page = include_str!("../../../docs/raspberry-pi.md");
+        let (faults, troubleshooting) = page.split_once("## Troubleshooting").unwrap_or_default();
+        for name in FaultKind::ALL.map(FaultKind::name) {
+            assert!(faults.contains(&format!("\n| `{name}`: ")), "{name} has no row in the section Faults");
+            assert!(troubleshooting.contains(&format!("\n| `{name}` ")), "{name} has no row in Troubleshooting");
+        }
+    }
+}

@@ -154,8 +154,14 @@ mod tests {
     #[test]
     fn each_need_that_is_not_met_has_its_own_refusal() {
         let config = Config::emulated(Rig::default(), 1.5);
-        let refusal =
-            |program: &Program, config: &Config, measured: &Measured| admit(program, config, measured).unwrap_err();
+        let refusal = |program: &Program, config: &Config, measured: &Measured| {
+            let refusal = admit(program, config, measured).unwrap_err();
+            let message = refusal.to_string();
+            let words: Vec<_> = message.split(' ').take(3).collect();
+            let page = include_str!("../../../../docs/raspberry-pi.md");
+            assert!(page.contains(&format!("\n| `{}", words.join(" "))), "Troubleshooting lacks: {message}");
+            refusal
+        };
         assert!(matches!(refusal(&bang(), &config, &measured(100_000)), Refusal::Clock { clock_khz: 100, .. }));
         let slow = Measured { tick: 20e-3, ..measured(400_000) };
         assert!(matches!(refusal(&bang(), &config, &slow), Refusal::Tick { .. }));
