@@ -14,6 +14,7 @@ use crate::report::ChartTooLarge;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
+use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::SetError;
 use vibrissa_runtime::rig::UnknownWhisker;
 
@@ -107,6 +108,14 @@ pub(super) enum Failure {
     Injections { path: PathBuf, cause: String },
     #[error("{}: {cause}", scenario.display())]
     Emulated { scenario: PathBuf, cause: EmulatedError },
+    #[error(transparent)]
+    Machine(#[from] SignedMachineError),
+    #[error(transparent)]
+    Key(#[from] KeysError),
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    #[error(transparent)]
+    Push(#[from] PushError),
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

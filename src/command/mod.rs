@@ -22,6 +22,7 @@ mod options;
 mod output;
 mod pareto;
 mod progress;
+mod push;
 mod run;
 #[cfg(test)]
 mod schema;
@@ -79,6 +80,8 @@ enum Command {
     Compile(compile::CompileArguments),
     /// Drive a simulated array by a compiled machine with the robot's own loop, through emulated sensors
     Drive(drive::DriveArguments),
+    /// Send a signed machine to a robot, which verifies it and drives it at its next start
+    Push(push::PushArguments),
     /// Draw the statechart of a policy
     Graph(graph::GraphArguments),
     /// Calibrate the contact estimators of a whisker
@@ -133,6 +136,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Test(arguments) => test::test(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Drive(arguments) => drive::drive(arguments),
+        Command::Push(arguments) => push::push(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Estimators(arguments) => estimators::estimators(arguments),

@@ -18,6 +18,7 @@ use crate::sweep::{Header, SweepLine, SweepSummary};
 
 use super::calibrate::Printed;
 use super::check::Checked;
+use super::push::Pushed;
 use super::test::Tested;
 
 /// A format, its version, and its schema.
@@ -47,6 +48,7 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<Tested>(),
         schema::<Printed<'static>>(),
         schema::<Pruning>(),
+        schema::<Pushed>(),
     ];
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/schema");
     for (format, version, mut schema) in schemas {

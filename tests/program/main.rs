@@ -3,6 +3,8 @@
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 mod command;
+#[cfg(unix)]
+mod deployment;
 #[cfg(feature = "sim")]
 mod disk;
 #[cfg(feature = "lsp")]

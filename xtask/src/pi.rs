@@ -218,5 +218,7 @@ mod tests {
             start.starts_with(&format!("/usr/bin/{PACKAGE} ")) && start.contains("/etc/vibrissa/array.yaml"),
             "{start}"
         );
+        // The default store of the program is in the service's directory of state.
+        assert!(!start.contains("--store") && unit.contains("\nStateDirectory=vibrissa\n"), "{unit}");
     }
 }

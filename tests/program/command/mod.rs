@@ -16,7 +16,7 @@ mod library;
 mod names;
 pub(crate) mod program;
 mod run;
-mod schema;
+pub(crate) mod schema;
 mod stress;
 #[cfg(feature = "sim")]
 mod sweep;

@@ -21,7 +21,7 @@ fn check_itself(format: &str, document: &Value) {
 }
 
 /// Checks that a document is as its schema says, and that it is not without any one of its keys.
-fn check(format: &str, document: &Value) {
+pub(crate) fn check(format: &str, document: &Value) {
     check_itself(format, document);
     let validator = validator(format);
     for key in document.as_object().unwrap().keys() {

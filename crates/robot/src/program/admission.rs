@@ -73,6 +73,13 @@ pub enum Refusal {
     },
 }
 
+impl Refusal {
+    /// True if another machine may be admitted on the same device.
+    pub(super) fn concerns_machine(&self) -> bool {
+        matches!(self, Self::Whisker(_) | Self::Tick { .. })
+    }
+}
+
 /// The longest tick (s) of a machine on this device, with samples of a whisker that sways.
 pub(super) fn measure_tick(mut control: Control, rig: &Rig) -> f64 {
     let sample_period = rig.sensing.sample_rate.recip();

@@ -5,7 +5,11 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use super::drive::{self, DriveArguments};
+use super::receive::{self, ReceiveArguments};
 use super::sensors::{self, SensorsArguments};
+use super::status::{self, StatusArguments};
+use super::verdict::{self, GoodArguments, RejectArguments};
+use crate::store::StoreError;
 
 /// Drives a whisker array by a compiled machine.
 #[derive(Debug, Parser)]
@@ -15,7 +19,8 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_STATUS: &str = "Exit status: 0 done; 1 the robot was stopped by a fault; 2 unusable input or device.";
+const EXIT_STATUS: &str = "Exit status: 0 done; 1 the robot was stopped by a fault; 2 unusable input or device; \
+                           3 the store has no machine.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -23,6 +28,14 @@ enum Command {
     Drive(DriveArguments),
     /// Show the values, rates and errors of all sensors
     Sensors(SensorsArguments),
+    /// Receive a signed machine on standard input and verify it. It is tentative until a run marks it good
+    Receive(ReceiveArguments),
+    /// Show the machines of the store
+    Status(StatusArguments),
+    /// Mark the tentative machine good
+    Good(GoodArguments),
+    /// Give the tentative machine up. The last good one returns
+    Reject(RejectArguments),
 }
 
 /// Runs the program with the arguments of the process.
@@ -31,12 +44,19 @@ pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Drive(arguments) => drive::drive(&arguments),
         Command::Sensors(arguments) => sensors::sensors(&arguments),
+        Command::Receive(arguments) => receive::receive(&arguments),
+        Command::Status(arguments) => status::status(&arguments),
+        Command::Good(arguments) => verdict::good(&arguments),
+        Command::Reject(arguments) => verdict::reject(&arguments),
     };
     match result {
         Ok(code) => code,
         Err(error) => {
             print_error(&error.to_string());
-            ExitCode::from(2)
+            match error.downcast_ref() {
+                Some(StoreError::NoMachine { .. }) => ExitCode::from(3),
+                _ => ExitCode::from(2),
+            }
         }
     }
 }

@@ -15,24 +15,30 @@ use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
 use super::admission::{Measured, admit, measure_tick};
 use super::command_line::print_error;
 use super::event_log::EventLog;
+use super::machine_run::MachineRun;
 use super::real_time::RealTime;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
 use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
+use crate::drive::RecordSink;
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
+use crate::store::DEFAULT_STORE;
 use crate::vitals::{Phase, Vitals};
 
-const EXAMPLE: &str = "Example:\n  vibrissa-robot drive thesis.machine --config /etc/vibrissa/array.yaml";
+const EXAMPLE: &str = "Examples:\n  vibrissa-robot drive --config /etc/vibrissa/array.yaml\n  \
+                       vibrissa-robot drive thesis.machine --config /etc/vibrissa/array.yaml";
+/// The default time without a stop after which a tentative machine is good.
+const GOOD_AFTER_S: u32 = 60;
 
 /// The arguments of `vibrissa-robot drive`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct DriveArguments {
-    /// Compiled machine
+    /// Compiled machine. By default, the tentative or good machine of the store
     #[arg(value_name = "MACHINE")]
-    machine: PathBuf,
+    machine: Option<PathBuf>,
     /// Configuration of the robot
     #[arg(long, value_name = "FILE")]
     config: PathBuf,
@@ -42,6 +48,13 @@ pub(super) struct DriveArguments {
     /// Start without the measurement of the device
     #[arg(long)]
     skip_admission: bool,
+    /// Directory of the store
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_STORE, conflicts_with = "machine")]
+    store: PathBuf,
+    /// Mark a tentative machine good after this many seconds without a stop
+    #[arg(long, value_name = "SECONDS", default_value_t = GOOD_AFTER_S, conflicts_with = "machine",
+        value_parser = clap::value_parser!(u32).range(1..))]
+    good_after: u32,
 }
 
 /// An error of the program.
@@ -56,16 +69,33 @@ const FAREWELL: Duration = Duration::from_millis(100);
 
 pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
     let config = read_config(&arguments.config)?;
-    let bytes = read(&arguments.machine, ARTIFACT_LIMIT)?;
-    let artifact = Artifact::from_bytes(&bytes).map_err(|error| format!("{}: {error}", arguments.machine.display()))?;
+    let (artifact, mut run) = match &arguments.machine {
+        Some(path) => (read_machine(path)?, MachineRun::of_file()),
+        None => MachineRun::of_store(&arguments.store)?,
+    };
+    let result = drive_by(artifact, &mut run, config, arguments);
+    run.end();
+    result
+}
+
+fn drive_by(
+    artifact: Artifact,
+    run: &mut MachineRun,
+    config: Config,
+    arguments: &DriveArguments,
+) -> Result<ExitCode, Error> {
     let program = Arc::new(artifact.program);
     let real_time = RealTime::request(|warning| print_error(&format!("warning: {warning}")));
     let clock = SystemClock::start();
-    let control = Control::new(&config.rig, Arc::clone(&program))?;
+    let control = Control::new(&config.rig, Arc::clone(&program)).inspect_err(|error| run.note_failure(error))?;
     if !arguments.skip_admission {
         let clocks = bus_clocks(&config, clock)?;
         let measured = Measured { tick: measure_tick(control.clone(), &config.rig), clocks };
-        admit(&program, &config, &measured)?;
+        admit(&program, &config, &measured).inspect_err(|refusal| {
+            if refusal.concerns_machine() {
+                run.note_failure(refusal);
+            }
+        })?;
     }
     let termination = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
@@ -77,14 +107,16 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
         buses.push(Box::new(move || opened));
     }
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
-    let robot = Robot { config, control, buses, actuator, poses, sinks: vec![Box::new(EventLog)], clock };
+    let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog)];
+    sinks.extend(run.good_after(ticks(arguments.good_after, config.rig.sensing.control_rate)));
+    let robot = Robot { config, control, buses, actuator, poses, sinks, clock };
     let threads = robot.start()?;
     print_error(&format!(
         "driving by {} with {}",
         program.name,
         if real_time.has_priority { "real-time priority" } else { "ordinary priority" }
     ));
-    watch(threads, clock, &termination, arguments.duration.map(Duration::from_secs))
+    watch(threads, clock, &termination, arguments.duration.map(Duration::from_secs), run)
 }
 
 /// Looks after the threads until the end, feeds the watchdog of the system, and logs faults.
@@ -93,6 +125,7 @@ fn watch(
     clock: SystemClock,
     termination: &AtomicBool,
     duration: Option<Duration>,
+    run: &mut MachineRun,
 ) -> Result<ExitCode, Error> {
     let _ = sd_notify::notify(&[sd_notify::NotifyState::Ready]);
     let end_ns = duration.map(|duration| u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX));
@@ -115,6 +148,12 @@ fn watch(
     }
     let has_ended = threads.vitals.has_machine_failed.load(Ordering::Acquire)
         || threads.vitals.has_panicked.load(Ordering::Acquire);
+    match &error {
+        Some(cause @ ThreadError::Machine(_)) => run.note_failure(cause),
+        _ if has_ended => run.note_failure("the program has failed during its run"),
+        _ if threads.vitals.is_running.load(Ordering::Acquire) => run.note_executed(),
+        _ => {}
+    }
     let _ = sd_notify::notify(&[sd_notify::NotifyState::Stopping]);
     threads.terminate();
     std::thread::sleep(FAREWELL);
@@ -169,6 +208,18 @@ pub(super) fn read_config(path: &Path) -> Result<Config, Error> {
     let bytes = read(path, CONFIG_LIMIT)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{} is not UTF-8 text", path.display()))?;
     Ok(Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?)
+}
+
+fn read_machine(path: &Path) -> Result<Artifact, Error> {
+    let bytes = read(path, ARTIFACT_LIMIT)?;
+    Ok(Artifact::from_bytes(&bytes).map_err(|error| format!("{}: {error}", path.display()))?)
+}
+
+/// Number of control ticks in a time (s).
+fn ticks(seconds: u32, control_rate: f64) -> u64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    let ticks = (f64::from(seconds) * control_rate).ceil() as u64;
+    ticks
 }
 
 #[expect(clippy::disallowed_methods, reason = "the size is bounded below")]

@@ -4,11 +4,16 @@ mod admission;
 mod command_line;
 mod drive;
 mod event_log;
+mod machine_run;
 mod real_time;
+mod receive;
 mod sensors;
+mod status;
+mod store_options;
 mod system_bus;
 mod system_clock;
 mod threads;
+mod verdict;
 
 pub use admission::Refusal;
 pub use command_line::main;

@@ -11,8 +11,6 @@ pub(super) enum Folder {
     Root,
     /// The folder `machines`.
     Machines,
-    /// The folder `keys`.
-    Keys,
 }
 
 impl Folder {
@@ -21,7 +19,6 @@ impl Folder {
         match self {
             Self::Root => "",
             Self::Machines => "machines",
-            Self::Keys => "keys",
         }
     }
 }

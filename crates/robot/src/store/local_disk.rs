@@ -27,38 +27,34 @@ const FILE_MODE: Mode = Mode::from_raw_mode(0o644);
 pub(super) struct LocalDisk {
     root: OwnedFd,
     machines: OwnedFd,
-    keys: OwnedFd,
 }
 
 impl LocalDisk {
-    /// Opens the store at `root`. Creates missing folders in it, but not the store itself.
+    /// Opens the store at `root`. Creates the folder `machines` in it if it is missing, but not the store itself.
     pub(super) fn open(root: &Path) -> Result<Self> {
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
         let root = openat(CWD, root, flags, Mode::empty())?;
-        let inside = |folder: Folder| {
-            let open = || openat(&root, folder.path(), flags | OFlags::NOFOLLOW, Mode::empty());
-            match open() {
-                Err(Errno::NOENT) => {
-                    // Another program may create it at the same time.
-                    match mkdirat(&root, folder.path(), FOLDER_MODE) {
-                        Err(Errno::EXIST) => {}
-                        made => made?,
-                    }
-                    Ok(open()?)
+        let name = Folder::Machines.path();
+        let open = || openat(&root, name, flags | OFlags::NOFOLLOW, Mode::empty());
+        let machines = match open() {
+            Err(Errno::NOENT) => {
+                // Another program may create it at the same time.
+                match mkdirat(&root, name, FOLDER_MODE) {
+                    Err(Errno::EXIST) => {}
+                    made => made?,
                 }
-                Err(Errno::NOTDIR | Errno::LOOP) => Err(not_regular(folder.path(), "directory")),
-                opened => Ok(opened?),
+                open()?
             }
+            Err(Errno::NOTDIR | Errno::LOOP) => return Err(not_regular(name, "directory")),
+            opened => opened?,
         };
-        let (machines, keys) = (inside(Folder::Machines)?, inside(Folder::Keys)?);
-        Ok(Self { root, machines, keys })
+        Ok(Self { root, machines })
     }
 
     fn folder(&self, folder: Folder) -> &OwnedFd {
         match folder {
             Folder::Root => &self.root,
             Folder::Machines => &self.machines,
-            Folder::Keys => &self.keys,
         }
     }
 

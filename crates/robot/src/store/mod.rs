@@ -4,13 +4,13 @@
 //!
 //! | path | content |
 //! |---|---|
-//! | `keys/*.pub` | public keys of minisign; a machine needs a signature by one of them |
 //! | `machines/HASH.machine` | an artifact; HASH is its SHA-256 |
 //! | `machines/HASH.machine.minisig` | its signature |
 //! | `state.json` | the [`State`]: the good machine, the tentative one, and the last one that was given up |
 //! | `lock` | an empty file, locked while a program changes the store |
 //!
-//! Other files stay untouched. A user who can write the folder `keys` decides which machines run.
+//! Other files stay untouched. The public keys that a robot trusts are outside of the store, normally in [`DEFAULT_KEYS`].
+//! A user who can write there or in the store decides which machines run.
 //!
 //! # From the developer to the robot
 //!
@@ -18,7 +18,8 @@
 //! 2. [`push`] sends the [`SignedMachine`] to a command on the robot, normally through ssh.
 //! 3. That command calls [`Store::receive`]. It verifies the signature and the machine. Then the machine is tentative.
 //! 4. The control program calls [`Store::begin_run`] before each run. It runs the tentative machine, or else the good one.
-//! 5. After a run that went well, the control program calls [`Store::mark_good`].
+//! 5. Once the run goes well, the control program calls [`Store::mark_good`]. If the machine fails, it calls
+//!    [`Store::reject`]. If the machine was not executed, it calls [`Store::undo_start`].
 //!
 //! A tentative machine that was started and not marked good is given up at the next start. The last good machine returns.
 //!
@@ -49,7 +50,7 @@ mod verified_machine;
 
 pub use answer::Answer;
 pub use frame::{FrameError, SIGNATURE_LIMIT};
-pub use keys::{Keys, KeysError};
+pub use keys::{DEFAULT_KEYS, Keys, KeysError};
 pub use machine_hash::{MachineHash, ParseHashError};
 pub use push::{PushCommand, PushError, push};
 pub use signed_machine::{SignedMachine, SignedMachineError};

@@ -1,6 +1,6 @@
 //! Sending a machine to a robot.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io;
 use std::process::Command;
 use std::time::Duration;
@@ -44,8 +44,8 @@ pub enum PushError {
     },
     /// The program did not end in time.
     #[error(
-        "the robot has not answered within {} s; it may have taken the machine or not; check the connection, and push the \
-         machine again", timeout.as_secs_f64()
+        "the robot has not answered within {} s, so it may have taken the machine or not; check the connection, and push the \
+         machine again, which is safe", timeout.as_secs_f64()
     )]
     Timeout {
         /// The time that the program had.
@@ -53,8 +53,8 @@ pub enum PushError {
     },
     /// There is no connection, or it broke.
     #[error(
-        "the connection to the robot failed ({text}); the robot may have taken the machine or not; check that \
-         `ssh HOST` works, and push the machine again"
+        "the connection to the robot failed ({text}); if it broke during the push, the robot has the machine or not; check \
+         that `ssh HOST` works, and push the machine again, which is safe"
     )]
     Connection {
         /// The text of the program.
@@ -91,12 +91,21 @@ pub enum PushError {
 }
 
 impl PushCommand {
-    /// Runs `vibrissa-robot receive` on `host` through ssh. The host is a name of ssh, such as `pi@robot`.
+    /// Runs `vibrissa-robot receive` on `host` through ssh. The host is a name of ssh, such as `vibrissa@robot`.
     #[must_use]
     pub fn ssh(host: &str) -> Self {
         // No host is taken for an option after `--`.
-        let arguments = ["-T", "-o", "ConnectTimeout=10", "--", host, "vibrissa-robot", "receive"];
-        Self { program: "ssh".into(), arguments: arguments.map(OsString::from).to_vec(), timeout: TIMEOUT }
+        Self::new("ssh", &["-T", "-o", "ConnectTimeout=10", "--", host, "vibrissa-robot", "receive"])
+    }
+
+    /// Runs another program in place of ssh. Its arguments are the host and the command for the robot.
+    #[must_use]
+    pub fn via(program: &OsStr, host: &str) -> Self {
+        Self::new(program, &[host, "vibrissa-robot", "receive"])
+    }
+
+    fn new(program: impl Into<OsString>, arguments: &[&str]) -> Self {
+        Self { program: program.into(), arguments: arguments.iter().map(Into::into).collect(), timeout: TIMEOUT }
     }
 }
 

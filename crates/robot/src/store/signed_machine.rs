@@ -63,20 +63,29 @@ impl SignedMachine {
     /// # Errors
     /// One of the files is missing, not regular or too large.
     pub fn from_file(path: &Path) -> Result<Self, SignedMachineError> {
+        let mut signature = path.as_os_str().to_owned();
+        signature.push(ENDING);
+        Self::from_files(path, Path::new(&signature))
+    }
+
+    /// Reads the machine at `path`, and its signature from the file `signature`.
+    ///
+    /// # Errors
+    /// One of the files is missing, not regular or too large.
+    pub fn from_files(path: &Path, signature: &Path) -> Result<Self, SignedMachineError> {
         let artifact = file::read(path, ARTIFACT_LIMIT)
             .map_err(|cause| SignedMachineError::Machine { path: path.to_owned(), cause })?;
-        let mut name = path.as_os_str().to_owned();
-        name.push(ENDING);
-        let signature = PathBuf::from(name);
-        let text = file::read(&signature, SIGNATURE_LIMIT).and_then(|bytes| {
+        let text = file::read(signature, SIGNATURE_LIMIT).and_then(|bytes| {
             String::from_utf8(bytes).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text"))
         });
         match text {
             Ok(text) => Ok(Self::new(artifact, text)),
             Err(cause) if cause.kind() == ErrorKind::NotFound => {
-                Err(SignedMachineError::Unsigned { path: path.to_owned(), signature })
+                Err(SignedMachineError::Unsigned { path: path.to_owned(), signature: signature.to_owned() })
             }
-            Err(cause) => Err(SignedMachineError::Signature { path: path.to_owned(), signature, cause }),
+            Err(cause) => {
+                Err(SignedMachineError::Signature { path: path.to_owned(), signature: signature.to_owned(), cause })
+            }
         }
     }
 

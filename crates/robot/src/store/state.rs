@@ -96,6 +96,17 @@ impl State {
         Role::Tentative
     }
 
+    /// Takes back a start of the tentative machine. Returns false if `hash` is not the tentative one.
+    pub(super) fn undo_start(&mut self, hash: MachineHash) -> bool {
+        match &mut self.tentative {
+            Some(tentative) if tentative.hash == hash => {
+                tentative.starts = tentative.starts.saturating_sub(1);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Makes the tentative machine the good one. Returns false if `hash` is neither the tentative nor the good one.
     pub(super) fn mark_good(&mut self, hash: MachineHash) -> bool {
         if self.good == Some(hash) {
@@ -125,23 +136,6 @@ impl State {
     fn retire(&mut self, hash: MachineHash) {
         self.previous.insert(0, hash);
         self.previous.truncate(KEPT);
-    }
-}
-
-/// Lines for a terminal.
-impl fmt::Display for State {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.good {
-            Some(hash) => write!(f, "good:      {hash}")?,
-            None => write!(f, "good:      none")?,
-        }
-        if let Some(Tentative { hash, starts }) = self.tentative {
-            write!(f, "\ntentative: {hash}, starts: {starts}")?;
-        }
-        if let Some(rejected) = &self.rejected {
-            write!(f, "\ngiven up:  {rejected}")?;
-        }
-        self.previous.iter().try_for_each(|hash| write!(f, "\nprevious:  {hash}"))
     }
 }
 

@@ -9,7 +9,8 @@ use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
 
 use super::answer::Answer;
 use super::disk::{Disk, Folder, Lock, is_temporary, replace};
-use super::keys::{KEY_LIMIT, Keys, KeysError};
+use super::frame::SIGNATURE_LIMIT;
+use super::keys::Keys;
 use super::local_disk::{LOCK_FILE, LocalDisk};
 use super::machine_hash::MachineHash;
 use super::signed_machine::SignedMachine;
@@ -23,8 +24,6 @@ pub const DEFAULT_STORE: &str = "/var/lib/vibrissa";
 /// Endings of the files in the folder `machines`.
 const MACHINE_ENDING: &str = ".machine";
 const SIGNATURE_ENDING: &str = ".machine.minisig";
-/// Ending of the files in the folder `keys`.
-const KEY_ENDING: &str = ".pub";
 /// The starts that a tentative machine has by default.
 const START_LIMIT: NonZeroU32 = NonZeroU32::MIN;
 
@@ -48,7 +47,7 @@ pub struct StoredMachine {
 }
 
 impl Store {
-    /// Opens the store at `path`. Creates missing folders in it, but not the directory itself.
+    /// Opens the store at `path`. Creates the folder `machines` in it if it is missing, but not the directory itself.
     ///
     /// # Errors
     /// [`StoreError::Open`].
@@ -93,17 +92,17 @@ impl Store {
         self.load(hash, role)
     }
 
-    /// Receives one push from a stream and verifies it. Then the machine becomes tentative.
+    /// Receives one push from a stream and verifies it with the trusted `keys`. Then the machine becomes tentative.
     ///
     /// If it is the good machine, it stays good, and the tentative one is withdrawn. The function reads up to the end of the
     /// stream, so the sender must close it.
     ///
     /// # Errors
     /// [`ReceiveError`]. The machine was not taken, except if only the synchronisation at the end failed.
-    pub fn receive(&self, from: impl Read) -> Result<Answer, ReceiveError> {
+    pub fn receive(&self, from: impl Read, keys: &Keys) -> Result<Answer, ReceiveError> {
         // The lock is taken after the stream was read, because a slow sender must not hold up the control program.
         let signed = SignedMachine::read_frame(from)?;
-        let verified = self.keys()?.verify(signed)?;
+        let verified = keys.verify(signed)?;
         Ok(self.take(&verified)?)
     }
 
@@ -152,6 +151,14 @@ impl Store {
         self.load(hash, Role::Good)
     }
 
+    /// Takes back a start of the tentative machine, because the run ended before the machine was executed.
+    ///
+    /// # Errors
+    /// [`StoreError::NotTentative`] if the machine is not tentative, or the state cannot be read or written.
+    pub fn undo_start(&self, hash: MachineHash) -> Result<(), StoreError> {
+        self.change(hash, |state| state.undo_start(hash))
+    }
+
     /// Marks the tentative machine good after a run that went well. Marking the good machine again changes nothing.
     ///
     /// # Errors
@@ -178,30 +185,34 @@ impl Store {
         if new == old { Ok(()) } else { self.save(&new) }
     }
 
-    /// The public keys of the store.
-    fn keys(&self) -> Result<Keys, KeysError> {
-        let folder = self.at(Folder::Keys, "");
-        let names = self.disk.names(Folder::Keys);
-        let mut names = names.map_err(|cause| KeysError::Unreadable { path: folder.clone(), cause })?;
-        names.retain(|name| name.ends_with(KEY_ENDING) && !name.starts_with('.'));
-        names.sort_unstable();
-        let files = names.into_iter().map(|name| {
-            let content = self.disk.read(Folder::Keys, &name, KEY_LIMIT);
-            (name.clone(), self.at(Folder::Keys, &name), content)
-        });
-        Keys::decode(files, &folder)
+    /// A machine of the store and its signature, not yet verified.
+    ///
+    /// # Errors
+    /// [`StoreError::Unusable`] if one of its files cannot be read or was changed.
+    pub fn signed(&self, hash: MachineHash) -> Result<SignedMachine, StoreError> {
+        let artifact = self.artifact(hash)?;
+        let unusable = |cause| StoreError::Unusable { hash, cause };
+        let signature = self.disk.read(Folder::Machines, &file_name(hash, SIGNATURE_ENDING), SIGNATURE_LIMIT);
+        let signature = signature.map_err(|cause| unusable(format!("its signature cannot be read: {cause}")))?;
+        let signature = String::from_utf8(signature).map_err(|_| unusable("its signature is not text".to_owned()))?;
+        Ok(SignedMachine::new(artifact, signature))
     }
 
     /// Reads a machine and verifies it again, because the disk may have damaged it.
     pub(super) fn load(&self, hash: MachineHash, role: Role) -> Result<StoredMachine, StoreError> {
-        let unusable = |cause: String| StoreError::Unusable { hash, cause };
-        let bytes = self.disk.read(Folder::Machines, &file_name(hash, MACHINE_ENDING), ARTIFACT_LIMIT);
-        let bytes = bytes.map_err(|cause| unusable(cause.to_string()))?;
-        if MachineHash::of(&bytes) != hash {
-            return Err(unusable("its file was changed or damaged".to_owned()));
-        }
-        let artifact = Artifact::from_bytes(&bytes).map_err(|cause| unusable(cause.to_string()))?;
+        let artifact = Artifact::from_bytes(&self.artifact(hash)?)
+            .map_err(|cause| StoreError::Unusable { hash, cause: cause.to_string() })?;
         Ok(StoredMachine { hash, role, artifact })
+    }
+
+    /// The bytes of a machine, which fit its hash.
+    fn artifact(&self, hash: MachineHash) -> Result<Vec<u8>, StoreError> {
+        let bytes = self.disk.read(Folder::Machines, &file_name(hash, MACHINE_ENDING), ARTIFACT_LIMIT);
+        match bytes {
+            Ok(bytes) if MachineHash::of(&bytes) == hash => Ok(bytes),
+            Ok(_) => Err(StoreError::Unusable { hash, cause: "its file was changed or damaged".to_owned() }),
+            Err(cause) => Err(StoreError::Unusable { hash, cause: cause.to_string() }),
+        }
     }
 
     /// Writes the state, which puts it into force. Then removes files that are no longer needed.

@@ -4,7 +4,6 @@ use std::io;
 use std::path::PathBuf;
 
 use super::frame::FrameError;
-use super::keys::KeysError;
 use super::machine_hash::MachineHash;
 use super::state::Rejection;
 use super::state_file::StateFileError;
@@ -66,7 +65,10 @@ pub enum StoreError {
         cause: String,
     },
     /// There is no machine to run.
-    #[error("the store has no machine to run{}; sign a machine with `minisign -Sm FILE` and push it", after(rejected.as_ref()))]
+    #[error(
+        "the store has no machine to run{}; sign a machine with `minisign -Sm FILE` and push it with `vibrissa push HOST FILE`",
+        after(rejected.as_ref())
+    )]
     NoMachine {
         /// The last machine that was given up.
         rejected: Option<Rejection>,
@@ -88,9 +90,6 @@ pub enum ReceiveError {
     /// The stream is not one complete frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
-    /// The public keys cannot be read.
-    #[error(transparent)]
-    Keys(#[from] KeysError),
     /// The machine is refused.
     #[error(transparent)]
     Refused(#[from] Refusal),

@@ -13,6 +13,7 @@ pub struct VerifiedMachine {
     signed: SignedMachine,
     hash: MachineHash,
     artifact: Artifact,
+    signer: String,
     trusted_comment: String,
 }
 
@@ -28,7 +29,7 @@ pub enum Refusal {
     /// The signature was made with another key.
     #[error(
         "the machine is signed with a key that is not trusted; sign it with one of these keys: {}, or add the public key of its \
-         signer to the folder `keys` of the store", trusted.join(", ")
+         signer to the trusted ones", trusted.join(", ")
     )]
     UnknownKey {
         /// Names of the files of the trusted keys.
@@ -53,9 +54,9 @@ pub enum Refusal {
 impl VerifiedMachine {
     /// Verifies the signature with its trusted comment, and then the artifact.
     pub(super) fn new(signed: SignedMachine, keys: &Keys) -> Result<Self, Refusal> {
-        let trusted_comment = verify_signature(&signed, keys)?;
+        let (signer, trusted_comment) = verify_signature(&signed, keys)?;
         let artifact = Artifact::from_bytes(signed.artifact())?;
-        Ok(Self { hash: signed.hash(), signed, artifact, trusted_comment })
+        Ok(Self { hash: signed.hash(), signed, artifact, signer, trusted_comment })
     }
 
     /// The bytes of the artifact and the signature.
@@ -76,6 +77,12 @@ impl VerifiedMachine {
         &self.artifact
     }
 
+    /// Name of the file with the public key that fits the signature.
+    #[must_use]
+    pub fn signer(&self) -> &str {
+        &self.signer
+    }
+
     /// The comment that the signature covers. By default, minisign writes the time and the name of the file into it.
     #[must_use]
     pub fn trusted_comment(&self) -> &str {
@@ -83,16 +90,16 @@ impl VerifiedMachine {
     }
 }
 
-/// Returns the trusted comment.
-fn verify_signature(machine: &SignedMachine, keys: &Keys) -> Result<String, Refusal> {
+/// Returns the name of the key and the trusted comment.
+fn verify_signature(machine: &SignedMachine, keys: &Keys) -> Result<(String, String), Refusal> {
     if machine.signature().trim().is_empty() {
         return Err(Refusal::Unsigned);
     }
     let signature = Signature::decode(machine.signature()).map_err(|_| Refusal::NotASignature)?;
     let mut refusal = None;
-    for key in keys.iter() {
+    for (name, key) in keys.iter() {
         match key.verify(machine.artifact(), &signature, false) {
-            Ok(()) => return Ok(signature.trusted_comment().to_owned()),
+            Ok(()) => return Ok((name.to_owned(), signature.trusted_comment().to_owned())),
             Err(MinisignError::UnexpectedKeyId) => {}
             Err(MinisignError::UnexpectedAlgorithm) => refusal = Some(Refusal::Legacy),
             Err(_) => refusal = Some(Refusal::Changed),

@@ -3,9 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
+mod machines;
 mod panic;
 mod robot;
 mod server;
+mod store_commands;
+mod stored_machine;
 
 use std::time::{Duration, Instant};
 

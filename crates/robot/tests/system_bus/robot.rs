@@ -1,6 +1,7 @@
 //! The program under test, and the actuator and localisation around it.
 
 use std::net::{SocketAddr, UdpSocket};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,8 +64,17 @@ impl Outside {
     }
 
     pub(crate) fn drive(&self, server: &Server) -> Running {
+        self.drive_by(server, &[&self.machine])
+    }
+
+    /// Drives the machine of a store.
+    pub(crate) fn drive_store(&self, server: &Server, store: &Path, good_after: &str) -> Running {
+        self.drive_by(server, &["--store", store.to_str().unwrap(), "--good-after", good_after])
+    }
+
+    fn drive_by(&self, server: &Server, machine: &[&str]) -> Running {
         // The emulated bus is slower than a real one, so its clock is not measured.
-        let arguments = ["drive", &self.machine, "--config", &self.config, "--skip-admission"];
+        let arguments = [&["drive", "--config", &self.config, "--skip-admission"], machine].concat();
         Running(program(server, &arguments).stderr(Stdio::inherit()).spawn().unwrap())
     }
 
@@ -120,6 +130,12 @@ impl Running {
     pub(crate) fn terminate(&self) {
         let status = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status().unwrap();
         assert!(status.success());
+    }
+
+    /// Sends SIGKILL.
+    pub(crate) fn kill(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
     }
 
     pub(crate) fn wait(&mut self) -> std::process::ExitStatus {

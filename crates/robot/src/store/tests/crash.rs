@@ -13,9 +13,10 @@ use super::simulated_disk::SimulatedDisk;
 type Change = fn(&Store, &VerifiedMachine) -> Result<(), StoreError>;
 
 /// All changes. The machine 2 is tentative, if any is.
-const CHANGES: [Change; 4] = [
+const CHANGES: [Change; 5] = [
     |store, pushed| store.take(pushed).map(drop),
     |store, _| store.begin_run().map(drop),
+    |store, _| store.undo_start(hash(2)),
     |store, _| store.mark_good(hash(2)),
     |store, _| store.reject(hash(2), "no contact for 10 s"),
 ];
@@ -23,7 +24,7 @@ const CHANGES: [Change; 4] = [
 /// An empty disk. One with a good machine, a tentative one and as many others as are kept. The same, with a start of the
 /// tentative one.
 fn disks() -> [SimulatedDisk; 3] {
-    let full = SimulatedDisk::with_key();
+    let full = SimulatedDisk::default();
     for number in [4, 5, 6, 7, 8, 1] {
         make_good(&full.store(), number);
     }
@@ -32,7 +33,7 @@ fn disks() -> [SimulatedDisk; 3] {
     let started = full.copy();
     started.store().begin_run().unwrap();
     started.lose_power(0);
-    [SimulatedDisk::with_key(), full, started]
+    [SimulatedDisk::default(), full, started]
 }
 
 fn kills() -> impl Iterator<Item = Kill> {
@@ -104,7 +105,7 @@ fn a_kill_leaves_the_old_state_or_the_new_one_on_a_real_disk() {
         assert_eq!(store.current().unwrap().hash, pushed.hash());
         // No unfinished file remains.
         let names = |path: &Path| files(path).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
-        assert_eq!(names(folder.path()), ["keys", "lock", "machines", "state.json"]);
+        assert_eq!(names(folder.path()), ["lock", "machines", "state.json"]);
         assert_eq!(names(&folder.path().join("machines")).len(), 4);
         if !disk.was_killed() {
             return;

@@ -8,7 +8,7 @@ use std::thread;
 
 use crate::store::{MachineHash, ReceiveError, Role, StateFileError, Store, StoreError};
 
-use super::fixture::{frame, hash, machine, make_good, receive, store};
+use super::fixture::{frame, hash, keys, machine, make_good, receive, store};
 
 fn state_file(folder: &Path) -> std::path::PathBuf {
     folder.join("state.json")
@@ -33,7 +33,7 @@ fn a_damaged_state_is_an_error_that_says_what_to_do() {
         store.current().unwrap_err(),
         store.begin_run().unwrap_err(),
         store.mark_good(hash(2)).unwrap_err(),
-        match store.receive(&frame(&machine(3))[..]).unwrap_err() {
+        match store.receive(&frame(&machine(3))[..], &keys()).unwrap_err() {
             ReceiveError::Store(error) => error,
             error => panic!("{error}"),
         },
@@ -126,7 +126,7 @@ fn links_in_a_store_are_replaced_or_refused_but_not_followed() {
     for name in ["state.json", "lock"] {
         let (folder, store) = self::store();
         symlink(&target, folder.path().join(name)).unwrap();
-        assert!(store.receive(&frame(&super::fixture::machine(1))[..]).is_err(), "{name}");
+        assert!(store.receive(&frame(&super::fixture::machine(1))[..], &keys()).is_err(), "{name}");
     }
     assert_eq!(fs::read_to_string(&target).unwrap(), "precious");
     // So is a folder. The store itself may be behind a link.

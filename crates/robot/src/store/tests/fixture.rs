@@ -39,17 +39,16 @@ pub(super) fn frame(machine: &SignedMachine) -> Vec<u8> {
     bytes
 }
 
-/// A store with the trusted key in a temporary directory.
+/// An empty store in a temporary directory.
 pub(super) fn store() -> (TempDir, Store) {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
-    fs::copy(path("test.pub"), folder.path().join("keys/test.pub")).unwrap();
     (folder, store)
 }
 
 /// Pushes the machine of a number.
 pub(super) fn receive(store: &Store, number: usize) {
-    store.receive(&frame(&machine(number))[..]).unwrap();
+    store.receive(&frame(&machine(number))[..], &keys()).unwrap();
 }
 
 /// Pushes the machine of a number, starts it and marks it good.

@@ -4,7 +4,9 @@ use std::fs;
 
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, ArtifactError};
 
-use crate::store::{Answer, FrameError, KeysError, ReceiveError, Refusal, Role, SIGNATURE_LIMIT, SignedMachine, Store};
+use crate::store::{
+    Answer, FrameError, Keys, KeysError, ReceiveError, Refusal, Role, SIGNATURE_LIMIT, SignedMachine, Store, StoreError,
+};
 
 use super::fixture::{files, frame, hash, keys, machine, make_good, path, store};
 
@@ -12,7 +14,7 @@ use super::fixture::{files, frame, hash, keys, machine, make_good, path, store};
 const HEADER: usize = 20;
 
 fn push(store: &Store, machine: &SignedMachine) -> Result<Answer, ReceiveError> {
-    store.receive(&frame(machine)[..])
+    store.receive(&frame(machine)[..], &keys())
 }
 
 fn with_signature(number: usize, signature: &str) -> SignedMachine {
@@ -52,11 +54,11 @@ fn a_push_that_is_cut_anywhere_changes_nothing() {
     let before = all();
     let bytes = frame(&machine(2));
     for length in 0..bytes.len() {
-        let error = store.receive(&bytes[..length]).unwrap_err();
+        let error = store.receive(&bytes[..length], &keys()).unwrap_err();
         assert!(matches!(error, ReceiveError::Frame(FrameError::Truncated)), "{length}: {error}");
         assert_eq!(all(), before, "{length}");
     }
-    assert_eq!(store.receive(&bytes[..]).unwrap().hash, hash(2));
+    assert_eq!(store.receive(&bytes[..], &keys()).unwrap().hash, hash(2));
 }
 
 #[test]
@@ -70,7 +72,7 @@ fn a_push_with_a_changed_byte_is_never_taken() {
         for change in [1, 0x20, 0x80] {
             let mut bytes = bytes.clone();
             bytes[place] ^= change;
-            let error = store.receive(&bytes[..]).unwrap_err();
+            let error = store.receive(&bytes[..], &keys()).unwrap_err();
             let expected = match place {
                 0..HEADER => matches!(error, ReceiveError::Frame(_)),
                 _ => matches!(
@@ -102,15 +104,18 @@ fn a_changed_artifact_and_a_changed_comment_do_not_fit_the_signature() {
 
 #[test]
 fn an_unknown_key_is_refused_until_it_is_trusted() {
-    let (folder, store) = store();
+    let (_folder, store) = store();
     let other = with_signature(1, "other.minisig");
     match push(&store, &other).unwrap_err() {
         ReceiveError::Refused(Refusal::UnknownKey { trusted }) => assert_eq!(trusted, ["test.pub"]),
         error => panic!("{error}"),
     }
-    fs::copy(path("other.pub"), folder.path().join("keys/other.pub")).unwrap();
-    push(&store, &other).unwrap();
-    push(&store, &machine(1)).unwrap();
+    // The folder of the fixtures has both keys.
+    let both = Keys::from_folder(&path("")).unwrap();
+    store.receive(&frame(&other)[..], &both).unwrap();
+    store.receive(&frame(&machine(1))[..], &both).unwrap();
+    let signers = [other, machine(1)].map(|machine| both.verify(machine).unwrap().signer().to_owned());
+    assert_eq!(signers, ["other.pub", "test.pub"]);
 }
 
 #[test]
@@ -133,7 +138,7 @@ fn a_signature_does_not_make_other_content_a_machine() {
 #[test]
 fn a_frame_has_limits_and_an_end() {
     let (_folder, store) = store();
-    let error = |bytes: &[u8]| match store.receive(bytes).unwrap_err() {
+    let error = |bytes: &[u8]| match store.receive(bytes, &keys()).unwrap_err() {
         ReceiveError::Frame(error) => error,
         error => panic!("{error}"),
     };
@@ -152,19 +157,33 @@ fn a_frame_has_limits_and_an_end() {
 }
 
 #[test]
-fn a_store_needs_a_valid_public_key() {
-    let (folder, store) = store();
-    let keys = folder.path().join("keys");
+fn a_folder_of_keys_needs_valid_public_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let keys = folder.path();
+    assert!(matches!(Keys::from_folder(keys), Err(KeysError::None { .. })));
     // Files with other names are no keys.
     fs::write(keys.join("README"), "developers").unwrap();
     fs::write(keys.join("._test.pub"), "metadata of another system").unwrap();
-    push(&store, &machine(1)).unwrap();
+    assert!(matches!(Keys::from_folder(keys), Err(KeysError::None { .. })));
+    fs::copy(path("test.pub"), keys.join("test.pub")).unwrap();
+    Keys::from_folder(keys).unwrap().verify(machine(1)).unwrap();
+    // One file that is no key is not passed over, because someone trusts in it.
     fs::write(keys.join("new.pub"), "no key").unwrap();
-    match push(&store, &machine(1)).unwrap_err() {
-        ReceiveError::Keys(KeysError::NotAKey { path }) => assert_eq!(path, keys.join("new.pub")),
+    match Keys::from_folder(keys).unwrap_err() {
+        KeysError::NotAKey { path } => assert_eq!(path, keys.join("new.pub")),
         error => panic!("{error}"),
     }
-    fs::remove_file(keys.join("new.pub")).unwrap();
-    fs::remove_file(keys.join("test.pub")).unwrap();
-    assert!(matches!(push(&store, &machine(1)).unwrap_err(), ReceiveError::Keys(KeysError::None { .. })));
+    assert!(matches!(Keys::from_folder(&keys.join("none")), Err(KeysError::Folder { .. })));
+}
+
+#[test]
+fn a_stored_machine_keeps_its_signature() {
+    let (folder, store) = store();
+    push(&store, &machine(1)).unwrap();
+    assert_eq!(store.signed(hash(1)).unwrap(), machine(1));
+    let signature = folder.path().join(format!("machines/{}.machine.minisig", hash(1)));
+    fs::remove_file(signature).unwrap();
+    assert!(matches!(store.signed(hash(1)), Err(StoreError::Unusable { .. })));
+    // It still runs, because it was verified when it was received.
+    assert_eq!(store.begin_run().unwrap().hash, hash(1));
 }

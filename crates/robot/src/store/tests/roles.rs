@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use crate::store::{KEPT, Role, State, StoreError, Tentative};
 
-use super::fixture::{MACHINES, files, frame, hash, machine, make_good, receive, store};
+use super::fixture::{MACHINES, files, frame, hash, keys, machine, make_good, receive, store};
 
 #[test]
 fn a_tentative_machine_that_is_started_twice_is_given_up() {
@@ -17,11 +17,27 @@ fn a_tentative_machine_that_is_started_twice_is_given_up() {
     // The program ends here without `mark_good` and starts again.
     let second = store.begin_run().unwrap();
     assert_eq!((second.hash, second.role), (hash(1), Role::Good));
-    let state = store.status().unwrap();
-    let rejected = state.rejected.clone().unwrap();
+    let rejected = store.status().unwrap().rejected.unwrap();
     assert_eq!((rejected.hash, &rejected.reason[..]), (hash(2), "it was started (1 of 1) and not marked good"));
-    assert!(state.to_string().contains(&format!("given up:  {}: {}", hash(2), rejected.reason)));
     assert_eq!(store.begin_run().unwrap().hash, hash(1));
+}
+
+#[test]
+fn a_start_without_a_run_is_taken_back() {
+    let (_folder, store) = store();
+    make_good(&store, 1);
+    receive(&store, 2);
+    for _ in 0..3 {
+        assert_eq!(store.begin_run().unwrap().hash, hash(2));
+        store.undo_start(hash(2)).unwrap();
+        assert_eq!(store.status().unwrap().tentative, Some(Tentative { hash: hash(2), starts: 0 }));
+    }
+    // Not for another machine, and not below zero.
+    assert!(matches!(store.undo_start(hash(1)), Err(StoreError::NotTentative { .. })));
+    store.undo_start(hash(2)).unwrap();
+    assert_eq!(store.begin_run().unwrap().hash, hash(2));
+    assert_eq!(store.begin_run().unwrap().hash, hash(1));
+    assert!(matches!(store.undo_start(hash(2)), Err(StoreError::NotTentative { .. })));
 }
 
 #[test]
@@ -94,7 +110,7 @@ fn the_good_machine_pushed_again_stays_good() {
     let (_folder, store) = store();
     make_good(&store, 1);
     receive(&store, 2);
-    assert_eq!(store.receive(&frame(&machine(1))[..]).unwrap().state, Role::Good);
+    assert_eq!(store.receive(&frame(&machine(1))[..], &keys()).unwrap().state, Role::Good);
     assert_eq!(store.status().unwrap().current(), Some((hash(1), Role::Good)));
 }
 

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use crate::store::{SignedMachine, State, Store, StoreError};
 
-use super::fixture::{MACHINES, frame, hash, machine};
+use super::fixture::{MACHINES, frame, hash, keys, machine};
 use super::interrupted_disk::{InterruptedDisk, Kill};
 use super::simulated_disk::SimulatedDisk;
 
@@ -18,6 +18,7 @@ enum Step {
     PushForged(usize),
     /// A start. Without a mark afterwards, the run crashed.
     Start,
+    UndoStart,
     MarkGood,
     Reject,
 }
@@ -44,7 +45,8 @@ impl Model {
             (Step::Start, Some((number, false))) => self.tentative = Some((number, true)),
             (Step::Start | Step::Reject, _) => self.tentative = None,
             (Step::MarkGood, Some((number, _))) => self = Self { good: Some(number), tentative: None },
-            (Step::MarkGood | Step::PushForged(_), _) => {}
+            (Step::UndoStart, Some((number, _))) => self.tentative = Some((number, false)),
+            (Step::UndoStart | Step::MarkGood | Step::PushForged(_), _) => {}
         }
         self
     }
@@ -64,11 +66,11 @@ impl Model {
 fn execute(store: &Store, step: Step, model: Model) -> bool {
     let tentative = hash(model.tentative.map_or(1, |(number, _)| number));
     match step {
-        Step::Push(number) => store.receive(&frame(&machine(number))[..]).is_ok(),
+        Step::Push(number) => store.receive(&frame(&machine(number))[..], &keys()).is_ok(),
         Step::PushForged(number) => {
             let other = machine(number % MACHINES + 1);
             let forged = SignedMachine::new(machine(number).artifact().to_vec(), other.signature().to_owned());
-            store.receive(&frame(&forged)[..]).is_ok()
+            store.receive(&frame(&forged)[..], &keys()).is_ok()
         }
         Step::Start => match store.begin_run() {
             Ok(machine) => {
@@ -77,6 +79,7 @@ fn execute(store: &Store, step: Step, model: Model) -> bool {
             }
             Err(_) => false,
         },
+        Step::UndoStart => store.undo_start(tentative).is_ok(),
         Step::MarkGood => store.mark_good(tentative).is_ok(),
         Step::Reject => store.reject(tentative, "a reason").is_ok(),
     }
@@ -87,6 +90,7 @@ fn step() -> impl Strategy<Value = Step> {
         4 => (1..=MACHINES).prop_map(Step::Push),
         1 => (1..=MACHINES).prop_map(Step::PushForged),
         4 => Just(Step::Start),
+        1 => Just(Step::UndoStart),
         3 => Just(Step::MarkGood),
         1 => Just(Step::Reject),
     ]
@@ -106,7 +110,7 @@ proptest! {
     fn the_current_machine_is_the_tentative_or_the_last_good_one(
         steps in prop::collection::vec((step(), prop::option::weighted(0.3, loss())), 1..25),
     ) {
-        let disk = SimulatedDisk::with_key();
+        let disk = SimulatedDisk::default();
         let mut model = Model::default();
         let mut pushed = BTreeSet::new();
         for (step, loss) in steps {

@@ -8,8 +8,6 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use crate::store::Store;
 use crate::store::disk::{Disk, Folder, Lock};
 
-use super::fixture;
-
 type Files = BTreeMap<(Folder, String), Vec<u8>>;
 
 /// A disk in memory. Contents are durable at once, because [`Disk::create`] synchronises them. Names are durable only after
@@ -55,14 +53,6 @@ impl Content {
 }
 
 impl SimulatedDisk {
-    /// A disk with the trusted key.
-    pub(super) fn with_key() -> Self {
-        let disk = Self::default();
-        let key = std::fs::read(fixture::path("test.pub")).unwrap();
-        disk.content().durable.insert((Folder::Keys, "test.pub".to_owned()), key);
-        disk
-    }
-
     /// A store on this disk, as a new process opens it.
     pub(super) fn store(&self) -> Store {
         Store::on(Path::new("store"), Box::new(self.clone()))
