@@ -1,10 +1,10 @@
 //! `vibrissa drive`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use clap::Args;
+use clap::{Arg, Args};
 use sha2::Digest;
 use vibrissa_robot::config::Config;
 use vibrissa_robot::emulation::{Injection, Settings as EmulationSettings};
@@ -22,19 +22,23 @@ use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
 use crate::trial::{Inputs, Trial};
 
-const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error.";
+
+/// The program that drives the real array.
+#[cfg(unix)]
+const ROBOT: &str = "vibrissa-robot";
 
 /// The arguments of `vibrissa drive`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = EXAMPLE, mut_args(only_emulated))]
 pub(super) struct DriveArguments {
-    /// Compiled machine, or a policy
+    /// Compiled machine. With --emulate, also a policy
     #[arg(value_name = "MACHINE")]
     machine: PathBuf,
-    /// Scenario whose rig is driven in a simulation, with emulated sensors on emulated buses. On a robot, the program
-    /// `vibrissa-robot` drives the real array
-    #[arg(long, value_name = "SCENARIO")]
-    emulate: PathBuf,
+    /// Scenario whose rig is driven in a simulation, with emulated sensors on emulated buses. Without this option, the
+    /// program `vibrissa-robot` drives the real array
+    #[arg(long, value_name = "SCENARIO", required_unless_present = "config")]
+    emulate: Option<PathBuf>,
     /// Configuration of the array, such as deploy/pi/array.yaml. Its rig replaces that of the scenario. By default, a
     /// configuration is made for the scenario's rig
     #[arg(long, value_name = "FILE")]
@@ -57,10 +61,42 @@ pub(super) struct DriveArguments {
     format: Format,
 }
 
+/// The options that describe a simulation have no meaning without one.
+fn only_emulated(argument: Arg) -> Arg {
+    match argument.get_id().as_str() {
+        "machine" | "emulate" | "config" => argument,
+        _ => argument.requires("emulate"),
+    }
+}
+
 pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
+    match &arguments.emulate {
+        Some(scenario) => emulate(arguments, scenario),
+        None => Err(Failure::NoRobotProgram(become_robot(arguments))),
+    }
+}
+
+/// Replaces this process by the program of the robot, so that signals reach it. The result is the reason why there is none.
+#[cfg(unix)]
+fn become_robot(arguments: &DriveArguments) -> std::io::Error {
+    use std::os::unix::process::CommandExt;
+    let mut program = std::process::Command::new(ROBOT);
+    program.arg("drive");
+    if let Some(config) = &arguments.config {
+        program.arg("--config").arg(config);
+    }
+    program.arg("--").arg(&arguments.machine).exec()
+}
+
+#[cfg(not(unix))]
+fn become_robot(_: &DriveArguments) -> std::io::Error {
+    std::io::ErrorKind::Unsupported.into()
+}
+
+fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure> {
     let before = Instant::now();
     let mut files = CommandFiles::new();
-    let source = load::read(&arguments.emulate, &mut files)?;
+    let source = load::read(scenario, &mut files)?;
     let Loaded { value: mut scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
     let policy = load::policy(&arguments.machine, &mut files)?;
     output::warnings(&policy.value);
@@ -89,7 +125,7 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
         None => None,
     };
     let world = arguments.world.of(&scene);
-    let inputs = inputs(&arguments.emulate, &scenario_hash.finalize(), &policy.hash.finalize());
+    let inputs = inputs(scenario, &scenario_hash.finalize(), &policy.hash.finalize());
     let program = Arc::new(policy.value.artifact.program);
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
@@ -117,13 +153,13 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn config(path: &std::path::Path, files: &mut CommandFiles) -> Result<Config, Failure> {
+fn config(path: &Path, files: &mut CommandFiles) -> Result<Config, Failure> {
     let text = load::read(path, files)?;
     Config::from_text(&text.text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })
 }
 
 /// Reads a list of faults.
-fn injections(path: &std::path::Path, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
+fn injections(path: &Path, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
     let text = load::read(path, files)?;
     serde_yaml::from_str(&text.text)
         .map_err(|cause| Failure::Injections { path: path.to_owned(), cause: cause.to_string() })

@@ -102,6 +102,11 @@ pub(super) enum Failure {
     Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("{}: {cause}", policy.display())]
     View { policy: PathBuf, cause: UnknownState },
+    #[error(
+        "the real array is driven by the program `vibrissa-robot`, which cannot be started: {0}. Install it on the robot \
+         (`cargo x pi`, or `cargo install --path crates/robot`), or drive a simulated array with --emulate SCENARIO"
+    )]
+    NoRobotProgram(std::io::Error),
     #[error("{}: {cause}", path.display())]
     RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
     #[error("{} is no list of faults: {cause}", path.display())]

@@ -78,7 +78,7 @@ enum Command {
     Test(test::TestArguments),
     /// Compile a policy into a file that runs without its text
     Compile(compile::CompileArguments),
-    /// Drive a simulated array by a compiled machine with the robot's own loop, through emulated sensors
+    /// Drive an array by a compiled machine: a simulated one through emulated sensors, or that of the robot
     Drive(drive::DriveArguments),
     /// Send a signed machine to a robot, which verifies it and drives it at its next start
     Push(push::PushArguments),

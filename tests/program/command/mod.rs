@@ -5,6 +5,8 @@ pub(crate) mod calibrate;
 mod check;
 mod compile;
 #[cfg(unix)]
+mod drive;
+#[cfg(unix)]
 mod files;
 mod fmt;
 mod graph;
