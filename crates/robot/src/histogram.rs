@@ -49,6 +49,12 @@ impl Histogram {
         None
     }
 
+    /// The buckets that are not empty: the upper end (ns) and the number of durations, in ascending order.
+    pub fn buckets(&self) -> impl Iterator<Item = (u64, u64)> + '_ {
+        let all = (0_u32..).zip(&self.counts);
+        all.map(|(index, count)| (upper_end_ns(index), count.load(Ordering::Relaxed))).filter(|(_, count)| *count > 0)
+    }
+
     /// The largest duration (ns).
     #[must_use]
     pub fn largest_ns(&self) -> u64 {
@@ -99,6 +105,11 @@ mod tests {
             let exact = durations[(share * durations.len() as f64).ceil() as usize - 1];
             let found = histogram.quantile_ns(share).unwrap();
             prop_assert!(exact <= found && found as f64 <= 1.25 * exact as f64, "{found} for {exact}");
+            for (upper_ns, count) in histogram.buckets() {
+                let in_bucket = durations.iter().filter(|&&ns| ns < upper_ns && 1.25 * ns as f64 >= upper_ns as f64);
+                prop_assert!(count > 0 && in_bucket.count() as u64 >= count, "{count} up to {upper_ns}");
+            }
+            prop_assert_eq!(histogram.buckets().map(|(_, count)| count).sum::<u64>(), histogram.count());
         }
     }
 

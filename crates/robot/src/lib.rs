@@ -22,8 +22,11 @@ pub mod emulation;
 pub mod fault;
 pub mod histogram;
 pub mod link;
+#[cfg(feature = "mqtt")]
+pub mod mqtt;
 #[cfg(feature = "program")]
 pub mod program;
 #[cfg(feature = "store")]
 pub mod store;
+pub mod telemetry;
 pub mod vitals;

@@ -102,6 +102,14 @@ impl Assembler {
         }
     }
 
+    /// The field (T) and the base angle (rad) of a whisker at a value (counts). The base angle is relative to the neutral
+    /// value.
+    #[must_use]
+    pub fn values(&self, whisker: usize, counts: i32) -> Option<(f64, f64)> {
+        let transducer = self.transducers.get(whisker)?;
+        Some((f64::from(counts) * transducer.microtesla_per_count * 1e-6, transducer.base_angle(counts)))
+    }
+
     /// Drops all sample periods before `slot`.
     pub fn skip_to(&mut self, slot: u64) {
         self.next_slot = self.next_slot.max(slot);

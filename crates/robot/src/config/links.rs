@@ -22,8 +22,12 @@ pub enum ActuatorConfig {
         #[serde(default = "yes")]
         acknowledged: bool,
     },
-    /// Messages with the topic `vibrissa/NAME/command`.
-    Mqtt {},
+    /// Packets as messages with the topic `vibrissa/NAME/command`.
+    Mqtt {
+        /// True if the actuator acknowledges every packet, with the topic `vibrissa/NAME/acknowledged`.
+        #[serde(default = "yes")]
+        acknowledged: bool,
+    },
 }
 
 fn yes() -> bool {
@@ -51,7 +55,7 @@ pub enum PoseSource {
         /// Address on which the program listens.
         listen: SocketAddr,
     },
-    /// Messages with the topic `vibrissa/NAME/pose`.
+    /// Packets as messages with the topic `vibrissa/NAME/pose`.
     Mqtt {},
 }
 
@@ -64,7 +68,7 @@ pub struct MqttConfig {
     /// Port of the broker.
     #[serde(default = "mqtt_port")]
     pub port: u16,
-    /// Messages that are kept while the broker is away.
+    /// Messages that wait while the broker is away, at least one. The oldest are dropped.
     #[serde(default = "mqtt_buffer")]
     pub buffer: usize,
 }

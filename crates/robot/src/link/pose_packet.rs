@@ -51,6 +51,24 @@ impl PosePacket {
     }
 }
 
+/// Reads packets in the order of their sequence numbers.
+#[derive(Debug, Default)]
+pub(super) struct PoseReader {
+    last_sequence: Option<u64>,
+}
+
+impl PoseReader {
+    /// The packet in these bytes, if it is newer than the last.
+    pub(super) fn read(&mut self, bytes: &[u8]) -> Option<PosePacket> {
+        let packet = PosePacket::from_bytes(bytes).ok()?;
+        if self.last_sequence.is_some_and(|last| packet.sequence <= last) {
+            return None;
+        }
+        self.last_sequence = Some(packet.sequence);
+        Some(packet)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

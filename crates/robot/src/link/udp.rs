@@ -3,9 +3,10 @@
 use std::io::ErrorKind;
 use std::net::{SocketAddr, UdpSocket};
 
+use super::acknowledgements::Acknowledgements;
 use super::actuator::{Actuator, LinkError};
 use super::command_packet::CommandPacket;
-use super::pose_packet::PosePacket;
+use super::pose_packet::{PosePacket, PoseReader};
 
 /// Largest number of packets that are read at once, so that a flood cannot hold the caller.
 const MOST_PACKETS: usize = 64;
@@ -14,9 +15,7 @@ const MOST_PACKETS: usize = 64;
 #[derive(Debug)]
 pub struct UdpActuator {
     socket: UdpSocket,
-    is_acknowledged: bool,
-    last_sent: u64,
-    last_acknowledged_ns: Option<u64>,
+    acknowledgements: Option<Acknowledgements>,
 }
 
 impl UdpActuator {
@@ -29,13 +28,15 @@ impl UdpActuator {
         let socket = UdpSocket::bind(any)?;
         socket.connect(address)?;
         socket.set_nonblocking(true)?;
-        Ok(Self { socket, is_acknowledged, last_sent: 0, last_acknowledged_ns: None })
+        Ok(Self { socket, acknowledgements: is_acknowledged.then(Acknowledgements::default) })
     }
 }
 
 impl Actuator for UdpActuator {
     fn send(&mut self, packet: &CommandPacket) -> Result<(), LinkError> {
-        self.last_sent = packet.sequence;
+        if let Some(acknowledgements) = &mut self.acknowledgements {
+            acknowledgements.sent(packet.sequence);
+        }
         match self.socket.send(&packet.to_bytes()) {
             Ok(_) => Ok(()),
             // The answer of a host without a receiver to an earlier packet. The missing acknowledgement tells it.
@@ -45,18 +46,15 @@ impl Actuator for UdpActuator {
     }
 
     fn acknowledged_ns(&mut self, now_ns: u64) -> Option<u64> {
-        if !self.is_acknowledged {
-            return None;
-        }
+        let acknowledgements = self.acknowledgements.as_mut()?;
         let mut bytes = [0; 32];
         for _ in 0..MOST_PACKETS {
             let Ok(length) = self.socket.recv(&mut bytes) else { break };
-            let sequence = bytes.get(..length).and_then(|bytes| CommandPacket::acknowledged(bytes).ok());
-            if sequence.is_some_and(|sequence| sequence <= self.last_sent) {
-                self.last_acknowledged_ns = Some(now_ns);
+            if let Some(Ok(sequence)) = bytes.get(..length).map(CommandPacket::acknowledged) {
+                acknowledgements.received(sequence, now_ns);
             }
         }
-        Some(*self.last_acknowledged_ns.get_or_insert(now_ns))
+        Some(acknowledgements.last_ns(now_ns))
     }
 }
 
@@ -64,7 +62,7 @@ impl Actuator for UdpActuator {
 #[derive(Debug)]
 pub struct UdpPoses {
     socket: UdpSocket,
-    last_sequence: Option<u64>,
+    reader: PoseReader,
 }
 
 impl UdpPoses {
@@ -75,7 +73,7 @@ impl UdpPoses {
     pub fn new(listen: SocketAddr, wait: std::time::Duration) -> std::io::Result<Self> {
         let socket = UdpSocket::bind(listen)?;
         socket.set_read_timeout(Some(wait))?;
-        Ok(Self { socket, last_sequence: None })
+        Ok(Self { socket, reader: PoseReader::default() })
     }
 
     /// The address on which it listens.
@@ -90,11 +88,6 @@ impl UdpPoses {
     pub fn receive(&mut self) -> Option<PosePacket> {
         let mut bytes = [0; 64];
         let length = self.socket.recv(&mut bytes).ok()?;
-        let packet = PosePacket::from_bytes(bytes.get(..length)?).ok()?;
-        if self.last_sequence.is_some_and(|last| packet.sequence <= last) {
-            return None;
-        }
-        self.last_sequence = Some(packet.sequence);
-        Some(packet)
+        self.reader.read(bytes.get(..length)?)
     }
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 use clap::Args;
 use vibrissa_mlx90393::{Address, measure_bus_clock};
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, Program};
 
 use super::admission::{Measured, admit, measure_tick};
 use super::command_line::print_error;
@@ -20,11 +20,12 @@ use super::real_time::RealTime;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
-use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
+use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, MqttConfig, PoseSource};
 use crate::drive::RecordSink;
 use crate::histogram::Histogram;
-use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
+use crate::link::{Actuator, DryRun, MqttActuator, MqttPoses, UdpActuator, UdpPoses};
 use crate::store::DEFAULT_STORE;
+use crate::telemetry::{Publisher, TelemetrySink};
 use crate::vitals::{Phase, Vitals};
 
 const EXAMPLE: &str = "Examples:\n  vibrissa-robot drive --config /etc/vibrissa/array.yaml\n  \
@@ -66,6 +67,8 @@ const LOOK: Duration = Duration::from_millis(20);
 const ALIVE_NS: u64 = 500_000_000;
 /// Time for stop commands at the end.
 const FAREWELL: Duration = Duration::from_millis(100);
+/// The longest wait for a pose.
+const POSE_WAIT: Duration = Duration::from_millis(10);
 
 pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
     let config = read_config(&arguments.config)?;
@@ -109,6 +112,8 @@ fn drive_by(
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
     let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog)];
     sinks.extend(run.good_after(ticks(arguments.good_after, config.rig.sensing.control_rate)));
+    // It is last, because its end takes longest.
+    sinks.extend(telemetry(&config, &program)?);
     let robot = Robot { config, control, buses, actuator, poses, sinks, clock };
     let threads = robot.start()?;
     print_error(&format!(
@@ -251,16 +256,32 @@ fn actuator(config: &Config) -> Result<Box<dyn Actuator>, Error> {
     Ok(match config.actuator {
         ActuatorConfig::DryRun => Box::new(DryRun),
         ActuatorConfig::Udp { address, acknowledged } => Box::new(UdpActuator::new(address, acknowledged)?),
-        ActuatorConfig::Mqtt {} => return Err("the actuator `mqtt` is not part of this build".into()),
+        ActuatorConfig::Mqtt { acknowledged } => {
+            Box::new(MqttActuator::new(&config.name, broker(config)?, acknowledged)?)
+        }
     })
 }
 
 fn poses(config: &Config) -> Result<PoseReceiver, Error> {
     Ok(match config.pose.source {
         PoseSource::Udp { listen } => {
-            let mut poses = UdpPoses::new(listen, Duration::from_millis(10))?;
+            let mut poses = UdpPoses::new(listen, POSE_WAIT)?;
             Box::new(move || poses.receive().map(|packet| packet.pose))
         }
-        PoseSource::Mqtt {} => return Err("the pose source `mqtt` is not part of this build".into()),
+        PoseSource::Mqtt {} => {
+            let mut poses = MqttPoses::new(&config.name, broker(config)?)?;
+            Box::new(move || poses.receive(POSE_WAIT).map(|packet| packet.pose))
+        }
     })
+}
+
+fn broker(config: &Config) -> Result<&MqttConfig, Error> {
+    Ok(config.mqtt.as_ref().ok_or("the configuration has no MQTT broker; add `mqtt: {host: ...}`")?)
+}
+
+/// The receiver of records that publishes them, if there is a broker.
+fn telemetry(config: &Config, program: &Program) -> Result<Option<Box<dyn RecordSink>>, Error> {
+    let Some(mqtt) = &config.mqtt else { return Ok(None) };
+    let publisher = Publisher::start(&config.name, mqtt, print_error)?;
+    Ok(Some(Box::new(TelemetrySink::new(config, program, publisher))))
 }

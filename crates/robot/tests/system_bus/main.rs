@@ -20,7 +20,8 @@ use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
 fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
     let server = Server::start();
     let outside = Outside::new("sensors");
-    let output = program(&server, &["sensors", "--for", "2", "--json", "--config", &outside.config]).output().unwrap();
+    let output =
+        program(&server, &["sensors", "--for", "2", "--json", "--config", &outside.files.config]).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -38,7 +39,7 @@ fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
 fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_and_stops_at_the_end() {
     let server = Server::start();
     let outside = Outside::new("drive");
-    let mut child = outside.drive(&server);
+    let mut child = outside.files.drive(&server);
     let moving = outside.wait_for(|packet| !packet.is_stop && packet.command.velocity_world.norm() > 0.0);
     assert!(moving.command.velocity_world.norm() <= 0.2 + 1e-12, "the limit of the configuration");
     server.inject_at(1, 0x0C, SensorFault::NoAcknowledge { transactions: None });
@@ -65,7 +66,7 @@ fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_and_stops_at_the_end() 
 fn a_device_without_the_bus_is_told_with_the_setting_that_enables_it() {
     let outside = Outside::new("missing");
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa-robot"))
-        .args(["sensors", "--for", "1", "--config", &outside.config])
+        .args(["sensors", "--for", "1", "--config", &outside.files.config])
         .output()
         .unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();

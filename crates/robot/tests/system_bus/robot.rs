@@ -22,21 +22,15 @@ pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
     command
 }
 
-/// An actuator that acknowledges every command, and a localisation that sends poses.
-pub(crate) struct Outside {
+/// The files of a run.
+pub(crate) struct Files {
     pub(crate) config: String,
     machine: String,
-    actuator: UdpSocket,
-    are_poses_paused: Arc<AtomicBool>,
-    has_ended: Arc<AtomicBool>,
 }
 
-impl Outside {
-    pub(crate) fn new(name: &str) -> Self {
-        let actuator = UdpSocket::bind("127.0.0.1:0").unwrap();
-        actuator.set_read_timeout(Some(PATIENCE)).unwrap();
-        // The program binds this port after it has been released here.
-        let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+impl Files {
+    /// A configuration with these links, and a machine.
+    pub(crate) fn new(name: &str, links: &str) -> Self {
         let config = scratch().join(format!("{name}.yaml"));
         let text = format!(
             "name: test\n\
@@ -45,22 +39,12 @@ impl Outside {
              - {{device: /dev/i2c-3, clock: 1 kHz, boards: [{{whisker: l0, address: 12}}]}}\n\
              limits: {{speed: 0.2 m/s, yaw_rate: 1 rad/s}}\n\
              timeouts: {{bus: 80 ms, sensor: 80 ms, pose: 120 ms, control: 120 ms, link: 160 ms}}\n\
-             actuator: {{udp: {{address: '{}'}}}}\n\
-             pose: {{udp: {{listen: '{poses}'}}}}\n",
-            actuator.local_addr().unwrap()
+             {links}"
         );
         std::fs::write(&config, text).unwrap();
         let machine = scratch().join(format!("{name}.machine"));
         std::fs::write(&machine, include_bytes!("../../../runtime/fixtures/bang.machine")).unwrap();
-        let outside = Self {
-            config: config.display().to_string(),
-            machine: machine.display().to_string(),
-            actuator,
-            are_poses_paused: Arc::default(),
-            has_ended: Arc::default(),
-        };
-        outside.send_poses(poses);
-        outside
+        Self { config: config.display().to_string(), machine: machine.display().to_string() }
     }
 
     pub(crate) fn drive(&self, server: &Server) -> Running {
@@ -76,6 +60,36 @@ impl Outside {
         // The emulated bus is slower than a real one, so its clock is not measured.
         let arguments = [&["drive", "--config", &self.config, "--skip-admission"], machine].concat();
         Running(program(server, &arguments).stderr(Stdio::inherit()).spawn().unwrap())
+    }
+}
+
+/// An actuator that acknowledges every command, and a localisation that sends poses.
+pub(crate) struct Outside {
+    pub(crate) files: Files,
+    actuator: UdpSocket,
+    are_poses_paused: Arc<AtomicBool>,
+    has_ended: Arc<AtomicBool>,
+}
+
+impl Outside {
+    pub(crate) fn new(name: &str) -> Self {
+        let actuator = UdpSocket::bind("127.0.0.1:0").unwrap();
+        actuator.set_read_timeout(Some(PATIENCE)).unwrap();
+        // The program binds this port after it has been released here.
+        let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+        let links = format!(
+            "actuator: {{udp: {{address: '{}'}}}}\n\
+             pose: {{udp: {{listen: '{poses}'}}}}\n",
+            actuator.local_addr().unwrap()
+        );
+        let outside = Self {
+            files: Files::new(name, &links),
+            actuator,
+            are_poses_paused: Arc::default(),
+            has_ended: Arc::default(),
+        };
+        outside.send_poses(poses);
+        outside
     }
 
     pub(crate) fn pause_poses(&self, is_paused: bool) {
@@ -123,7 +137,7 @@ impl Drop for Outside {
 }
 
 /// The running program. It ends with the test.
-pub(crate) struct Running(Child);
+pub(crate) struct Running(pub(crate) Child);
 
 impl Running {
     /// Sends SIGTERM.

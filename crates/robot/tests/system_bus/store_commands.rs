@@ -83,7 +83,7 @@ fn a_person_can_decide_about_the_tentative_machine() {
 fn an_empty_store_has_an_exit_status_of_its_own() {
     let folder = empty_store("empty");
     let outside = Outside::new("empty-store");
-    let output = run(&folder, &["drive", "--config", &outside.config], &[]);
+    let output = run(&folder, &["drive", "--config", &outside.files.config], &[]);
     assert_eq!(output.status.code(), Some(3));
     assert!(text(output.stderr).contains("vibrissa push"));
     assert_eq!(text(run(&folder, &["status"], &[]).stdout), "good:      none\n");

@@ -27,11 +27,11 @@ fn a_tentative_machine_that_crashes_is_replaced_by_the_old_one_at_the_next_start
     let server = Server::start();
     let outside = Outside::new("crash");
     let folder = store("crash");
-    let mut child = outside.drive_store(&server, &folder, NEVER);
+    let mut child = outside.files.drive_store(&server, &folder, NEVER);
     outside.wait_for(|packet| !packet.is_stop && packet.command.velocity_world.norm() > 0.0);
     child.kill();
     assert_eq!(state(&folder).tentative, Some(Tentative { hash: hash(2), starts: 1 }));
-    let mut child = outside.drive_store(&server, &folder, NEVER);
+    let mut child = outside.files.drive_store(&server, &folder, NEVER);
     wait_for(&folder, |state| state.tentative.is_none());
     let now = state(&folder);
     assert_eq!((now.good, now.rejected.unwrap().hash), (Some(hash(1)), hash(2)));
@@ -47,7 +47,7 @@ fn a_tentative_machine_that_runs_without_a_stop_is_good_also_after_a_crash() {
     let server = Server::start();
     let outside = Outside::new("good");
     let folder = store("good");
-    let mut child = outside.drive_store(&server, &folder, "1");
+    let mut child = outside.files.drive_store(&server, &folder, "1");
     let watched = folder.clone();
     let waiting = std::thread::spawn(move || wait_for(&watched, |state| state.good == Some(hash(2))));
     // The commands must be acknowledged meanwhile.
@@ -62,7 +62,7 @@ fn a_tentative_machine_that_runs_without_a_stop_is_good_also_after_a_crash() {
 fn a_device_that_cannot_be_used_is_not_the_fault_of_the_machine() {
     let outside = Outside::new("no-bus");
     let folder = store("no-bus");
-    let output = run(&folder, &["drive", "--config", &outside.config], &[]);
+    let output = run(&folder, &["drive", "--config", &outside.files.config], &[]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(state(&folder).tentative, Some(Tentative { hash: hash(2), starts: 0 }));
 }
@@ -71,7 +71,7 @@ fn a_device_that_cannot_be_used_is_not_the_fault_of_the_machine() {
 fn a_machine_that_does_not_fit_the_rig_is_given_up() {
     let outside = Outside::new("other-rig");
     let folder = store("other-rig");
-    let text = std::fs::read_to_string(&outside.config).unwrap();
+    let text = std::fs::read_to_string(&outside.files.config).unwrap();
     let whisker = |name: &str| format!("{name}: {{base: [0 mm, 20 mm], direction: 90 deg}}");
     let rig = format!("rig: {{whiskers: {{{}, {}}}}}\n", whisker("a"), whisker("b"));
     let config = scratch().join("other-whiskers.yaml");

@@ -1,0 +1,26 @@
+//! Telemetry: topics, payloads, and the sink that publishes the loop's records.
+//!
+//! [`Topic`] and the payloads need no MQTT client, so that other programs can use them. docs/telemetry.md describes them.
+
+#[cfg(feature = "mqtt")]
+mod outbox;
+mod payload;
+#[cfg(feature = "mqtt")]
+mod publisher;
+#[cfg(feature = "mqtt")]
+mod telemetry_sink;
+mod topic;
+#[cfg(feature = "mqtt")]
+mod translator;
+
+#[cfg(feature = "mqtt")]
+pub use outbox::Outbox;
+pub use payload::{
+    BusSamples, CommandLog, Dropped, Durations, Fault, FaultNote, Health, Latency, MissedPeriods, Motion, Numbered,
+    OFFLINE, ONLINE, PerceivedWhisker, Perception, Pose, Samples, SentPacket, State, VERSION, WhiskerSamples,
+};
+#[cfg(feature = "mqtt")]
+pub use publisher::Publisher;
+#[cfg(feature = "mqtt")]
+pub use telemetry_sink::TelemetrySink;
+pub use topic::Topic;
