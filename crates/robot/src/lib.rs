@@ -14,6 +14,7 @@
 //! Each task is a step function of the time. On a robot, `realtime` threads call it. In the `emulation`, a scheduler
 //! calls it in emulated time, with emulated sensors on emulated buses.
 
+pub mod admission;
 pub mod array;
 pub mod config;
 pub mod drive;
