@@ -24,6 +24,8 @@ pub mod histogram;
 pub mod link;
 #[cfg(feature = "program")]
 pub mod program;
+#[cfg(feature = "recording")]
+pub mod recording;
 #[cfg(feature = "store")]
 pub mod store;
 pub mod vitals;

@@ -1,0 +1,4 @@
+//! Tests of recordings.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test may panic and open files")]
+
+mod schema;
