@@ -242,7 +242,8 @@ impl Config {
             timeouts: Timeouts::default(),
             responses: Responses::default(),
             actuator: ActuatorConfig::DryRun,
-            pose: PoseConfig { source: PoseSource::Mqtt {}, latency: 0.0 },
+            // Nobody listens there. The emulation has the poses.
+            pose: PoseConfig { source: PoseSource::Udp { listen: ([127, 0, 0, 1], 9751).into() }, latency: 0.0 },
             mqtt: None,
             record: None,
         }

@@ -49,7 +49,9 @@ impl<R: Read> PartReader<R> {
         let mcap = LinearReader::new_with_options(options);
         let mut items = Items { input, mcap, channels: HashMap::new(), is_cut: false };
         let (mut identity, mut attachments, mut first) = (None, HashMap::new(), None);
-        while let (None, Some(item)) = (&first, items.next_item()?) {
+        while first.is_none()
+            && let Some(item) = items.next_item()?
+        {
             match item {
                 Item::Identity(entries) => identity = Some(entries),
                 Item::Attachment(Attachment { name, data }) => {
