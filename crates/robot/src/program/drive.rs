@@ -17,6 +17,7 @@ use super::command_line::print_error;
 use super::event_log::EventLog;
 use super::machine_run::MachineRun;
 use super::real_time::RealTime;
+use super::recorder::recorder;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
@@ -68,12 +69,13 @@ const ALIVE_NS: u64 = 500_000_000;
 const FAREWELL: Duration = Duration::from_millis(100);
 
 pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
-    let config = read_config(&arguments.config)?;
+    let (config, config_text) = read_config(&arguments.config)?;
     let (artifact, mut run) = match &arguments.machine {
         Some(path) => (read_machine(path)?, MachineRun::of_file()),
         None => MachineRun::of_store(&arguments.store)?,
     };
-    let result = drive_by(artifact, &mut run, config, arguments);
+    let recorder = recorder(&config, config_text, &artifact)?;
+    let result = drive_by(artifact, &mut run, config, recorder, arguments);
     run.end();
     result
 }
@@ -82,6 +84,7 @@ fn drive_by(
     artifact: Artifact,
     run: &mut MachineRun,
     config: Config,
+    recorder: Option<Recorder>,
     arguments: &DriveArguments,
 ) -> Result<ExitCode, Error> {
     let program = Arc::new(artifact.program);
@@ -109,6 +112,7 @@ fn drive_by(
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
     let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog)];
     sinks.extend(run.good_after(ticks(arguments.good_after, config.rig.sensing.control_rate)));
+    sinks.extend(recorder.map(|recorder| Box::new(recorder) as Box<dyn RecordSink>));
     let robot = Robot { config, control, buses, actuator, poses, sinks, clock };
     let threads = robot.start()?;
     print_error(&format!(
@@ -204,10 +208,12 @@ fn summary(vitals: &Vitals, buses: usize) -> Vec<String> {
     lines
 }
 
-pub(super) fn read_config(path: &Path) -> Result<Config, Error> {
+/// The configuration and its text.
+pub(super) fn read_config(path: &Path) -> Result<(Config, String), Error> {
     let bytes = read(path, CONFIG_LIMIT)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{} is not UTF-8 text", path.display()))?;
-    Ok(Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?)
+    let config = Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok((config, text))
 }
 
 fn read_machine(path: &Path) -> Result<Artifact, Error> {

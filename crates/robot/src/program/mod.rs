@@ -7,6 +7,7 @@ mod event_log;
 mod machine_run;
 mod real_time;
 mod receive;
+mod recorder;
 mod sensors;
 mod status;
 mod store_options;

@@ -1,13 +1,15 @@
 //! The program under test, and the actuator and localisation around it.
 
+use std::fs::File;
 use std::net::{SocketAddr, UdpSocket};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use vibrissa_robot::link::{CommandPacket, PosePacket};
+use vibrissa_robot::recording::{Recording, Replayed, replay};
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use crate::server::{Server, scratch, shim};
@@ -26,6 +28,7 @@ pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
 pub(crate) struct Outside {
     pub(crate) config: String,
     machine: String,
+    recordings: PathBuf,
     actuator: UdpSocket,
     are_poses_paused: Arc<AtomicBool>,
     has_ended: Arc<AtomicBool>,
@@ -38,6 +41,8 @@ impl Outside {
         // The program binds this port after it has been released here.
         let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
         let config = scratch().join(format!("{name}.yaml"));
+        let recordings = scratch().join(format!("{name}-recordings"));
+        let _ = std::fs::remove_dir_all(&recordings);
         let text = format!(
             "name: test\n\
              buses:\n\
@@ -46,8 +51,10 @@ impl Outside {
              limits: {{speed: 0.2 m/s, yaw_rate: 1 rad/s}}\n\
              timeouts: {{bus: 80 ms, sensor: 80 ms, pose: 120 ms, control: 120 ms, link: 160 ms}}\n\
              actuator: {{udp: {{address: '{}'}}}}\n\
-             pose: {{udp: {{listen: '{poses}'}}}}\n",
-            actuator.local_addr().unwrap()
+             pose: {{udp: {{listen: '{poses}'}}}}\n\
+             record: {{directory: '{}'}}\n",
+            actuator.local_addr().unwrap(),
+            recordings.display()
         );
         std::fs::write(&config, text).unwrap();
         let machine = scratch().join(format!("{name}.machine"));
@@ -55,6 +62,7 @@ impl Outside {
         let outside = Self {
             config: config.display().to_string(),
             machine: machine.display().to_string(),
+            recordings,
             actuator,
             are_poses_paused: Arc::default(),
             has_ended: Arc::default(),
@@ -76,6 +84,13 @@ impl Outside {
         // The emulated bus is slower than a real one, so its clock is not measured.
         let arguments = [&["drive", "--config", &self.config, "--skip-admission"], machine].concat();
         Running(program(server, &arguments).stderr(Stdio::inherit()).spawn().unwrap())
+    }
+
+    /// The replay of the recording of the run.
+    pub(crate) fn replay(&self) -> Replayed {
+        let files =
+            std::fs::read_dir(&self.recordings).unwrap().map(|entry| File::open(entry.unwrap().path()).unwrap());
+        replay(Recording::open(files).unwrap()).unwrap()
     }
 
     pub(crate) fn pause_poses(&self, is_paused: bool) {
