@@ -5,43 +5,43 @@ use std::io::Read;
 
 use super::channel::{Channel, Message};
 use super::error::ReadError;
-use super::part_reader::PartReader;
+use super::part::Part;
 use super::setup::{PART, Setup};
 
 /// A recorded run. Its parts are read one after the other.
 pub struct Recording<R> {
     setup: Setup,
     identity: BTreeMap<String, String>,
-    parts: VecDeque<PartReader<R>>,
+    parts: VecDeque<Part<R>>,
     is_cut: bool,
     /// The next sequence number of each channel.
     sequences: [u32; Channel::ALL.len()],
 }
 
 impl<R: Read> Recording<R> {
-    /// Opens the parts of a run, which may be in any order.
+    /// Joins the files of a run, which may be in any order.
     ///
     /// # Errors
-    /// [`ReadError`] if a file is no recording, or if the files belong to different runs.
-    pub fn open(files: impl IntoIterator<Item = R>) -> Result<Self, ReadError> {
-        let mut setups = Vec::new();
-        let mut parts = Vec::new();
-        for file in files {
-            let (setup, part) = PartReader::open(file)?;
-            setups.push(setup);
-            parts.push(part);
-        }
-        let mut identities = parts.iter().map(|part| of_run(part.identity()));
-        let identity = identities.next().ok_or(ReadError::Empty)?;
-        if identities.any(|other| other != identity) {
-            return Err(ReadError::OtherRun);
-        }
-        let setup = setups.pop().ok_or(ReadError::Empty)?;
+    /// [`ReadError`] if there is no file, or if the files belong to different runs.
+    pub fn join(mut parts: Vec<Part<R>>) -> Result<Self, ReadError> {
         parts.sort_by_key(number);
         if let Some(part) = parts.windows(2).find_map(|pair| same_number(pair)) {
             return Err(ReadError::Twice { part });
         }
+        let first = parts.first().ok_or(ReadError::Empty)?;
+        let (setup, identity) = (first.setup().clone(), of_run(first.identity()));
+        if parts.iter().any(|part| of_run(part.identity()) != identity) {
+            return Err(ReadError::OtherRun);
+        }
         Ok(Self { setup, identity, parts: parts.into(), is_cut: false, sequences: [0; Channel::ALL.len()] })
+    }
+
+    /// Opens a run in one file.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it is no recording that this program can replay.
+    pub fn open(file: R) -> Result<Self, ReadError> {
+        Self::join(vec![Part::open(file)?])
     }
 
     /// The machine and the configuration.
@@ -100,12 +100,12 @@ fn of_run(identity: &BTreeMap<String, String>) -> BTreeMap<String, String> {
     identity
 }
 
-fn number<R: Read>(part: &PartReader<R>) -> u32 {
+fn number<R: Read>(part: &Part<R>) -> u32 {
     part.identity().get(PART).and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 /// The number that two neighbouring parts share.
-fn same_number<R: Read>(pair: &[PartReader<R>]) -> Option<u32> {
+fn same_number<R: Read>(pair: &[Part<R>]) -> Option<u32> {
     let [first, second] = pair else { return None };
     (number(first) == number(second)).then(|| number(first))
 }

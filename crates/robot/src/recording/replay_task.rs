@@ -78,7 +78,8 @@ impl ReplayTask {
         }
         self.vitals.is_stopped.store(step.is_paused, Ordering::Release);
         let now = || step.started_ns;
-        let stepped = self.task.step(step.due_ns, step.last_slot, step.origin_ns, now, |_, _, _| {});
+        let task = &mut self.task;
+        let stepped = self.vitals.guard(|| task.step(step.due_ns, step.last_slot, step.origin_ns, now, |_, _, _| {}));
         while self.commands.pop().is_ok() {}
         let mut tick = None;
         while let Some(record) = self.records.next_record() {
@@ -87,9 +88,10 @@ impl ReplayTask {
             }
         }
         Ok(match (stepped, tick) {
-            (Err(fault), _) => Stepped::Ended(fault.to_string()),
-            (Ok(_), Some(report)) => Stepped::Tick(report),
-            (Ok(_), None) => Stepped::Zeroing,
+            (None, _) => Stepped::Ended("a panic".to_owned()),
+            (Some(Err(fault)), _) => Stepped::Ended(fault.to_string()),
+            (Some(Ok(_)), Some(report)) => Stepped::Tick(report),
+            (Some(Ok(_)), None) => Stepped::Zeroing,
         })
     }
 

@@ -29,7 +29,7 @@ fn made(kind: InjectionKind) -> Vec<u8> {
     let injection = Injection { at_ms: 600, for_ms: 150, kind, part: 0 };
     let settings = Settings { injections: vec![injection], ..Settings::default() };
     let file = written(&settings, &records(&settings, 4000));
-    let open = || Recording::open([file.as_slice()]).unwrap();
+    let open = || Recording::open(file.as_slice()).unwrap();
     let stop_ns = first_stop(open()).unwrap().unwrap();
     keep(open(), stop_ns + 500 * MS, Vec::new()).unwrap().0
 }
@@ -45,7 +45,7 @@ fn every_kept_recording_replays_bit_for_bit() {
     for entry in fs::read_dir(folder()).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "mcap") {
-            let recording = Recording::open([BufReader::new(File::open(&path).unwrap())]).unwrap();
+            let recording = Recording::open(BufReader::new(File::open(&path).unwrap())).unwrap();
             let result = replay(recording).unwrap();
             assert_eq!(result.difference, None, "{}", path.display());
             assert!(result.ticks > 0 && !result.is_cut, "{}", path.display());

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use vibrissa_robot::config::RecordConfig;
 use vibrissa_robot::drive::{LoopRecord, RecordSink};
 use vibrissa_robot::emulation::Settings;
-use vibrissa_robot::recording::{ReadError, Recorder, Recording, Replayed, WriteError, replay};
+use vibrissa_robot::recording::{Part, ReadError, Recorder, Recording, Replayed, WriteError, replay};
 use vibrissa_robot::vitals::Vitals;
 
 use super::recording::{origin, records, setup, written};
@@ -50,7 +50,8 @@ fn total(directory: &Path) -> u64 {
 }
 
 fn replayed(files: &[PathBuf]) -> Result<Replayed, ReadError> {
-    replay(Recording::open(files.iter().map(|file| File::open(file).unwrap()))?)
+    let parts = files.iter().map(|file| Part::open(File::open(file).unwrap())).collect::<Result<_, _>>()?;
+    replay(Recording::join(parts)?)
 }
 
 #[test]
@@ -62,7 +63,7 @@ fn a_run_in_several_parts_replays_as_the_run_in_one_file() {
     recorder.finish();
     let mut parts = files(folder.path());
     assert!(parts.len() > 1 && warnings.lock().unwrap().is_empty(), "{parts:?}");
-    let whole = replay(Recording::open([written(&settings, &records).as_slice()]).unwrap()).unwrap();
+    let whole = replay(Recording::open(written(&settings, &records).as_slice()).unwrap()).unwrap();
     parts.reverse();
     assert_eq!(replayed(&parts).unwrap(), whole);
     assert!(whole.difference.is_none() && whole.steps > 550);

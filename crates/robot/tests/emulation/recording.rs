@@ -40,5 +40,5 @@ pub(crate) fn written(settings: &Settings, records: &[LoopRecord]) -> Vec<u8> {
 
 /// The replay of a recording in one file.
 pub(crate) fn replayed(file: &[u8]) -> Result<Replayed, ReadError> {
-    replay(Recording::open([file])?)
+    replay(Recording::open(file)?)
 }

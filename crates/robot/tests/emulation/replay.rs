@@ -119,7 +119,7 @@ fn a_kept_recording_ends_after_the_stop_and_has_its_whole_past() {
     let injection = Injection { at_ms: 800, for_ms: 300, kind: InjectionKind::BrownOut, part: 0 };
     let settings = Settings { injections: vec![injection], ..Settings::default() };
     let file = written(&settings, &records(&settings, 6000));
-    let open = || Recording::open([file.as_slice()]).unwrap();
+    let open = || Recording::open(file.as_slice()).unwrap();
     let stop_ns = first_stop(open()).unwrap().unwrap();
     let (bytes, kept) = keep(open(), stop_ns + 500 * MS, Vec::new()).unwrap();
     let result = replayed(&bytes).unwrap();
@@ -130,9 +130,9 @@ fn a_kept_recording_ends_after_the_stop_and_has_its_whole_past() {
         changes[..2],
         [FaultChange::Detected, FaultChange::Reacted].map(|change| (FaultKind::SensorLost, change))
     );
-    assert_eq!(first_stop(Recording::open([bytes.as_slice()]).unwrap()).unwrap(), Some(stop_ns));
+    assert_eq!(first_stop(Recording::open(bytes.as_slice()).unwrap()).unwrap(), Some(stop_ns));
     // A kept recording can be kept again.
-    let (again, _) = keep(Recording::open([bytes.as_slice()]).unwrap(), stop_ns, Vec::new()).unwrap();
+    let (again, _) = keep(Recording::open(bytes.as_slice()).unwrap(), stop_ns, Vec::new()).unwrap();
     assert_eq!(replayed(&again).unwrap().difference, None);
 }
 
@@ -140,5 +140,5 @@ fn a_kept_recording_ends_after_the_stop_and_has_its_whole_past() {
 fn a_run_without_a_stop_has_no_first_stop() {
     let settings = Settings::default();
     let file = written(&settings, &records(&settings, 2000));
-    assert_eq!(first_stop(Recording::open([file.as_slice()]).unwrap()).unwrap(), None);
+    assert_eq!(first_stop(Recording::open(file.as_slice()).unwrap()).unwrap(), None);
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use vibrissa_robot::link::{CommandPacket, PosePacket};
-use vibrissa_robot::recording::{Recording, Replayed, replay};
+use vibrissa_robot::recording::{Part, Recording, Replayed, replay};
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use crate::server::{Server, scratch, shim};
@@ -88,9 +88,9 @@ impl Outside {
 
     /// The replay of the recording of the run.
     pub(crate) fn replay(&self) -> Replayed {
-        let files =
-            std::fs::read_dir(&self.recordings).unwrap().map(|entry| File::open(entry.unwrap().path()).unwrap());
-        replay(Recording::open(files).unwrap()).unwrap()
+        let files = std::fs::read_dir(&self.recordings).unwrap();
+        let parts = files.map(|entry| Part::open(File::open(entry.unwrap().path()).unwrap()).unwrap()).collect();
+        replay(Recording::join(parts).unwrap()).unwrap()
     }
 
     pub(crate) fn pause_poses(&self, is_paused: bool) {

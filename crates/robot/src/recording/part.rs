@@ -1,4 +1,4 @@
-//! The reader of one MCAP file.
+//! One file of a recording.
 
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
@@ -16,8 +16,9 @@ use super::setup::{self, FORMAT, KIND, Setup, sha256};
 /// Largest record (bytes) that is read. A damaged length must not use up the memory.
 const RECORD_LIMIT: usize = 64 << 20;
 
-/// Reads one MCAP file up to its end, or up to the last complete chunk if its end is missing.
-pub(super) struct PartReader<R> {
+/// A file of a recording. It is read up to its end, or up to the last complete chunk if its end is missing.
+pub struct Part<R> {
+    setup: Setup,
     items: Items<R>,
     identity: BTreeMap<String, String>,
     /// The first message, which was read to find the end of the header.
@@ -39,9 +40,12 @@ enum Item {
     Message(Message),
 }
 
-impl<R: Read> PartReader<R> {
+impl<R: Read> Part<R> {
     /// Reads the header of a file.
-    pub(super) fn open(input: R) -> Result<(Setup, Self), ReadError> {
+    ///
+    /// # Errors
+    /// [`ReadError`] if it is no recording that this program can replay.
+    pub fn open(input: R) -> Result<Self, ReadError> {
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
             .with_validate_data_section_crc(true)
@@ -67,7 +71,12 @@ impl<R: Read> PartReader<R> {
         };
         check(&identity)?;
         let setup = read_setup(attachments, &identity)?;
-        Ok((setup, Self { items, identity, first }))
+        Ok(Self { setup, items, identity, first })
+    }
+
+    /// The machine and the configuration.
+    pub(super) fn setup(&self) -> &Setup {
+        &self.setup
     }
 
     /// The metadata.
