@@ -25,6 +25,7 @@ use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, PoseSource};
 use crate::drive::RecordSink;
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, UdpActuator, UdpPoses};
+use crate::recording::Recorder;
 use crate::store::DEFAULT_STORE;
 use crate::vitals::{Phase, Vitals};
 

@@ -56,13 +56,13 @@ pub struct Origin {
 }
 
 impl Setup {
-    /// The setup of a run by the artifact `machine`. `configuration_text` is the file that `config` was read from, if
-    /// there is one.
+    /// The setup of a run by an artifact. `configuration_text` is the file that `config` was read from, if there is one.
     ///
     /// # Errors
     /// [`SetupError`] if the artifact is not valid, or if a path of the configuration is not UTF-8 text.
-    pub fn new(config: Config, configuration_text: Option<String>, machine: Vec<u8>) -> Result<Self, SetupError> {
-        let program = Arc::new(Artifact::from_bytes(&machine)?.program);
+    pub fn new(config: Config, configuration_text: Option<String>, artifact: Artifact) -> Result<Self, SetupError> {
+        let machine = artifact.to_bytes()?;
+        let program = Arc::new(artifact.program);
         let configuration = config.to_json()?;
         Ok(Self { config, configuration, configuration_text, machine, program })
     }

@@ -12,7 +12,6 @@ use vibrissa_robot::recording::{Part, ReadError, Recorder, Recording, Replayed, 
 use vibrissa_robot::vitals::Vitals;
 
 use super::recording::{origin, records, setup, written};
-use super::robot::MS;
 
 /// A recorder, and its warnings.
 fn recorder(directory: &Path, limit_mb: u64) -> (Recorder, Arc<Mutex<Vec<String>>>) {
@@ -182,5 +181,4 @@ fn files_of_the_user_in_the_directory_stay() {
     recorder.finish();
     assert!(mine.exists() && warnings.lock().unwrap().is_empty());
     assert!(total(folder.path()) - 2_000_000 <= 1_000_000);
-    let _ = MS;
 }

@@ -6,6 +6,8 @@ use vibrissa_robot::drive::LoopRecord;
 use vibrissa_robot::emulation::Settings;
 use vibrissa_robot::recording::{Origin, ReadError, Recording, RecordingWriter, Replayed, Setup, replay};
 
+use vibrissa_runtime::machine::Artifact;
+
 use super::robot::{MACHINE, MS, config, robot};
 
 /// The records of a run with these settings, until a time (ms).
@@ -21,7 +23,8 @@ pub(crate) fn records(settings: &Settings, until_ms: u64) -> Vec<LoopRecord> {
 }
 
 pub(crate) fn setup(settings: &Settings) -> Setup {
-    Setup::new(config(settings), Some("name: emulated".to_owned()), MACHINE.to_vec()).unwrap()
+    let artifact = Artifact::from_bytes(MACHINE).unwrap();
+    Setup::new(config(settings), Some("name: emulated".to_owned()), artifact).unwrap()
 }
 
 pub(crate) fn origin() -> Origin {

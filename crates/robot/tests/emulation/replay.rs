@@ -50,7 +50,7 @@ proptest! {
         // Rounds after the last step are not part of the recording.
         let mut rounds: Vec<_> = rounds.collect();
         let taken = rounds.len() - 40;
-        let round = &mut rounds[place.index(taken)];
+        let round = &mut *rounds[place.index(taken)];
         let reading = &mut round.readings[board % usize::from(round.count)];
         prop_assume!(reading.raw.length > 0);
         reading.raw.bytes[bit as usize / 8] ^= 1 << (bit % 8);
@@ -88,11 +88,11 @@ fn recording_changes_no_bit_of_a_command() {
 fn a_changed_command_is_reported_with_its_field() {
     let settings = Settings::default();
     let mut records = records(&settings, 3000);
-    let ticks = records.iter_mut().filter_map(|record| match record {
+    let mut ticks = records.iter_mut().filter_map(|record| match record {
         LoopRecord::Tick(tick) => Some(tick),
         _ => None,
     });
-    let tick = ticks.skip(10).next().unwrap();
+    let tick = ticks.nth(10).unwrap();
     let (time_ns, value) = (tick.started_ns, tick.command.velocity_world.x);
     tick.command.velocity_world.x = value.next_up();
     let difference = replayed(&written(&settings, &records)).unwrap().difference.unwrap();
