@@ -10,10 +10,7 @@ use super::LoadError;
 use crate::file::CommandFiles;
 
 /// Opens the files of a recorded run.
-pub(crate) fn recording(
-    paths: &[PathBuf],
-    files: &mut CommandFiles,
-) -> Result<Recording<BufReader<File>>, LoadError> {
+pub(crate) fn recording(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Recording<BufReader<File>>, LoadError> {
     let mut part = |path: &PathBuf| {
         let file = files.open(path).map_err(LoadError::read(path))?;
         Part::open(BufReader::new(file)).map_err(LoadError::recording(path))
