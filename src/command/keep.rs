@@ -35,7 +35,7 @@ pub(super) struct KeepArguments {
 
 pub(super) fn keep(arguments: &KeepArguments) -> Result<Exit, Failure> {
     let paths = &arguments.recording;
-    let named = paths.first().map(PathBuf::as_path).unwrap_or_default();
+    let named = paths.first().map_or(Path::new(""), PathBuf::as_path);
     let mut files = CommandFiles::new();
     let recording = load::recording(paths, &mut files)?;
     let file = files.output("--out", &arguments.out.clone().unwrap_or_else(|| kept_name(named)))?;

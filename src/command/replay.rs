@@ -1,6 +1,6 @@
 //! `vibrissa replay`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use vibrissa_robot::recording;
@@ -29,7 +29,7 @@ pub(super) struct ReplayArguments {
 
 pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
     let paths = &arguments.recording;
-    let named = paths.first().map(PathBuf::as_path).unwrap_or_default();
+    let named = paths.first().map_or(Path::new(""), PathBuf::as_path);
     let recording = load::recording(paths, &mut CommandFiles::new())?;
     let identity = recording.identity().clone();
     let replayed = recording::replay(recording).map_err(LoadError::recording(named))?;
