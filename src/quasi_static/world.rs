@@ -123,6 +123,8 @@ impl QuasiStaticWorld {
             let base = Pose { position, heading: body.heading + part.direction_body };
             whisker.follow(base, self.period, &self.surfaces, limit).map_err(|error| match error {
                 EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit },
+                // The base is a part of the platform.
+                EquilibriumError::PassedThrough(depth) => Fault::Crash { time, depth },
                 EquilibriumError::NotConverged => {
                     Fault::Diverged { time, cause: "the equilibrium of a whisker did not converge; reduce the speed" }
                 }

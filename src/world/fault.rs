@@ -30,7 +30,8 @@ pub enum Fault {
         /// Permitted penetration depth (m).
         limit: f64,
     },
-    /// The platform was driven into an object. The cause is the policy, not the simulation.
+    /// The platform was driven into an object, or the base of a whisker through one. The cause is the policy, not the
+    /// simulation.
     #[error(
         "the platform penetrated the object by {:.3} mm at {time:.3} s; make the policy keep a distance from it", depth * 1e3
     )]
