@@ -9,9 +9,10 @@
 //! | supervision | looks for faults, limits and sends commands: [`drive::Supervisor`] | 100 Hz |
 //!
 //! The threads share [`vitals::Vitals`], which are atomic, and queues without locks. None of them allocates memory or waits
-//! for another one. So the supervisor stops the robot within 100 ms, whichever part fails.
+//! for another one. So the supervisor stops the robot within 100 ms, whichever part fails. Another thread, with ordinary
+//! priority, passes the records of the loop to every [`drive::RecordSink`].
 //!
-//! Each task is a step function of the time. On a robot, `realtime` threads call it. In the `emulation`, a scheduler
+//! Each task is a step function of the time. On a robot, the threads of `program` call it. In the `emulation`, a scheduler
 //! calls it in emulated time, with emulated sensors on emulated buses.
 
 pub mod array;
