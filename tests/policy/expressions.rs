@@ -6,6 +6,7 @@ use crate::common::{Feel, Script, run};
 use proptest::prelude::*;
 use vibrissa::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{Action, Turn};
+use vibrissa_runtime::math;
 
 /// An expression: its text, how tightly it binds, and its value.
 struct Shown<T> {
@@ -73,15 +74,15 @@ impl Grower<'_> {
             6 => shown(ATOM, format!("abs({})", a.text), a.value.abs()),
             7 => shown(ATOM, format!("sign({})", a.text), if a.value == 0.0 { 0.0 } else { a.value.signum() }),
             8 => shown(ATOM, format!("sqrt({})", a.text), a.value.sqrt()),
-            9 => shown(ATOM, format!("sin(({}) * 1 rad)", a.text), a.value.sin()),
-            10 => shown(ATOM, format!("cos(({}) * 1 rad)", a.text), a.value.cos()),
+            9 => shown(ATOM, format!("sin(({}) * 1 rad)", a.text), math::sin(a.value)),
+            10 => shown(ATOM, format!("cos(({}) * 1 rad)", a.text), math::cos(a.value)),
             11 => {
                 let v = self.vector(depth);
                 shown(ATOM, format!("|{}|", v.text), v.value.norm())
             }
             12 => {
                 let v = self.vector(depth);
-                shown(PRODUCT, format!("angle({}) / 1 rad", v.text), v.value.y.atan2(v.value.x))
+                shown(PRODUCT, format!("angle({}) / 1 rad", v.text), math::atan2(v.value.y, v.value.x))
             }
             13 => {
                 let (v, u) = (self.vector(depth), self.vector(depth));
@@ -99,7 +100,7 @@ impl Grower<'_> {
             20 => shown(ATOM, format!("tan(({}) * 1 rad)", a.text), tangent(a.value)),
             21 => shown(PRODUCT, format!("asin({}) / 1 rad", a.text), arc_sine(a.value)),
             22 => shown(PRODUCT, format!("acos({}) / 1 rad", a.text), arc_cosine(a.value)),
-            23 => shown(ATOM, format!("exp({})", a.text), a.value.exp()),
+            23 => shown(ATOM, format!("exp({})", a.text), math::exp(a.value)),
             24 => shown(ATOM, format!("floor({})", a.text), a.value.floor()),
             25 => shown(PRODUCT, format!("wrap(({}) * 1 rad) / 1 rad", a.text), wrap(a.value)),
             26 => {
@@ -149,7 +150,7 @@ impl Grower<'_> {
             }
             3 => {
                 let text = format!("direction(({}) * 1 rad)", a.text);
-                shown(ATOM, text, Vector2::new(a.value.cos(), a.value.sin()))
+                shown(ATOM, text, Vector2::new(math::cos(a.value), math::sin(a.value)))
             }
             4 => {
                 let b = self.number(depth);
@@ -213,15 +214,15 @@ impl Grower<'_> {
 
 // Not those of `f64`, which may round otherwise: the sine of a huge angle shows each rounding in all its digits.
 fn tangent(angle: f64) -> f64 {
-    angle.sin() / angle.cos()
+    math::sin(angle) / math::cos(angle)
 }
 
 fn arc_sine(x: f64) -> f64 {
-    x.atan2(((1.0 - x) * (1.0 + x)).sqrt())
+    math::atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())
 }
 
 fn arc_cosine(x: f64) -> f64 {
-    ((1.0 - x) * (1.0 + x)).sqrt().atan2(x)
+    math::atan2(((1.0 - x) * (1.0 + x)).sqrt(), x)
 }
 
 /// The lesser of two numbers, the second of two zeros; not a number if either is not.

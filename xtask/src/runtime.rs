@@ -12,7 +12,7 @@ use crate::standard_library::is_installed;
 /// The package.
 const PACKAGE: &str = "vibrissa-runtime";
 /// The direct dependencies that it may have. Each must build for small targets and need no system library.
-const ALLOWED: [&str; 7] = ["biquad", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
+const ALLOWED: [&str; 8] = ["biquad", "libm", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
 /// The targets that packages must build for: pages in a browser for the runtime, and microcontrollers without an operating
 /// system for the driver of the sensor. The Raspberry Pi has a check of its own.
 const BUILDS: [(&str, &str); 2] =

@@ -55,7 +55,7 @@
 //! | compiled policies | [`machine`] |
 //! | estimation of contacts | [`percept`], [`mechanics`] |
 //! | commands | [`motion`] |
-//! | basics | [`geometry`], [`units`] |
+//! | basics | [`geometry`], [`math`], [`units`] |
 //!
 //! Lengths are in metres, angles in radians, times in seconds and forces in newtons. Angles are positive
 //! counter-clockwise. The pages `docs/rig.md` and `docs/glossary.md` of the repository define frames, signs and terms.
@@ -64,6 +64,7 @@ pub mod calibration;
 pub mod control;
 pub mod geometry;
 pub mod machine;
+pub mod math;
 pub mod mechanics;
 pub mod motion;
 pub mod percept;

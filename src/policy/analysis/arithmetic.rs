@@ -1,5 +1,7 @@
 //! Interval arithmetic.
 
+use vibrissa_runtime::math;
+
 use super::interval::{Interval, SLACK};
 
 impl Interval {
@@ -116,7 +118,7 @@ impl Interval {
     }
 
     pub(super) fn exponential(self) -> Self {
-        let Self { low, high, .. } = self.rising(f64::exp).widened();
+        let Self { low, high, .. } = self.rising(math::exp).widened();
         Self { low: low.max(0.0), high, nan: self.nan }
     }
 

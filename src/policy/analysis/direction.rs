@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use vibrissa_runtime::math;
+
 use crate::geometry::wrap;
 
 use super::interval::{Interval, SLACK};
@@ -13,11 +15,11 @@ const WRAP_SLACK: f64 = 1e-8;
 
 impl Interval {
     pub(super) fn sine(self) -> Self {
-        self.wave(f64::sin, FRAC_PI_2)
+        self.wave(math::sin, FRAC_PI_2)
     }
 
     pub(super) fn cosine(self) -> Self {
-        self.wave(f64::cos, 0.0)
+        self.wave(math::cos, 0.0)
     }
 
     /// The image under a wave of period 2π with its maximum 1 at `crest`.
@@ -82,7 +84,7 @@ impl Interval {
         }
         match (x.single(), y.single()) {
             // In the negative direction, the sign of zero decides between −π and π, and an interval does not know it.
-            (Some(x), Some(y)) if y != 0.0 || x > 0.0 => Self::point(y.atan2(x)),
+            (Some(x), Some(y)) if y != 0.0 || x > 0.0 => Self::point(math::atan2(y, x)),
             _ => Self { low: -PI, high: PI, nan: x.nan || y.nan },
         }
     }

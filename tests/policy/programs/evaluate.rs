@@ -4,6 +4,7 @@ use vibrissa::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{
     Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
 };
+use vibrissa_runtime::math;
 
 use super::interpreter::Interpreter;
 use super::tree::{Arguments, Derived, Expression, Law, Statement, Steer};
@@ -168,19 +169,19 @@ impl Interpreter<'_> {
             "sign" if number(0) == 0.0 => 0.0,
             "sign" => number(0).signum(),
             "sqrt" => number(0).sqrt(),
-            "exp" => number(0).exp(),
+            "exp" => math::exp(number(0)),
             "floor" => number(0).floor(),
-            "sin" => number(0).sin(),
-            "cos" => number(0).cos(),
+            "sin" => math::sin(number(0)),
+            "cos" => math::cos(number(0)),
             "min" => lesser(number(0), number(1)),
             "max" => greater(number(0), number(1)),
             "clamp" => lesser(greater(number(0), number(1)), number(2)),
             "wrap" => wrap(number(0)),
             "turn" => wrap(number(1) - number(0)),
-            "angle" => values[0].vector().y.atan2(values[0].vector().x),
+            "angle" => math::atan2(values[0].vector().y, values[0].vector().x),
             "dot" => values[0].vector().dot(&values[1].vector()),
             "cross" => values[0].vector().perp(&values[1].vector()),
-            "direction" => return Value::Vector(Vector2::new(number(0).cos(), number(0).sin())),
+            "direction" => return Value::Vector(Vector2::new(math::cos(number(0)), math::sin(number(0)))),
             "vector" => return Value::Vector(Vector2::new(number(0), number(1))),
             "rotate" => return Value::Vector(rotate(values[0].vector(), number(1))),
             "unit" => {

@@ -1,5 +1,7 @@
 //! What a `lowpass` and a `pid` remember.
 
+use vibrissa_runtime::math;
+
 /// What one of them remembers since its state was entered.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Filter {
@@ -16,7 +18,7 @@ impl Filter {
         let output = match self.computed_at {
             None => input,
             Some(before) => {
-                let share = -(-std::f64::consts::TAU * cutoff * (now - before)).exp_m1();
+                let share = -math::exp_m1(-std::f64::consts::TAU * cutoff * (now - before));
                 self.value + share * (input - self.value)
             }
         };

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::contact_set::ContactSet;
 use super::least_squares;
 use crate::geometry::Vector2;
+use crate::math;
 
 /// The order of the polynomial.
 const ORDER: usize = 5;
@@ -55,14 +56,14 @@ impl AngleSurface {
         }
         let reach = SQRT_2 * widest_mesh(&kept);
         let centre = positions.iter().sum::<Vector2>() / positions.len() as f64;
-        let scale = positions.iter().map(|position| (position - centre).norm()).fold(0.0, f64::max);
+        let scale = positions.iter().map(|position| (position - centre).norm()).fold(0.0, math::max);
         let positions = kept.into_iter().map(Into::into).collect();
         let mut surface =
             Self { centre: centre.into(), scale, coefficients: [0.0; COUNT], deviation: 0.0, reach, positions };
         let rows: Vec<_> =
             sets.iter().map(|set| (surface.basis(set.contact_base).map(|term| term[0]), set.base_angle, 1.0)).collect();
         surface.coefficients = least_squares::fit(&rows)?;
-        let square = |set: &ContactSet| (surface.at(set.contact_base).0 - set.base_angle).powi(2);
+        let square = |set: &ContactSet| math::square(surface.at(set.contact_base).0 - set.base_angle);
         surface.deviation = (sets.iter().map(square).sum::<f64>() / sets.len() as f64).sqrt();
         Some(surface)
     }
@@ -82,7 +83,7 @@ impl AngleSurface {
     /// True if the fit is valid at a position (m, frame of the base): between measured positions, or very near to one.
     #[must_use]
     pub fn contains(&self, position: Vector2) -> bool {
-        let (far, near) = (self.reach.powi(2), (APART / SQRT_2 * self.reach).powi(2));
+        let (far, near) = (math::square(self.reach), math::square(APART / SQRT_2 * self.reach));
         // The largest angles of other positions to the left and to the right of the first one, seen from the position.
         // Their sum is at least half a rotation if the position is in their convex hull.
         let mut seen: Option<(Vector2, f64, f64)> = None;
@@ -94,9 +95,9 @@ impl AngleSurface {
             }
             if square <= far {
                 let (first, left, right) = seen.get_or_insert((off, 0.0, 0.0));
-                let angle = first.perp(&off).atan2(first.dot(&off));
-                *left = left.max(angle);
-                *right = right.max(-angle);
+                let angle = math::atan2(first.perp(&off), first.dot(&off));
+                *left = math::max(*left, angle);
+                *right = math::max(*right, -angle);
                 if *left + *right >= PI {
                     return true;
                 }
@@ -147,14 +148,14 @@ fn widest_mesh(positions: &[Vector2]) -> f64 {
     while let Some(position) = newest {
         let mut nearest = (0, f64::INFINITY);
         for (index, (other, step)) in outside.iter_mut().enumerate() {
-            *step = step.min((*other - position).norm());
+            *step = math::min(*step, (*other - position).norm());
             if *step < nearest.1 {
                 nearest = (index, *step);
             }
         }
         newest = (!outside.is_empty()).then(|| outside.swap_remove(nearest.0).0);
         if newest.is_some() {
-            widest = widest.max(nearest.1);
+            widest = math::max(widest, nearest.1);
         }
     }
     widest

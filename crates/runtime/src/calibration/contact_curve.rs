@@ -6,6 +6,7 @@ use serde::Deserialize;
 use super::contact_set::ContactSet;
 use super::least_squares;
 use crate::geometry::Vector2;
+use crate::math;
 
 /// Coefficients of a polynomial of order five.
 const COUNT: usize = 6;
@@ -31,7 +32,7 @@ impl ContactCurve {
     #[must_use]
     pub fn fit(sets: &[(ContactSet, f64)]) -> Option<Self> {
         let angles = || sets.iter().map(|(set, _)| set.base_angle);
-        let range = [angles().fold(f64::INFINITY, f64::min), angles().fold(0.0, f64::max)];
+        let range = [angles().fold(f64::INFINITY, math::min), angles().fold(0.0, math::max)];
         let rows = |value: fn(&ContactSet) -> f64| -> Vec<_> {
             sets.iter().map(|(set, weight)| (powers(set.base_angle / range[1]), value(set), *weight)).collect()
         };

@@ -1,6 +1,7 @@
 //! Poses in the plane, and rotations of vectors.
 
 use super::{Point2, Vector2};
+use crate::math;
 
 /// The unit vector with the direction `angle` (rad, counter-clockwise from x).
 ///
@@ -10,14 +11,14 @@ use super::{Point2, Vector2};
 /// ```
 #[must_use]
 pub fn unit(angle: f64) -> Vector2 {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = math::sin_cos(angle);
     Vector2::new(cos, sin)
 }
 
 /// Rotates a vector counter-clockwise by `angle` (rad).
 #[must_use]
 pub fn rotate(vector: Vector2, angle: f64) -> Vector2 {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = math::sin_cos(angle);
     Vector2::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y)
 }
 

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::geometry::{Vector2, rotate, turn_between, unit, wrap};
+use crate::math;
 
 use super::action::{Action, Mover, Turn};
 use super::op::{Block, Op, Register, Wide};
@@ -44,9 +45,9 @@ pub(super) fn evaluate<S: Senses>(
             Op::Clamp { to, a, low, high } => {
                 file.put(to, minimum(maximum(file.at(a), file.at(low)), file.at(high)));
             }
-            Op::Sine { to, a } => file.put(to, file.at(a).sin()),
-            Op::Cosine { to, a } => file.put(to, file.at(a).cos()),
-            Op::Exponential { to, a } => file.put(to, file.at(a).exp()),
+            Op::Sine { to, a } => file.put(to, math::sin(file.at(a))),
+            Op::Cosine { to, a } => file.put(to, math::cos(file.at(a))),
+            Op::Exponential { to, a } => file.put(to, math::exp(file.at(a))),
             Op::Floor { to, a } => file.put(to, file.at(a).floor()),
             Op::Wrap { to, a } => file.put(to, wrap(file.at(a))),
             Op::Turn { to, a, b } => file.put(to, turn_between(file.at(a), file.at(b))),
@@ -75,7 +76,7 @@ pub(super) fn evaluate<S: Senses>(
             Op::Unit { to, a } => file.put_vector(to, file.vector(a).try_normalize(0.0).unwrap_or_default()),
             Op::Angle { to, a } => {
                 let vector = file.vector(a);
-                file.put(to, vector.y.atan2(vector.x));
+                file.put(to, math::atan2(vector.y, vector.x));
             }
             Op::Direction { to, a } => file.put_vector(to, direction(file.at(a))),
             Op::Rotate { to, a, b } => file.put_vector(to, rotate(file.vector(a), file.at(b))),

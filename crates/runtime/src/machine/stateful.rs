@@ -4,6 +4,8 @@
 //! the time since its last use, so late ticks are filtered correctly. A non-finite value appears in the result but does
 //! not change the memory.
 
+use crate::math;
+
 /// Started (1) or not (0), time of the last use (s), filtered value.
 type LowPassMemory = [f64; 3];
 /// Started (1) or not (0), time of the last use (s), integrated error, last error.
@@ -14,7 +16,7 @@ pub(super) fn low_pass(memory: LowPassMemory, now: f64, value: f64, cutoff: f64)
     let [started, before, filtered] = memory;
     let filtered = if started > 0.5 {
         // This step is exact for a value that is constant between two uses.
-        let share = -(-std::f64::consts::TAU * cutoff * (now - before)).exp_m1();
+        let share = -math::exp_m1(-std::f64::consts::TAU * cutoff * (now - before));
         filtered + share * (value - filtered)
     } else {
         value
@@ -43,6 +45,7 @@ pub(super) fn pid(memory: PidMemory, now: f64, error: f64, [p, i, d, limit]: [f6
 #[cfg(test)]
 mod tests {
     use super::{low_pass, pid};
+    use crate::math;
 
     #[test]
     fn a_step_passes_a_low_pass_filter_as_an_exponential_whatever_the_ticks() {
@@ -53,7 +56,7 @@ mod tests {
             now += passed;
             let filtered;
             (memory, filtered) = low_pass(memory, now, 1.0, 2.0);
-            assert!((filtered - (1.0 - (-std::f64::consts::TAU * 2.0 * now).exp())).abs() < 1e-12);
+            assert!((filtered - (1.0 - math::exp(-std::f64::consts::TAU * 2.0 * now))).abs() < 1e-12);
         }
     }
 

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use crate::geometry::unit;
+use crate::math;
 use crate::rig::Whisker;
 
 /// A whisker's shaft as a chain of rigid links with planar springs. The simulators use the same chain.
@@ -123,7 +124,7 @@ impl ShaftChain {
             for ((Shot { root: angle, hinge: moment, tip_base }, (_, force)), direction) in
                 shots.iter_mut().zip(unknowns).zip(directions)
             {
-                let (sin, cos) = angle.value.sin_cos();
+                let (sin, cos) = math::sin_cos(angle.value);
                 *tip_base += self.link_length * Vector2::new(cos, sin);
                 // The link's contribution to the lever, as a cross product with the force, and its derivative by the
                 // link's angle.

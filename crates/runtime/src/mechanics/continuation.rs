@@ -1,5 +1,7 @@
 //! Numerical continuation: tracing a solution from a known problem to another one.
 
+use crate::math;
+
 /// Smallest step of the continuation parameter.
 const LEAST_STRIDE: f64 = 1e-5;
 
@@ -11,7 +13,7 @@ const LEAST_STRIDE: f64 = 1e-5;
 pub(super) fn continuation<T>(start: T, solve: impl Fn(f64, &T) -> Option<T>) -> Result<T, T> {
     let (mut solution, mut done, mut stride) = (start, 0.0, 1.0_f64);
     while done < 1.0 {
-        let next = (done + stride).min(1.0);
+        let next = math::min(done + stride, 1.0);
         if let Some(found) = solve(next, &solution) {
             (solution, done, stride) = (found, next, 2.0 * stride);
         } else if stride > LEAST_STRIDE {

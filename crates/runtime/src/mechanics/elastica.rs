@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::geometry::{perpendicular, unit, wrap};
+use crate::math;
 use crate::rig::Whisker;
 
 use super::continuation::continuation;
@@ -55,7 +56,7 @@ impl Elastica {
         let (length, stiffness) = (whisker.shaft.length, whisker.shaft.bending_stiffness());
         Self {
             length,
-            force_unit: stiffness / length.powi(2),
+            force_unit: stiffness / math::square(length),
             hinge_compliance: stiffness / length / whisker.hinge.stiffness,
             taper: whisker.shaft.taper(),
         }
@@ -135,7 +136,7 @@ impl Elastica {
         } else {
             // A small force towards the base does not bend the straight shaft. The direction is rotated there once the
             // shaft is bent.
-            self.unbent(contact_length, force_direction.min(SIDEWAYS))
+            self.unbent(contact_length, math::min(force_direction, SIDEWAYS))
         };
         let from = Aim {
             contact: start.contact_length / self.length,
@@ -170,7 +171,7 @@ impl Elastica {
         let base_angle = self.hinge_compliance * shot.moment.value;
         let tip_angle = base_angle - shot.root.value;
         let force = load.force * self.force_unit;
-        let (across, along) = (load.angle - shot.root.value).sin_cos();
+        let (across, along) = math::sin_cos(load.angle - shot.root.value);
         let force_direction = load.angle + tip_angle;
         let (forward, left) = (unit(force_direction), perpendicular(unit(force_direction)));
         let contact_base = self.length * (shot.along.value * forward - shot.lever.value * left);

@@ -1,5 +1,7 @@
 //! An extrapolation method for smooth initial value problems, nearly to machine precision.
 
+use crate::math;
+
 /// Substeps of the columns. The midpoint rule with each of these is extrapolated to the substep zero (Gragg, Bulirsch
 /// and Stoer).
 const SUBSTEPS: [u32; 7] = [2, 4, 6, 8, 10, 12, 14];
@@ -31,8 +33,8 @@ pub(super) fn integrate<const N: usize>(
             t += now;
         }
         let order = (2 * SUBSTEPS.len() - 1) as f64;
-        let factor = 0.8 * (TOLERANCE / error.max(1e-20)).powf(order.recip());
-        step = (now * factor.clamp(0.1, 4.0)).min(GREATEST_STEP);
+        let factor = 0.8 * math::powf(TOLERANCE / math::max(error, 1e-20), order.recip());
+        step = math::min(now * factor.clamp(0.1, 4.0), GREATEST_STEP);
     }
     None
 }
@@ -60,8 +62,8 @@ fn extrapolated<const N: usize>(
     }
     let [.., before, best] = &row;
     let error = best.iter().zip(before).fold(0.0, |worst: f64, (best, before)| {
-        let off = (best - before).abs() / best.abs().max(1.0);
-        if off.is_nan() { f64::INFINITY } else { worst.max(off) }
+        let off = (best - before).abs() / math::max(best.abs(), 1.0);
+        if off.is_nan() { f64::INFINITY } else { math::max(worst, off) }
     });
     (*best, error)
 }

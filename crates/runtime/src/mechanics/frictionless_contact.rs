@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
 use crate::geometry::{perpendicular, unit};
+use crate::math;
 
 use super::elastica::Elastica;
 use super::shaft_shape::ShaftShape;
@@ -56,12 +57,12 @@ impl FrictionlessContact {
     pub(super) fn of(shape: &ShaftShape, elastica: &Elastica) -> Self {
         let length = shape.contact_length / elastica.length;
         let position = if length < 1.0 {
-            length.ln()
+            math::ln(length)
         } else {
             let from_against = PI - (shape.force_direction - shape.tip_angle);
-            FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0)
+            FRAC_PI_2 * math::max(math::ln(FRAC_PI_2 / from_against), 0.0)
         };
-        Self { position, force: (shape.force / elastica.force_unit).ln() }
+        Self { position, force: math::ln(shape.force / elastica.force_unit) }
     }
 
     /// An approximation of the contact with a base moment, and with the given ratio of shear to moment. It is that of a
@@ -70,21 +71,24 @@ impl FrictionlessContact {
     pub(super) fn about(moment: f64, ratio: f64, taper: f64) -> Self {
         let softer = taper * taper;
         if ratio >= 1.0 {
-            let contact = ratio.recip().min(softer / moment);
-            return Self { position: contact.ln(), force: (moment / contact).ln() };
+            let contact = math::min(ratio.recip(), softer / moment);
+            return Self { position: math::ln(contact), force: math::ln(moment / contact) };
         }
         // 1 − π² k² / 3 / (π² − k²) has the same value and slope at 0 and the same pole. Its error is at most 0.1 above
         // −1.
         let square = PI * PI * (1.0 - ratio) / (PI * PI / 3.0 + 1.0 - ratio);
         let k = square.sqrt();
-        let from_against = moment / (k * k.sin() * softer);
-        Self { position: FRAC_PI_2 * (FRAC_PI_2 / from_against).ln().max(0.0), force: (square * softer).ln() }
+        let from_against = moment / (k * math::sin(k) * softer);
+        Self {
+            position: FRAC_PI_2 * math::max(math::ln(FRAC_PI_2 / from_against), 0.0),
+            force: math::ln(square * softer),
+        }
     }
 
     /// The load at this contact.
     pub(super) fn load(self) -> Load {
-        let angle = PI - FRAC_PI_2 * (-self.position.max(0.0) / FRAC_PI_2).exp();
-        Load { contact: self.position.min(0.0).exp(), angle, force: self.force.exp() }
+        let angle = PI - FRAC_PI_2 * math::exp(-math::max(self.position, 0.0) / FRAC_PI_2);
+        Load { contact: math::exp(math::min(self.position, 0.0)), angle, force: math::exp(self.force) }
     }
 }
 
@@ -111,7 +115,7 @@ impl Elastica {
             by_position: angle_by_position - root.by_position,
             by_force: -root.by_force,
         };
-        let (sin, cos) = at_base.value.sin_cos();
+        let (sin, cos) = math::sin_cos(at_base.value);
         let turned = load.force * cos;
         Some(LoadedContact {
             contact,

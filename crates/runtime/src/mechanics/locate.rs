@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
+use crate::math;
+
 use super::continuation::continuation;
 use super::elastica::Elastica;
 use super::frictionless_contact::{FrictionlessContact, LoadedContact};
@@ -97,8 +99,8 @@ impl Elastica {
 
     /// The shape, bent to the left, with a moment and a shear at its base, in the units of [`Load`](super::shot::Load).
     fn find(&self, moment: f64, shear: f64, guess: &ShaftShape) -> Option<ShaftShape> {
-        let aim = Aim { moment: moment.ln(), ratio: shear / moment };
-        let is_absurd = moment.max(moment.recip()).max(aim.ratio.abs()) > ABSURD;
+        let aim = Aim { moment: math::ln(moment), ratio: shear / moment };
+        let is_absurd = math::max(math::max(moment, moment.recip()), aim.ratio.abs()) > ABSURD;
         if is_absurd || shear < -(LEAST_SHEAR.0 + LEAST_SHEAR.1 * moment * moment) {
             return None;
         }
@@ -106,7 +108,7 @@ impl Elastica {
         let contact = near.or_else(|| {
             let start = self.loaded(FrictionlessContact::about(moment, aim.ratio, self.taper))?;
             self.contact(aim, start.contact).or_else(|| {
-                let from = Aim { moment: start.moment.value.ln(), ratio: start.shear.value / start.moment.value };
+                let from = Aim { moment: math::ln(start.moment.value), ratio: start.shear.value / start.moment.value };
                 let between = |from: f64, to: f64, share: f64| (1.0 - share) * from + share * to;
                 let between_loads = |share: f64, near: &LoadedContact| {
                     let moment = between(from.moment, aim.moment, share);
@@ -125,7 +127,7 @@ impl Elastica {
             let LoadedContact { moment, shear, .. } = at(unknowns)?;
             let ratio = shear.value / moment.value;
             Some(Residual {
-                value: Vector2::new(moment.value.ln() - aim.moment, ratio - aim.ratio),
+                value: Vector2::new(math::ln(moment.value) - aim.moment, ratio - aim.ratio),
                 slope: Matrix2::new(
                     moment.by_position / moment.value,
                     moment.by_force / moment.value,

@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::math;
+
 /// Maximum number of steps.
 const STEPS: usize = 25;
 /// Relative change of the unknowns at which the iteration has converged, because the next change is about its square.
@@ -35,11 +37,11 @@ pub(super) fn solve(
             continue;
         };
         let step = slope.lu().solve(&value)?;
-        let change = step.component_div(&unknowns.map(|unknown| unknown.abs().max(1.0))).amax();
+        let change = step.component_div(&unknowns.map(|unknown| math::max(unknown.abs(), 1.0))).amax();
         if !change.is_finite() {
             return None;
         }
-        last = step * (reach / change).min(1.0);
+        last = step * math::min(reach / change, 1.0);
         let before = unknowns;
         unknowns -= last;
         let has_crossed = before.zip_map(&unknowns, |before, now| before.is_sign_negative() != now.is_sign_negative());

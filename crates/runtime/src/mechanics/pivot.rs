@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector2;
 
+use crate::math;
 use crate::rig::Whisker;
 
 /// A whisker's shaft under a force perpendicular to it, as from a frictionless corner. The closed form takes some ten
@@ -51,7 +52,7 @@ impl Pivot {
         let bending_angle = self.bending_angle(base_angle, contact_length)?;
         let (along, across) = lever(bending_angle);
         let scale = contact_length / along_the_shaft(bending_angle);
-        let (sin, cos) = (base_angle.abs() + bending_angle).sin_cos();
+        let (sin, cos) = math::sin_cos(base_angle.abs() + bending_angle);
         let contact_base = scale * Vector2::new(along * cos + across * sin, along * sin - across * cos);
         Some(Vector2::new(contact_base.x, base_angle.signum() * contact_base.y))
     }
@@ -70,25 +71,25 @@ impl Pivot {
     /// (rad).
     fn bending_angle(&self, base_angle: f64, contact_length: f64) -> Option<f64> {
         let turn = contact_length * base_angle.abs() / self.softened_compliance(contact_length);
-        let mut bending_angle = (0.5 * turn).max(f64::EPSILON);
+        let mut bending_angle = math::max(0.5 * turn, f64::EPSILON);
         for _ in 0..NEWTON_STEPS {
             bending_angle -= (along_the_shaft(bending_angle) - turn) / (2.0 - 0.4 * bending_angle * bending_angle);
         }
-        (bending_angle <= MAX_BENDING_ANGLE).then_some(bending_angle.max(f64::EPSILON))
+        (bending_angle <= MAX_BENDING_ANGLE).then_some(math::max(bending_angle, f64::EPSILON))
     }
 
     /// The base angle (rad) of a sufficiently long shaft that rests on a position (m, frame of the base). `None` if the
     /// bend exceeds the range of the closed form.
     #[must_use]
     pub fn base_angle(&self, contact_base: Vector2<f64>) -> Option<f64> {
-        let (distance, direction) = (contact_base.norm(), contact_base.y.abs().atan2(contact_base.x));
+        let (distance, direction) = (contact_base.norm(), math::atan2(contact_base.y.abs(), contact_base.x));
         if distance == 0.0 || distance.is_nan() {
             return None;
         }
-        let compliance = self.softened_compliance(distance.min(self.length)) / distance;
+        let compliance = self.softened_compliance(math::min(distance, self.length)) / distance;
         let angle = |bending_angle: f64| {
             let (along, across) = lever(bending_angle);
-            (compliance * along.hypot(across), bending_angle - across.atan2(along))
+            (compliance * math::hypot(along, across), bending_angle - math::atan2(across, along))
         };
         // To first order, the direction from the base is the hinge angle plus two thirds of the rotation.
         let mut bending_angle = direction / (2.0 / 3.0 + 2.0 * compliance);
@@ -114,11 +115,15 @@ fn along_the_shaft(bending_angle: f64) -> f64 {
 /// Position of the force relative to the base, times the curvature at the base: along the shaft's direction at the
 /// force, and to the right of it.
 fn lever(bending_angle: f64) -> (f64, f64) {
-    let sin = bending_angle.sin();
+    let sin = math::sin(bending_angle);
     let square = bending_angle * bending_angle;
     (
         2.0 * sin,
-        sin.max(0.0).sqrt() * bending_angle.max(0.0).sqrt() * bending_angle * (2.0 / 3.0) * (1.0 - square / 28.0),
+        math::max(sin, 0.0).sqrt()
+            * math::max(bending_angle, 0.0).sqrt()
+            * bending_angle
+            * (2.0 / 3.0)
+            * (1.0 - square / 28.0),
     )
 }
 
@@ -143,7 +148,7 @@ mod tests {
             let mut whisker = Rig::default().whiskers.remove(0);
             whisker.shaft.tip_radius = Some(taper * whisker.shaft.radius);
             let (shaft, side) = (&whisker.shaft, if is_left { 1.0 } else { -1.0 });
-            let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / (share * shaft.length).powi(2));
+            let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / math::square(share * shaft.length));
             let shape = Elastica::new(&whisker).under(contact, side * MAX_BENDING_ANGLE, force * unit).unwrap();
             let pivot = Pivot::new(&whisker);
             // For a tapered shaft the closed form is exact only to the first order of the bend.
@@ -158,7 +163,7 @@ mod tests {
         fn a_shaft_lies_along_a_surface_perpendicular_to_the_force_at_its_tip(force in 0.01..2.2_f64, lean in -0.5..0.5_f64) {
             prop_assume!((lean - NEARLY_FLAT).abs() > 3e-3);
             let whisker = Rig::default().whiskers.remove(0);
-            let unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
+            let unit = whisker.shaft.bending_stiffness() / math::square(whisker.shaft.length);
             let shape = Elastica::new(&whisker).under(whisker.shaft.length, MAX_BENDING_ANGLE, force * unit).unwrap();
             let normal = shape.tip_angle + FRAC_PI_2 + lean;
             prop_assert_eq!(Pivot::new(&whisker).lies_flat(shape.base_angle, normal), lean < NEARLY_FLAT);

@@ -1,5 +1,7 @@
 //! The shooting method for a shaft, from the force to the base.
 
+use crate::math;
+
 use super::extrapolation::integrate;
 
 /// A force on a shaft. Lengths are in units of the shaft's length `L`, forces in units of `EI / L²`, and moments in
@@ -54,11 +56,11 @@ impl Shot {
         let slope = |t: f64, state: &[f64; 12]| {
             // 1 / EI at the length c (1 − t), and its derivative by c.
             let thickness = 1.0 + (taper - 1.0) * contact * (1.0 - t);
-            let softness = thickness.powi(-4);
+            let softness = math::powi(thickness, -4);
             let softness_c = 4.0 * (1.0 - taper) * (1.0 - t) * softness / thickness;
             // Direction, lever and distance, and their derivatives by contact, angle and force.
             let [angle, lever, _, angle_c, lever_c, _, angle_a, lever_a, _, angle_f, lever_f, _] = *state;
-            let (across, along) = (psi - angle).sin_cos();
+            let (across, along) = math::sin_cos(psi - angle);
             let (across_c, along_c) = (contact * across, contact * along);
             let curvature = contact * softness * force;
             [

@@ -1,6 +1,7 @@
 //! Pose hold: keeping the pose at which the platform has stopped.
 
 use crate::geometry::{Pose, Vector2, turn_between};
+use crate::math;
 use crate::rig::Rig;
 use crate::signal::Command;
 
@@ -43,9 +44,9 @@ impl PoseHold {
         let (servo, period) = (rig.platform.servo, 1.0 / rig.sensing.control_rate);
         let proportional = PROPORTIONAL / (servo + period);
         let controller = |limit| PiController::new(proportional, proportional * proportional / 4.0, limit);
-        let speed = controller(SPEED_LIMIT.min(rig.platform.speed_limit) / 2.0_f64.sqrt());
+        let speed = controller(math::min(SPEED_LIMIT, rig.platform.speed_limit) / 2.0_f64.sqrt());
         Self {
-            controllers: [speed.clone(), speed, controller(YAW_RATE_LIMIT.min(rig.platform.yaw_rate_limit))],
+            controllers: [speed.clone(), speed, controller(math::min(YAW_RATE_LIMIT, rig.platform.yaw_rate_limit))],
             period,
             braking: BRAKING * servo,
             stopped: 0.0,

@@ -1,5 +1,6 @@
 //! The equilibrium base angle of a whisker, extrapolated from its newest readings.
 
+use crate::math;
 use crate::rig::{Sensing, Whisker};
 
 use super::recent_line::RecentLine;
@@ -32,11 +33,11 @@ impl BaseAngle {
     /// Creates the estimate for `whisker`.
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         let delay = whisker.hinge.damping / whisker.hinge.stiffness;
-        let noise = sensing.angle_noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt());
+        let noise = math::hypot(sensing.angle_noise, sensing.angle_resolution / 12.0_f64.sqrt());
         let line = RecentLine::new(sensing.sample_rate.recip(), delay, noise, WANTED_DEVIATION);
         let gain = line.noise_gain(delay);
-        let deviation = |gain: f64| MODEL_DEVIATION.hypot(noise * gain);
-        Self { deviation: deviation(gain), correlated_deviation: deviation(gain.max(1.0)), delay, line }
+        let deviation = |gain: f64| math::hypot(MODEL_DEVIATION, noise * gain);
+        Self { deviation: deviation(gain), correlated_deviation: deviation(math::max(gain, 1.0)), delay, line }
     }
 
     /// Adds a reading (rad).

@@ -1,8 +1,7 @@
 //! The estimated contact of a whisker.
 
-use nalgebra::Rotation2;
-
 use crate::geometry::{Matrix2, Point2, Pose, Vector2, rotate};
+use crate::math;
 
 /// The contact of a whisker, as estimated by a contact estimator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +46,7 @@ pub(super) const CONTACT_DEVIATION: f64 = 2.2e-5;
 
 /// Rotates a covariance by an angle (rad).
 pub(super) fn rotated(covariance: &Matrix2, angle: f64) -> Matrix2 {
-    let turn = Rotation2::new(angle);
-    turn * covariance * turn.inverse()
+    let (sin, cos) = math::sin_cos(angle);
+    let turn = Matrix2::new(cos, -sin, sin, cos);
+    turn * covariance * turn.transpose()
 }

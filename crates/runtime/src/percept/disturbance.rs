@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::geometry::{Point2, Pose, perpendicular, turn_between};
+use crate::math;
 use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS, Sample};
 
@@ -57,7 +58,7 @@ impl Disturbance {
     pub(super) fn new(rig: &Rig) -> Self {
         let platform = &rig.platform;
         let corners_body = platform.outline_body();
-        let reach = corners_body.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max);
+        let reach = corners_body.iter().map(|corner| corner.coords.norm()).fold(0.0, math::max);
         let mut pushes = [0.0; MAX_WHISKERS];
         for (push, whisker) in pushes.iter_mut().zip(&rig.whiskers) {
             let (whisker, arm) = (whisker.perceived(), whisker.base_body.coords.norm() + whisker.shaft.length);
@@ -111,7 +112,7 @@ impl Disturbance {
     /// Adds the expected motion of a servo during `period` (s).
     fn expect(&mut self, period: f64) {
         let aim = self.command.velocity_world.push(self.command.yaw_rate);
-        let left = (-period / self.servo).exp();
+        let left = math::exp(-period / self.servo);
         // Equivalent time at the initial difference from the target speed.
         let behind = self.servo * (1.0 - left);
         self.expected += self.speed * behind + aim * (period - behind);
@@ -127,7 +128,7 @@ impl Disturbance {
         let asked = self.fastest(self.expected) / self.elapsed;
         let weighted = self.base_angles.iter().zip(&self.pushes);
         let pushed: f64 = weighted.map(|(base_angle, push)| base_angle.abs() * push).sum();
-        let left = (-self.elapsed / AVERAGED).exp();
+        let left = math::exp(-self.elapsed / AVERAGED);
         self.missing = self.missing * left + missing * ((1.0 - left) / self.elapsed);
         self.asked = self.asked * left + asked * (1.0 - left);
         self.pushed = self.pushed * left + pushed * (1.0 - left);
@@ -139,7 +140,7 @@ impl Disturbance {
             let arm = self.pose.vector_to_world(corner.coords);
             (motion.xy() + motion.z * perpendicular(arm)).norm()
         };
-        self.corners_body.iter().map(of_corner).fold(0.0, f64::max)
+        self.corners_body.iter().map(of_corner).fold(0.0, math::max)
     }
 
     /// Averaged speed difference (m/s) at the corner of the body with the largest one. 0 before two poses are known.

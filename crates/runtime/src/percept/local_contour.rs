@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::geometry::{Point2, Vector2};
+use crate::math;
 
 /// Number of keypoints to which the curve is fitted.
 const WINDOW: usize = 7;
@@ -111,7 +112,7 @@ impl LocalContour {
     pub fn curvature(&self) -> Option<f64> {
         self.curve.map(|curve| {
             let (first, second) = (curve.slope(0.0), 2e6 * curve.parts[2]);
-            first.perp(&second) / first.norm().powi(3)
+            first.perp(&second) / math::powi(first.norm(), 3)
         })
     }
 

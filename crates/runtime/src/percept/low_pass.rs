@@ -1,6 +1,10 @@
 //! A low-pass filter for base angles.
 
-use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
+use std::f64::consts::PI;
+
+use biquad::{Biquad, Coefficients, DirectForm2Transposed};
+
+use crate::math;
 
 /// A third-order Butterworth low-pass filter, initially at rest at zero. It consists of a first-order section and a
 /// second-order section with the quality factor 1.
@@ -33,14 +37,14 @@ impl LowPass {
     /// # Errors
     /// [`CutoffError`] unless the cutoff is positive and below half of the rate.
     pub fn new(cutoff: f64, rate: f64) -> Result<Self, CutoffError> {
-        let section = |kind, quality| {
-            let (rate, cutoff) = (Hertz::<f64>::from_hz(rate)?, Hertz::<f64>::from_hz(cutoff)?);
-            Coefficients::from_params(kind, rate, cutoff, quality).map(DirectForm2Transposed::new)
-        };
-        let section = |kind, quality| section(kind, quality).map_err(|_: biquad::Errors| CutoffError { cutoff, rate });
+        let is_valid = rate > 0.0 && cutoff > 0.0 && 2.0 * cutoff < rate;
+        if !is_valid {
+            return Err(CutoffError { cutoff, rate });
+        }
+        let angle = PI * (2.0 * cutoff / rate);
         Ok(Self {
-            first: section(Type::SinglePoleLowPass, std::f64::consts::FRAC_1_SQRT_2)?,
-            second: section(Type::LowPass, 1.0)?,
+            first: DirectForm2Transposed::new(first_order(angle)),
+            second: DirectForm2Transposed::new(second_order(angle)),
             rest: 0.0,
         })
     }
@@ -57,7 +61,7 @@ impl LowPass {
     /// noise bandwidth, which is π/3 of the cutoff for this filter, over half of the sample rate.
     #[must_use]
     pub fn noise_gain(cutoff: f64, rate: f64) -> f64 {
-        (std::f64::consts::FRAC_PI_3 * cutoff / (0.5 * rate)).min(1.0).sqrt()
+        math::min(std::f64::consts::FRAC_PI_3 * cutoff / (0.5 * rate), 1.0).sqrt()
     }
 
     /// Adds one sample and returns the filtered value.
@@ -71,4 +75,22 @@ impl LowPass {
         }
         self.rest + filtered
     }
+}
+
+/// The first-order section by the bilinear transform, for the rotation `angle` (rad) of the cutoff frequency per sample.
+///
+/// The functions of biquad that compute coefficients call the functions of the platform.
+fn first_order(angle: f64) -> Coefficients<f64> {
+    let tan = math::tan(angle / 2.0);
+    let gain = tan / (1.0 + tan);
+    Coefficients { a1: (tan - 1.0) / (1.0 + tan), a2: 0.0, b0: gain, b1: gain, b2: 0.0 }
+}
+
+/// The second-order section of quality 1 by the bilinear transform, for the rotation `angle` (rad) of the cutoff
+/// frequency per sample (Bristow-Johnson, Audio EQ Cookbook).
+fn second_order(angle: f64) -> Coefficients<f64> {
+    let (sin, cos) = math::sin_cos(angle);
+    let scale = (1.0 + 0.5 * sin).recip();
+    let gain = 0.5 * (1.0 - cos) * scale;
+    Coefficients { a1: -2.0 * cos * scale, a2: (1.0 - 0.5 * sin) * scale, b0: gain, b1: 2.0 * gain, b2: gain }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2 as Column};
 
 use crate::geometry::{Pose, Vector2, perpendicular, rotate, unit};
+use crate::math;
 use crate::mechanics::{Elastica, ShaftShape};
 use crate::rig::{Sensing, Shaft, Whisker};
 use crate::signal::Reading;
@@ -49,10 +50,11 @@ impl MomentAndShear {
     pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         let elastica = Elastica::new(whisker);
         let shaft = whisker.shaft.clone();
-        let wanted_shear = WANTED_SHEAR * shaft.bending_stiffness() / shaft.length.powi(2);
+        let wanted_shear = WANTED_SHEAR * shaft.bending_stiffness() / math::square(shaft.length);
         let angle = BaseAngle::new(whisker, sensing);
         let shear = RecentLine::new(sensing.sample_rate.recip(), 0.0, sensing.force_noise, wanted_shear);
-        let deviations = Column::new(angle.deviation, wanted_shear.hypot(sensing.force_noise * shear.noise_gain(0.0)));
+        let deviations =
+            Column::new(angle.deviation, math::hypot(wanted_shear, sensing.force_noise * shear.noise_gain(0.0)));
         Self {
             near: elastica.straight(),
             elastica,
@@ -87,7 +89,7 @@ impl MomentAndShear {
         let by_readings = changes.fixed_rows::<2>(0) + rotated * changes.row(2);
         let deviation = by_readings * Matrix2::from_diagonal(&self.deviations);
         let covariance = deviation * deviation.transpose()
-            + Matrix2::identity() * (CONTACT_DEVIATION.powi(2) + SHAPE_DEVIATION.powi(2));
+            + Matrix2::identity() * (math::square(CONTACT_DEVIATION) + math::square(SHAPE_DEVIATION));
         covariance.trace().is_finite().then_some(covariance)
     }
 }

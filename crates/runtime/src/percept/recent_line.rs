@@ -1,5 +1,7 @@
 //! A straight line through the newest readings.
 
+use crate::math;
+
 /// The least-squares straight line through the newest readings, which are equally spaced in time.
 #[derive(Debug, Clone)]
 pub(super) struct RecentLine {
@@ -34,7 +36,7 @@ impl RecentLine {
     pub(super) fn noise_gain(&self, ahead: f64) -> f64 {
         let window = self.window as f64;
         let from_middle = ahead / self.period + 0.5 * (window - 1.0);
-        (1.0 / window + from_middle.powi(2) / self.moment()).sqrt()
+        (1.0 / window + math::square(from_middle) / self.moment()).sqrt()
     }
 
     /// Sum of the squared distances, in periods, of the readings from their middle.

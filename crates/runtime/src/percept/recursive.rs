@@ -6,6 +6,7 @@ use nalgebra::Matrix2;
 
 use crate::calibration::{AngleSurface, ContactSet};
 use crate::geometry::{Pose, Vector2, unit};
+use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
@@ -79,7 +80,7 @@ impl Recursive {
     pub(super) fn new(whisker: &Whisker, surface: Arc<AngleSurface>, curve: Arc<TipCurve>, sensing: &Sensing) -> Self {
         let angle = BaseAngle::new(whisker, sensing);
         Self {
-            angle_deviation: angle.deviation.hypot(surface.deviation),
+            angle_deviation: math::hypot(angle.deviation, surface.deviation),
             surface,
             curve,
             angle,
@@ -102,7 +103,7 @@ impl Recursive {
         let carried = last.position + usual;
         let covariance = last.covariance + Matrix2::identity() * (SLIDING * path);
         let (expected, gradient) = self.surface.at(carried);
-        let variance = (gradient.transpose() * covariance * gradient).x + self.angle_deviation.powi(2);
+        let variance = (gradient.transpose() * covariance * gradient).x + math::square(self.angle_deviation);
         let gain = covariance * gradient / variance;
         let position = carried + gain * (base_angle - expected);
         let covariance = covariance - variance * gain * gain.transpose();

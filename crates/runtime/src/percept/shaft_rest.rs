@@ -1,6 +1,7 @@
 //! Detection of shaft contacts where a tip contact is assumed.
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit, wrap};
+use crate::math;
 use crate::mechanics::Pivot;
 use crate::rig::Whisker;
 
@@ -107,7 +108,7 @@ impl ShaftRest {
 
     /// Possible error of the tip (m), because the shaft may be in contact instead.
     pub(super) fn possible_error(&self) -> f64 {
-        self.possible_error.max(self.offset)
+        math::max(self.possible_error, self.offset)
     }
 
     /// Forgets the readings at a gap in the contact. Earlier possible errors remain.
@@ -126,8 +127,8 @@ impl ShaftRest {
     /// bend to the left.
     pub(super) fn take(&mut self, angle: f64, base: Pose, path: f64, tip: Point2, normal: f64) {
         // An incorrect estimate may move farther than the whisker.
-        let slid = self.tip.replace(tip).map_or(0.0, |before| (tip - before).norm().min(path));
-        let fading = (-slid / FADING).exp();
+        let slid = self.tip.replace(tip).map_or(0.0, |before| math::min((tip - before).norm(), path));
+        let fading = math::exp(-slid / FADING);
         self.possible_error *= fading;
         if let Some(rest) = &mut self.rest {
             rest.possible_error_before *= fading;
@@ -148,10 +149,10 @@ impl ShaftRest {
         if self.count == REMEMBERED {
             self.update_rest(tip);
             if self.seems_to_turn() && self.pivot.lies_flat(angle, normal) {
-                self.possible_error = self.possible_error.max(FLAT);
+                self.possible_error = math::max(self.possible_error, FLAT);
                 // This error remains even if the position later proves to be no corner.
                 if let Some(rest) = &mut self.rest {
-                    rest.possible_error_before = rest.possible_error_before.max(FLAT);
+                    rest.possible_error_before = math::max(rest.possible_error_before, FLAT);
                 }
             }
         }
@@ -177,7 +178,7 @@ impl ShaftRest {
         rest.longest = rest.longest.max(rest.lasted);
         self.offset = (position - tip).norm();
         if rest.lasted >= LASTING {
-            self.possible_error = self.possible_error.max(self.offset);
+            self.possible_error = math::max(self.possible_error, self.offset);
         }
     }
 
@@ -217,7 +218,7 @@ impl ShaftRest {
     /// True if a shaft that rests on a position (m, world frame) has all the base angles.
     fn explains(&self, position: Point2) -> bool {
         self.readings.iter().all(|reading| {
-            let deviation = self.angle_deviation.hypot(MODEL_SHARE * reading.angle);
+            let deviation = math::hypot(self.angle_deviation, MODEL_SHARE * reading.angle);
             self.misfit(reading, position).is_some_and(|misfit| misfit.abs() <= MISFIT * deviation)
         })
     }
@@ -286,7 +287,7 @@ mod tests {
         turned: f64,
     ) {
         let elastica = Elastica::new(whisker);
-        let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
+        let force_unit = whisker.shaft.bending_stiffness() / math::square(whisker.shaft.length);
         let shape = elastica.under(share * whisker.shaft.length, FRAC_PI_2, force * force_unit).unwrap();
         let base = Pose { position: position - shape.contact_base, heading: 0.0 };
         let tip = base.position + shape.tip_base;
@@ -308,7 +309,7 @@ mod tests {
         fn a_tip_that_slides_along_a_wall_has_no_possible_error(lean in 0.4..1.0_f64, force in 0.5..1.5_f64) {
             let (mut rest, whisker) = rest();
             let elastica = Elastica::new(&whisker);
-            let force_unit = whisker.shaft.bending_stiffness() / whisker.shaft.length.powi(2);
+            let force_unit = whisker.shaft.bending_stiffness() / math::square(whisker.shaft.length);
             let shape = elastica.under(whisker.shaft.length, FRAC_PI_2 + lean, force * force_unit).unwrap();
             // The wall is perpendicular to the force.
             let along = perpendicular(unit(shape.force_direction));

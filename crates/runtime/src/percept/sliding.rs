@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix2, RowVector2, Vector2 as Column};
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, rotate, unit};
+use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
@@ -104,7 +105,7 @@ impl Sliding {
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
             usual_normal: whisker.usual_normal(),
-            friction_angle: sensing.friction.atan(),
+            friction_angle: math::atan(sensing.friction),
             angle,
             contact_threshold: sensing.contact_threshold,
             calm_samples,
@@ -139,8 +140,8 @@ impl Sliding {
         let normal = base.heading + bend_sign * self.usual_normal;
         let unsettled = State::Unsettled { left: None, bend_sign };
         let Some(tip) = self.tip(angle, base, normal) else { return unsettled };
-        let contact = SlidingContact::new(bend_sign, &tip, normal, FIRST_DIRECTION.powi(2));
-        State::Settled(SlidingContact { first_variance: SHAFT_FIRST.0.powi(2), ..contact })
+        let contact = SlidingContact::new(bend_sign, &tip, normal, math::square(FIRST_DIRECTION));
+        State::Settled(SlidingContact { first_variance: math::square(SHAFT_FIRST.0), ..contact })
     }
 
     /// One step of the filter while the tip slides.
@@ -148,7 +149,7 @@ impl Sliding {
         let unsettled = State::Unsettled { left: Some(last.before[0]), bend_sign: last.bend_sign };
         // At a light contact, noise may rotate the surface beyond every force direction that bends the whisker. The
         // nearest possible direction is used if it is within the uncertainty.
-        let deviation = last.covariance.m11.max(0.0).sqrt();
+        let deviation = math::max(last.covariance.m11, 0.0).sqrt();
         let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= deviation);
         let mut directions = turns.map(|turn| last.normal - last.bend_sign * turn);
         let found = directions.find_map(|direction| Some((direction, self.tip(angle, base, direction)?)));
@@ -167,9 +168,10 @@ impl Sliding {
 
         let innovation = normal.dot(&(Point2::from(tip.tip_base) - along));
         let measured = RowVector2::new(tip.by_direction.dot(&normal), -1.0);
-        let noise = (tip.by_angle.dot(&normal) * self.angle.correlated_deviation).powi(2) + SMOOTHNESS.powi(2);
+        let noise =
+            math::square(tip.by_angle.dot(&normal) * self.angle.correlated_deviation) + math::square(SMOOTHNESS);
         let variance = (measured * covariance * measured.transpose()).x + noise;
-        let is_sliding = innovation.powi(2) < GATE.powi(2) * variance;
+        let is_sliding = math::square(innovation) < math::square(GATE) * variance;
         if !is_sliding {
             return unsettled;
         }
@@ -183,7 +185,7 @@ impl Sliding {
             covariance: covariance - variance * gain * gain.transpose(),
             considered: left * considered * left.transpose() + noise * gain * gain.transpose(),
             tip,
-            farthest: last.farthest.max((centre - last.first).norm()),
+            farthest: math::max(last.farthest, (centre - last.first).norm()),
             ..*last
         })
     }
@@ -193,7 +195,7 @@ impl Sliding {
         let state = left.map_or_else(|| self.first(angle, base), |left| self.land(left, angle, base));
         match state {
             State::Settled(mut contact) => {
-                contact.considered.m22 += CAUGHT.powi(2);
+                contact.considered.m22 += math::square(CAUGHT);
                 State::Settled(contact)
             }
             other => other,
@@ -207,16 +209,17 @@ impl Sliding {
         let unsettled = State::Unsettled { left: Some(left), bend_sign };
         let usual = base.heading + bend_sign * self.usual_normal;
         let Some(near) = self.tip(angle, base, usual) else { return unsettled };
-        let off = OFF_EDGE.0.hypot(OFF_EDGE.1 * (near.tip_base - left.coords).norm());
-        let direction_cost = |normal: f64| ((normal - usual) / DIRECTION_BEHIND_EDGE).powi(2);
+        let off = math::hypot(OFF_EDGE.0, OFF_EDGE.1 * (near.tip_base - left.coords).norm());
+        let direction_cost = |normal: f64| math::square((normal - usual) / DIRECTION_BEHIND_EDGE);
         // The tip, the distance of the surface through it from `left`, and the total squared misfit in standard
         // deviations, including that of the direction.
         let evaluate = |normal: f64| {
             let tip = self.tip(angle, base, normal)?;
             let displacement = tip.tip_base - left.coords;
             let offset = unit(normal).dot(&displacement);
-            let cost =
-                (offset / off).powi(2) + displacement.norm_squared() / LANDED_WITHIN.powi(2) + direction_cost(normal);
+            let cost = math::square(offset / off)
+                + displacement.norm_squared() / math::square(LANDED_WITHIN)
+                + direction_cost(normal);
             Some((tip, offset, cost))
         };
         // The search goes outwards from the usual direction on both sides, as long as the direction's own misfit is
@@ -232,7 +235,7 @@ impl Sliding {
             }
         }
         let Some((mut normal, _)) = nearest else { return unsettled };
-        let prior = DIRECTION_BEHIND_EDGE.powi(-2);
+        let prior = math::square(DIRECTION_BEHIND_EDGE).recip();
         for _ in 0..LANDING_ITERATIONS {
             let Some((tip, offset, _)) = evaluate(normal) else { return unsettled };
             let slope = offset_slope(&tip, normal, left) / off;

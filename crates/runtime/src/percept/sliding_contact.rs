@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 
 use crate::geometry::{Point2, perpendicular, unit};
+use crate::math;
 
 use super::contact::CONTACT_DEVIATION;
 use super::tip_table::TipPosition;
@@ -44,7 +45,7 @@ impl SlidingContact {
         // The position depends on the direction, so their errors are correlated.
         let slope = tip.by_direction.dot(&unit(normal));
         let covariance = variance * Matrix2::new(1.0, slope, slope, slope * slope)
-            + Matrix2::new(0.0, 0.0, 0.0, FIRST_POSITION.powi(2));
+            + Matrix2::new(0.0, 0.0, 0.0, math::square(FIRST_POSITION));
         let before = [centre; 3];
         Self {
             bend_sign,
@@ -62,8 +63,8 @@ impl SlidingContact {
 
     /// Standard deviation of the position along the normal (m), for a covariance like that of the contact.
     pub(super) fn position_deviation(&self, covariance: &Matrix2<f64>) -> f64 {
-        let first = self.first_variance * (-self.farthest / SHAFT_FIRST.1).exp();
-        (covariance.m22.max(0.0) + first).sqrt().hypot(CONTACT_DEVIATION)
+        let first = self.first_variance * math::exp(-self.farthest / SHAFT_FIRST.1);
+        math::hypot((math::max(covariance.m22, 0.0) + first).sqrt(), CONTACT_DEVIATION)
     }
 
     /// Covariance of the contact position (m², world frame) for a tip of this radius (m). `angle_deviation` (rad) is
@@ -72,11 +73,11 @@ impl SlidingContact {
         let normal = unit(self.normal);
         let tangent = perpendicular(normal);
         let by_direction = self.tip.by_direction.dot(&tangent) - tip_radius;
-        let along =
-            by_direction.powi(2) * self.covariance.m11 + (self.tip.by_angle.dot(&tangent) * angle_deviation).powi(2);
+        let along = math::square(by_direction) * self.covariance.m11
+            + math::square(self.tip.by_angle.dot(&tangent) * angle_deviation);
         let both = by_direction * self.covariance.m12;
         along * tangent * tangent.transpose()
             + both * (tangent * normal.transpose() + normal * tangent.transpose())
-            + self.position_deviation(&self.covariance).powi(2) * normal * normal.transpose()
+            + math::square(self.position_deviation(&self.covariance)) * normal * normal.transpose()
     }
 }

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::calibration::ContactCurve;
-use crate::geometry::rotate;
+use crate::geometry::{rotate, unit};
+use crate::math;
 use crate::mechanics::ShaftChain;
 use crate::rig::Whisker;
 
@@ -99,7 +100,7 @@ impl TipCurve {
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
         let step = MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
-        let normal = Vector2::new(normal_direction.cos(), normal_direction.sin());
+        let normal = unit(normal_direction);
         let tip_radius = shaft.radius_at(1.0);
 
         let (mut contacts, mut unknowns) = (Vec::with_capacity(STEPS + 1), Vec::with_capacity(STEPS + 1));
@@ -111,9 +112,9 @@ impl TipCurve {
             // Linear extrapolation from the last two solutions. The first step is that of a cantilever under a small
             // force.
             if index == 1 {
-                guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
-                guess.tip_angle =
-                    guess.force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
+                guess.force = base_angle * whisker.hinge.stiffness / (shaft.length * math::sin(force_direction));
+                guess.tip_angle = guess.force * math::sin(force_direction) * math::square(shaft.length)
+                    / (2.0 * shaft.tip_stiffness());
             } else if index > 1 {
                 guess.force += solution.force - before.force;
                 guess.tip_angle += solution.tip_angle - before.tip_angle;
@@ -143,7 +144,7 @@ impl TipCurve {
         let [least, range] = measured.range;
         let step = range / STEPS as f64;
         // Below the measured range the curve only serves steering. There is no contact estimate.
-        let contacts: Vec<_> = (0..=STEPS).map(|index| measured.at((step * index as f64).max(least))).collect();
+        let contacts: Vec<_> = (0..=STEPS).map(|index| measured.at(math::max(step * index as f64, least))).collect();
         let [xx, xy, yy] = measured.covariance;
         Self { step, least, knots: knots(&contacts, &vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1]) }
     }
@@ -153,7 +154,7 @@ impl TipCurve {
     /// swept forward to the front and one swept back to the back, which are mirror images in the frame of the base.
     /// Friction rotates the force to the back, like a larger sweep back.
     fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipCurveError> {
-        let turn = friction.atan();
+        let turn = math::atan(friction);
         let sweep = whisker.direction_body.abs() - FRAC_PI_2 + turn;
         if sweep.abs() < LEAST_SWEEP {
             return Err(TipCurveError::HeadOn { whisker: whisker.name.clone(), sweep });
@@ -214,7 +215,7 @@ impl TipCurve {
     /// The knots on both sides of a base angle, and its relative position between them (0 to 1).
     fn between(&self, base_angle: f64) -> (&Knot, &Knot, f64) {
         let last = self.knots.len() - 1;
-        let along = (base_angle.abs() / self.step).min(last as f64);
+        let along = math::min(base_angle.abs() / self.step, last as f64);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the last knot")]
         let index = (along as usize).min(last - 1);
         (&self.knots[index], &self.knots[index + 1], along - index as f64)

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector2;
 
+use crate::math;
 use crate::mechanics::{Equilibrium, EquilibriumProblem, ShaftChain};
 use crate::rig::{Hinge, Shaft, Whisker};
 
@@ -151,9 +152,9 @@ fn from_straight(
                 (Some(last), Some(before)) => extrapolated(&last, &before),
                 // The first step is that of a cantilever under a small force.
                 (Some(straight), None) => {
-                    let force = base_angle * whisker.hinge.stiffness / (shaft.length * force_direction.sin());
+                    let force = base_angle * whisker.hinge.stiffness / (shaft.length * math::sin(force_direction));
                     let tip_angle =
-                        force * force_direction.sin() * shaft.length.powi(2) / (2.0 * shaft.tip_stiffness());
+                        force * math::sin(force_direction) * math::square(shaft.length) / (2.0 * shaft.tip_stiffness());
                     Equilibrium { tip_angle, force, ..straight }
                 }
                 (None, _) => return None,

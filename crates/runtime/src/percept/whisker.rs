@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::machine::{ContourVector, Mark};
+use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
@@ -226,5 +227,5 @@ impl PerceivedWhisker {
 pub(super) fn base_angle_deviation(sensing: &Sensing) -> f64 {
     // The filter reduces noise, but not the rounding error of a whisker at rest.
     let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
-    noise.hypot(sensing.angle_resolution / 12.0_f64.sqrt())
+    math::hypot(noise, sensing.angle_resolution / 12.0_f64.sqrt())
 }

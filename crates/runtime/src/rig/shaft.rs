@@ -1,5 +1,7 @@
 //! An elastic shaft.
 
+use crate::math;
+
 /// An elastic shaft of round wire, straight at rest, uniform or with a linear taper towards the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaft {
@@ -40,7 +42,7 @@ impl Shaft {
     /// Bending stiffness `E I` (N m²) at the base, with `I = π r⁴ / 4`.
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
-        self.young_modulus * std::f64::consts::FRAC_PI_4 * self.radius.powi(4)
+        self.young_modulus * std::f64::consts::FRAC_PI_4 * math::powi(self.radius, 4)
     }
 
     /// Bending stiffness (N m²) of the uniform shaft whose tip rotates equally under a small tip force. For the taper
@@ -62,7 +64,7 @@ impl Shaft {
     #[must_use]
     pub fn link_mass(&self, link: usize) -> f64 {
         let [a, b] = [link, link + 1].map(|end| self.thickness(end as f64 / self.links as f64));
-        let uniform = self.density * std::f64::consts::PI * self.radius.powi(2) * self.link_length();
+        let uniform = self.density * std::f64::consts::PI * math::square(self.radius) * self.link_length();
         uniform * ((a * a + a * b + b * b) / 3.0)
     }
 
@@ -80,10 +82,10 @@ impl Shaft {
     pub fn joint_stiffnesses(&self) -> impl Iterator<Item = f64> {
         let between = self.bending_stiffness() / self.link_length();
         (0..self.links).map(move |joint| {
-            let [a, b] =
-                [(joint as f64 - 0.5).max(0.0), joint as f64 + 0.5].map(|end| self.thickness(end / self.links as f64));
+            let [a, b] = [math::max(joint as f64 - 0.5, 0.0), joint as f64 + 0.5]
+                .map(|end| self.thickness(end / self.links as f64));
             // The mean of 1 / r⁴ along a frustum, for radii over that at the base.
-            let softness = (a * a + a * b + b * b) / (3.0 * (a * b).powi(3));
+            let softness = (a * a + a * b + b * b) / (3.0 * math::powi(a * b, 3));
             if joint == 0 { 2.0 * between / softness } else { between / softness }
         })
     }
@@ -125,7 +127,7 @@ mod tests {
     fn the_joints_bend_as_much_as_the_shaft_but_for_the_last_half_link() {
         for shaft in shafts() {
             let compliance: f64 = shaft.joint_stiffnesses().map(f64::recip).sum();
-            let stiffness = |radius: f64| shaft.bending_stiffness() * (radius / shaft.radius).powi(4);
+            let stiffness = |radius: f64| shaft.bending_stiffness() * math::powi(radius / shaft.radius, 4);
             let bending = integral(&shaft, 1.0 - 0.5 / shaft.links as f64, |radius| stiffness(radius).recip());
             assert!((compliance / bending - 1.0).abs() < 1e-6, "{shaft:?}");
         }

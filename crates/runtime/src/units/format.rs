@@ -1,6 +1,7 @@
 //! Formatting of quantities.
 
 use super::{Dimension, parse_unit, units_of};
+use crate::math;
 
 /// Formats a value in SI units with a unit that is easy to read, to six significant digits: 0.05 m as `50 mm`.
 ///
@@ -22,7 +23,7 @@ pub fn format_si(value_si: f64, dimension: Dimension) -> String {
     // The first unit with a number between 1 and 1000 is used, or else the unit with the nearest one.
     let badness = |value: f64| match value.abs() {
         size if size == 0.0 || (1.0..1000.0).contains(&size) => 0.0,
-        size => (size.log10() - 1.5).abs(),
+        size => (math::log10(size) - 1.5).abs(),
     };
     readings.min_by(|a, b| badness(a.1).total_cmp(&badness(b.1))).map_or_else(
         || format!("{} {}", digits(value_si), dimension.si_unit()),

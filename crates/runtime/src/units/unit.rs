@@ -3,6 +3,7 @@
 use super::Dimension;
 use super::foreign::foreign;
 use super::suggest;
+use crate::math;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -74,7 +75,8 @@ impl Unit {
         let (numerator, denominator) =
             if exponent < 0 { (self.denominator, self.numerator) } else { (self.numerator, self.denominator) };
         let power = i32::from(exponent.unsigned_abs());
-        Self::new(self.dimension.checked_powi(exponent)?, numerator.powi(power), denominator.powi(power)).if_finite()
+        Self::new(self.dimension.checked_powi(exponent)?, math::powi(numerator, power), math::powi(denominator, power))
+            .if_finite()
     }
 
     /// The product of two units. `None` on overflow.
