@@ -108,7 +108,7 @@ const CHECKS: [Check; 18] = [
         &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
     ),
     check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
-    Check { title: "tests of the runtime on aarch64, under an emulator", work: Work::Aarch64 },
+    Check { title: "tests of the runtime and of the robot on aarch64, under an emulator", work: Work::Aarch64 },
     // The tests have built them.
     Check { title: "examples", work: Work::Examples },
     check_in(

@@ -17,6 +17,29 @@ const ALLOWED: [&str; 8] = ["biquad", "libm", "nalgebra", "postcard", "serde", "
 /// system for the driver of the sensor. The Raspberry Pi has a check of its own.
 const BUILDS: [(&str, &str); 2] =
     [(PACKAGE, "wasm32-unknown-unknown"), ("vibrissa-mlx90393", "riscv32imc-unknown-none-elf")];
+/// Cargo's arguments for the tests on aarch64. It builds both packages at once, because their dependencies would have
+/// other features one by one. An emulated hour takes an emulated processor too long, and needs no certain processor.
+///
+/// Rustdoc would need the settings of the cross build too, and its examples are tested on this machine.
+const ON_AARCH64: [&str; 15] = [
+    "test",
+    "--package",
+    PACKAGE,
+    "--package",
+    "vibrissa-robot",
+    "--no-default-features",
+    "--features",
+    "vibrissa-robot/emulation",
+    "--lib",
+    "--tests",
+    "--target",
+    cross::TARGET,
+    "--",
+    "--skip",
+    "an_hour_",
+];
+/// Proptest's own number of cases. The robot's fault campaign has more otherwise.
+const CASES: (&str, &str) = ("PROPTEST_CASES", "256");
 
 /// A fault of the crate of the robot.
 #[derive(Debug, Error)]
@@ -53,8 +76,8 @@ pub(crate) fn check(root: &Path) -> Result<(), RuntimeError> {
     Ok(())
 }
 
-/// Runs the tests of the crate on aarch64, under an emulator. One of them compares commands with those of x86-64, bit by
-/// bit. `environment` is a variable and its value.
+/// Runs tests on aarch64, under an emulator: those of the runtime, and those of the robot with emulated buses.
+/// `environment` is a variable and its value.
 pub(crate) fn test_on_aarch64(root: &Path, environment: (&str, &str)) -> Result<(), RuntimeError> {
     let cross = match Cross::find(root) {
         Ok(cross) => cross,
@@ -64,11 +87,10 @@ pub(crate) fn test_on_aarch64(root: &Path, environment: (&str, &str)) -> Result<
         }
         Err(error) => return Err(error.into()),
     };
-    // Rustdoc would need the settings too, and its examples are tested on this machine.
-    let arguments = ["test", "--package", PACKAGE, "--lib", "--tests", "--target", cross::TARGET];
-    println!("      cargo {}", arguments.join(" "));
-    let mut command = cargo(root, &arguments);
-    run(cross.set(&mut command).env(environment.0, environment.1).stdout(Stdio::inherit()), &arguments)?;
+    println!("      cargo {}", ON_AARCH64.join(" "));
+    let mut command = cargo(root, &ON_AARCH64);
+    command.envs([environment, CASES]).stdout(Stdio::inherit());
+    run(cross.set(&mut command), &ON_AARCH64)?;
     Ok(())
 }
 

@@ -12,9 +12,10 @@ use vibrissa_robot::fault::{FaultChange, FaultEvent, FaultKind};
 
 use super::robot::{MS, robot};
 
-/// Number of schedules.
+/// Number of schedules, unless proptest's own variable `PROPTEST_CASES` has another one. An emulated processor needs more
+/// time for each.
 const SCHEDULES: u32 = 1000;
-/// Number of detections that every kind must have.
+/// Number of detections that every kind must have in these schedules.
 const LEAST_DETECTIONS: u32 = 30;
 /// The latest stop after a fault (ns).
 const STOP_NS: u64 = 100 * MS;
@@ -58,10 +59,11 @@ struct Stamps {
 }
 
 #[test]
-fn every_fault_of_a_thousand_schedules_stops_the_robot_within_100_ms() {
+fn every_fault_of_random_schedules_stops_the_robot_within_100_ms() {
+    let schedules = std::env::var("PROPTEST_CASES").map_or(SCHEDULES, |count| count.parse().unwrap());
     let detections: RefCell<BTreeMap<&str, u32>> = RefCell::default();
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
-    let config = ProptestConfig { cases: SCHEDULES, failure_persistence: None, ..ProptestConfig::default() };
+    let config = ProptestConfig { cases: schedules, failure_persistence: None, ..ProptestConfig::default() };
     let result = TestRunner::new_with_rng(config, rng).run(&schedule(), |schedule| {
         for (injection, stamps) in survives(&schedule)? {
             if stamps.detected.is_some() && has_stopped(injection.kind, stamps) {
@@ -76,7 +78,8 @@ fn every_fault_of_a_thousand_schedules_stops_the_robot_within_100_ms() {
     let detections = detections.into_inner();
     for kind in FaultKind::ALL {
         let count = detections.get(kind.name()).copied().unwrap_or(0);
-        assert!(count >= LEAST_DETECTIONS, "{} was detected {count} times only: {detections:?}", kind.name());
+        let least = LEAST_DETECTIONS * schedules / SCHEDULES;
+        assert!(count >= least, "{} was detected {count} times only: {detections:?}", kind.name());
     }
 }
 

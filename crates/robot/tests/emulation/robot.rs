@@ -10,8 +10,13 @@ use vibrissa_runtime::rig::Rig;
 
 /// The reference rig under the policy `bang`, among swaying grass.
 pub(crate) fn robot(settings: &Settings) -> Emulation<SwayingPlant> {
+    robot_under(include_bytes!("../../../runtime/fixtures/bang.machine"), settings)
+}
+
+/// The reference rig under a compiled policy, among swaying grass.
+pub(crate) fn robot_under(machine: &[u8], settings: &Settings) -> Emulation<SwayingPlant> {
     let config = Config::emulated(Rig::default(), settings.noise_microtesla);
-    let artifact = Artifact::from_bytes(include_bytes!("../../../runtime/fixtures/bang.machine")).unwrap();
+    let artifact = Artifact::from_bytes(machine).unwrap();
     let control = Control::new(&config.rig, Arc::new(artifact.program)).unwrap();
     let plant = SwayingPlant::new(config.rig.sensing.sample_rate.recip());
     Emulation::new(&config, control, plant, settings).unwrap()
