@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
-use vibrissa_runtime::machine::{Artifact, FORMAT, Program, State, Target};
-use vibrissa_runtime::units::format_si;
+use vibrissa_runtime::machine::{Artifact, FORMAT, Needs, Program, RateRange, State, Target};
+use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -60,6 +60,7 @@ impl Document for Checked {
 struct Summary {
     name: String,
     whiskers: Vec<String>,
+    needs: NeedsSummary,
     parameters: Vec<ParameterSummary>,
     states: Vec<StateSummary>,
     /// Target of the fallback transition of states without their own.
@@ -68,6 +69,18 @@ struct Summary {
     memory_bytes: usize,
     /// A bound on the operations of any tick with eight transitions.
     most_operations: usize,
+}
+
+/// The needs that a policy states. `null` for those that it does not state.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct NeedsSummary {
+    /// Lowest and highest control rate.
+    control_rate: Option<[String; 2]>,
+    /// Lowest and highest sample rate.
+    sample_rate: Option<[String; 2]>,
+    /// Least and largest age of a sample.
+    sample_age: Option<[String; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -241,10 +254,20 @@ fn summary(artifact: &Artifact) -> Summary {
         failsafe: program.fallback.as_ref().map(|target| name(program, target)),
         name: program.name.clone(),
         whiskers: program.whiskers.clone(),
+        needs: needs(&program.needs),
         parameters: program.parameters.iter().zip(&program.initial_registers).map(parameter).collect(),
         states: program.states.iter().enumerate().map(state).collect(),
         memory_bytes: program.memory_bytes(),
-        most_operations: program.most_operations(),
+        most_operations: artifact.most_operations,
+    }
+}
+
+fn needs(needs: &Needs) -> NeedsSummary {
+    let rates = |range: RateRange| [range.low, range.high].map(|rate| format_si(rate, Dimension::FREQUENCY));
+    NeedsSummary {
+        control_rate: needs.control_rate.map(rates),
+        sample_rate: needs.sample_rate.map(rates),
+        sample_age: needs.sample_age.map(|most| [0.0, most].map(|age| format_si(age, Dimension::TIME))),
     }
 }
 
@@ -280,6 +303,12 @@ fn describe(file: &str, machine: &Summary) -> String {
         machine.memory_bytes,
         machine.most_operations
     );
+    let NeedsSummary { control_rate, sample_rate, sample_age } = &machine.needs;
+    let needs = [("control_rate", control_rate), ("sample_rate", sample_rate), ("sample_age", sample_age)];
+    for (name, [low, high]) in needs.into_iter().filter_map(|(name, range)| Some((name, range.as_ref()?))) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "needs {name} in {low} .. {high}");
+    }
     if !machine.parameters.is_empty() {
         text += &(parameters.fitted() + "\n");
     }

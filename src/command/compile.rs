@@ -36,7 +36,8 @@ pub(super) fn compile(arguments: &CompileArguments) -> Result<Exit, Failure> {
     let artifact = arguments.settings.of(read)?.value.artifact;
     let bytes = artifact.to_bytes().map_err(LoadError::artifact(policy))?;
     file.write(&bytes)?;
-    let (machine, size) = (&artifact.program.name, bytes.len());
-    output::result(format_args!("{}: machine {machine}, {size} bytes", out.display()))?;
+    let (machine, size, work) = (&artifact.program.name, bytes.len(), artifact.most_operations);
+    let out = out.display();
+    output::result(format_args!("{out}: machine {machine}, {size} bytes, at most {work} operations a tick"))?;
     Ok(Exit::Done)
 }

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use clap::{Arg, Args};
 use sha2::Digest;
+use vibrissa_robot::admission::{Admission, Device, admit};
 use vibrissa_robot::config::Config;
 use vibrissa_robot::emulation::{Injection, Settings as EmulationSettings};
 
@@ -117,6 +118,13 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         }
         None => Config::emulated(scene.rig.clone(), settings.noise_microtesla),
     };
+    let artifact = policy.value.artifact;
+    let admission = admit(&artifact, &config, &mut Device::instant());
+    let Admission { config, slower } =
+        admission.map_err(|cause| Failure::NotAdmitted { machine: arguments.machine.clone(), cause })?;
+    if let Some(slower) = slower {
+        output::message(format_args!("warning: {slower}"));
+    }
     let report = match &arguments.out {
         Some(directory) => {
             make_directory(Some(directory))?;
@@ -126,7 +134,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     };
     let world = arguments.world.of(&scene);
     let inputs = inputs(scenario, &scenario_hash.finalize(), &policy.hash.finalize());
-    let program = Arc::new(policy.value.artifact.program);
+    let program = Arc::new(artifact.program);
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
     let emulated = emulated::run(&trial, &config, &settings).map_err(|cause| {

@@ -111,6 +111,8 @@ pub(super) enum Failure {
     RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
     #[error("{} is no list of faults: {cause}", path.display())]
     Injections { path: PathBuf, cause: String },
+    #[error("{}: {cause}", machine.display())]
+    NotAdmitted { machine: PathBuf, cause: vibrissa_robot::admission::Refusal },
     #[error("{}: {cause}", scenario.display())]
     Emulated { scenario: PathBuf, cause: EmulatedError },
     #[error(transparent)]

@@ -2,6 +2,10 @@
 
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+use std::path::Path;
+
+use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::rig::Rig;
 
 use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
 use crate::report::Table;
@@ -89,6 +93,13 @@ pub(super) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) {
     let colour =
         if stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() { Colour::Ansi } else { Colour::Plain };
     let _ = write!(stderr(), "{}", terminal(source, diagnostics, colour));
+}
+
+/// Warns if a policy does not allow the rates of a scenario's rig. The run is possible, and shows the effect of the rates.
+pub(super) fn warn_of_rates(scenario: &Path, rig: &Rig, program: &Program) {
+    if let Err(unmet) = program.needs.check_rates(rig.sensing.control_rate, rig.sensing.sample_rate) {
+        message(format_args!("warning: {}: {unmet}; results may differ", scenario.display()));
+    }
 }
 
 /// Prints the warnings of a policy.

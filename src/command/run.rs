@@ -117,6 +117,7 @@ fn trial(
     let seed = arguments.seed.unwrap_or(scene.seed);
     let world = arguments.world.of(&scene);
     let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash.finalize());
+    output::warn_of_rates(path, &scene.rig, &policy.artifact.program);
     let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program)) };
     Ok(Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial })
 }

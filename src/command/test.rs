@@ -137,6 +137,7 @@ fn trial_of(
         other => other,
     })?;
     test.set(&mut program);
+    output::warn_of_rates(&path, &scene.rig, &program);
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let inputs = inputs(&path, &hash.finalize(), &policy_hash.finalize());

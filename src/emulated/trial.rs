@@ -54,6 +54,8 @@ pub fn run(trial: &Trial, config: &Config, settings: &Settings) -> Result<Emulat
     (sensing.angle_noise, sensing.angle_resolution) = (0.0, 0.0);
     sensing.sample_rate = config.rig.sensing.sample_rate;
     sensing.control_rate = sensing.sample_rate;
+    // A device may need other rates than those for which the scenario has its step.
+    plant_trial.scene.physics.fit_step(config.rig.sensing.sample_rate);
     let plant = WorldPlant::new(plant_trial.world()?, &trial.scene.rig, trial.scene.start);
     let control = Control::new(&config.rig, Arc::clone(&trial.program))?;
     let mut monitor = Monitor::new(&control, &trial.scene.stop, config.rig.sensing.control_rate.recip());

@@ -28,6 +28,15 @@ pub struct Physics {
 }
 
 impl Physics {
+    /// Shortens the step so that a sample period at `sample_rate` (Hz) contains a whole number of steps.
+    pub(crate) fn fit_step(&mut self, sample_rate: f64) {
+        let period = sample_rate.recip();
+        let steps = period / self.step;
+        if (steps - steps.round()).abs() > 1e-9 * steps {
+            self.step = period / steps.ceil();
+        }
+    }
+
     /// The number of steps that a calm step replaces, out of `steps_per_sample`. It is the largest divisor for which
     /// the calm step is not too long. It is 1 with friction, which is stable only in short steps.
     #[must_use]

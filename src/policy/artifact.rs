@@ -16,7 +16,7 @@ pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifa
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };
-    Artifact { origin, program, positions: places(source, file) }
+    Artifact { origin, most_operations: program.most_operations(), program, positions: places(source, file) }
 }
 
 fn places(source: &Source, file: &File) -> SourceMap {

@@ -23,6 +23,7 @@ pub(super) struct File {
     pub(super) tip_models: Vec<Option<Name>>,
     /// For each whisker, true if it is optional: `if fitted`.
     pub(super) optional: Vec<bool>,
+    pub(super) needs: Vec<Need>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
@@ -58,6 +59,21 @@ pub(super) enum From {
     Module(Vec<Name>),
     /// A file by its path.
     Path(String),
+}
+
+/// `needs name in low .. high`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Need {
+    pub(super) name: Name,
+    pub(super) low: Bound,
+    pub(super) high: Bound,
+}
+
+impl Need {
+    /// Span of the range.
+    pub(super) fn range(&self) -> Span {
+        self.low.span.to(self.high.span)
+    }
 }
 
 /// `param name = value in low .. high`

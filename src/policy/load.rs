@@ -202,18 +202,20 @@ impl Loaded {
 /// The diagnostic for an item in a library that is allowed only in a machine.
 fn misplaced(file: &File) -> Option<Diagnostic> {
     let parameters = file.parameters.iter().map(|parameter| parameter.name.span);
+    let needs = file.needs.iter().map(|need| need.name.span);
     let states = file.states.iter().map(|state| state.name.span);
     let names = file.whiskers.iter().chain(&file.initial).map(|name| name.span);
     let rules = file.always.iter().map(|rule| &rule.target).chain(&file.failsafes).map(|target| target.span);
     let tests = file.tests.iter().map(|test| test.title.span);
     let memory = file.memory.iter().map(|(name, _)| name.span);
-    let items = parameters.chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
+    let items =
+        parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
         Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")
             .note(file.name.span, "a library")
             .hint(
-                "pass values to a law as arguments; only a machine has states, whiskers, parameters, memory and tests",
+                "pass values to a law as arguments; only a machine has states, whiskers, needs, parameters, memory and tests",
             )
     })
 }

@@ -13,8 +13,8 @@ use std::borrow::Cow;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Bound, Derived, File, From, Guard, Law, Name, Parameter, Quantity, Statement, Steer, Transition, Turn,
-    TypeName, Use,
+    Argument, Bound, Derived, File, From, Guard, Law, Name, Need, Parameter, Quantity, Statement, Steer, Transition,
+    Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
@@ -36,6 +36,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         whiskers: Vec::new(),
         tip_models: Vec::new(),
         optional: Vec::new(),
+        needs: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -67,6 +68,11 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 }
                 file.optional.resize(file.whiskers.len(), is_optional);
             }
+            Rule::needs => file.needs.push(Need {
+                name: reader.name()?,
+                low: bound(reader.take(Rule::bound)?)?,
+                high: bound(reader.take(Rule::bound)?)?,
+            }),
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),
             Rule::derived => file.derived.push(Derived {

@@ -121,6 +121,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_library
             | Rule::kw_use
             | Rule::kw_by
+            | Rule::kw_needs
             | Rule::kw_param
             | Rule::kw_initial
             | Rule::kw_let

@@ -17,8 +17,10 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
-const ITEM_WORDS: [&str; 12] =
-    ["whisker", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine", "library"];
+const ITEM_WORDS: [&str; 13] = [
+    "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine",
+    "library",
+];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
 /// Keywords that begin a statement or a memory declaration, in a state or outside.

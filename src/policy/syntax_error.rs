@@ -9,15 +9,14 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str =
-    "an item (`use`, `whisker`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
+const ITEM: &str = "an item (`use`, `whisker`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 10] =
-    ["machine", "library", "use", "whisker", "param", "initial", "law", "state", "always", "test"];
+const ITEM_WORDS: [&str; 11] =
+    ["machine", "library", "use", "whisker", "needs", "param", "initial", "law", "state", "always", "test"];
 
 /// The diagnostic for an error of pest.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -127,6 +126,9 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         "+" | "-" if rest[1..].starts_with(found) => format!("write the value out: `set name = name {found} 1`"),
         "?" => "write `if condition { \u{2026} } else { \u{2026} }`, or `blend(from, to, share)`".to_owned(),
         "=" if starts("=>") => "write `->`".to_owned(),
+        "=" if before.split_whitespace().nth_back(1) == Some("needs") => {
+            "a need is a range: `needs control_rate in 20 .. 60 Hz`".to_owned()
+        }
         "=" => "`==` compares two values; `let name = value` names one".to_owned(),
         "&" => "write `and`".to_owned(),
         "|" if starts("||") => "write `or`".to_owned(),
@@ -270,6 +272,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_use => "use",
         Rule::kw_whisker => "whisker",
         Rule::fitted => "fitted",
+        Rule::kw_needs => "needs",
         Rule::kw_param => "param",
         Rule::kw_var => "var",
         Rule::kw_initial => "initial",

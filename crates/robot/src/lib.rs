@@ -15,6 +15,7 @@
 //! Each task is a step function of the time. On a robot, the threads of `program` call it. In the `emulation`, a scheduler
 //! calls it in emulated time, with emulated sensors on emulated buses.
 
+pub mod admission;
 pub mod array;
 pub mod config;
 pub mod drive;

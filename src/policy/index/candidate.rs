@@ -97,6 +97,7 @@ impl Index {
             }
             Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
             Expected::Mark => keywords_at(Position::Mark).map(of_keyword).collect(),
+            Expected::Need => keywords_at(Position::Need).map(of_keyword).collect(),
             Expected::TipModel => keywords_at(Position::TipModel).map(of_keyword).collect(),
             Expected::File => modules(&format!("{ROOT}.")).collect(),
             Expected::Module => modules("").collect(),

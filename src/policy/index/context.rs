@@ -26,6 +26,8 @@ pub(super) enum Expected {
     Parameter,
     /// The kind of a mark.
     Mark,
+    /// A rate or an age after `needs`.
+    Need,
     TipModel,
     /// A file after `use`.
     File,
@@ -194,6 +196,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "set" if level == Level::Test => Expected::Parameter,
         "set" => Expected::Memory,
         "mark" => Expected::Mark,
+        "needs" => Expected::Need,
         "by" => Expected::TipModel,
         "use" => Expected::File,
         "resume" => Expected::Resumed,
@@ -231,7 +234,7 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("when" | "always") if !has("->") && has("for") => &["->"],
         Some("when" | "always") if !has("->") => &["for", "->", "and", "or"],
         Some("after") if !has("->") => &["->"],
-        Some("param") if !has("in") => &["in"],
+        Some("param" | "needs") if !has("in") => &["in"],
         Some("if") if has("}") => &["else"],
         Some("set") if level == Level::Test => &[],
         Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],

@@ -23,6 +23,8 @@ pub(super) enum Position {
     Target,
     /// After `mark`.
     Mark,
+    /// After `needs`.
+    Need,
     /// After `by`.
     TipModel,
 }
@@ -80,10 +82,11 @@ const VALUE: &[Position] = &[Position::Value];
 const TRUTH: &[Position] = &[Position::Value, Position::Run];
 const TARGET: &[Position] = &[Position::Target];
 const MARK: &[Position] = &[Position::Mark];
+const NEED: &[Position] = &[Position::Need];
 const TIP_MODEL: &[Position] = &[Position::TipModel];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 53] = [
+pub(super) const KEYWORDS: [Keyword; 57] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -109,6 +112,12 @@ pub(super) const KEYWORDS: [Keyword; 53] = [
         INSIDE,
         "fitted",
         "After `whisker a if`: these whiskers are optional. A missing whisker never touches, and its `a.fitted` is false.",
+    ),
+    entry(
+        "needs",
+        ITEM,
+        "needs ${1:control_rate} in ${2:20} .. ${3:30 Hz}",
+        "A rate of the loop, or the age of its samples, and the range that the policy was made for.",
     ),
     entry(
         "param",
@@ -214,7 +223,12 @@ pub(super) const KEYWORDS: [Keyword; 53] = [
     entry("stop", COMMAND, "stop", "Stops the platform and holds its pose."),
     entry("else", INSIDE, "else {\n  ${0}\n}", "The block that is executed if no preceding condition holds."),
     entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
-    entry("in", INSIDE, "in ${1:low} .. ${2:high}", "The range of the parameter. In a test, the file of the scenario."),
+    entry(
+        "in",
+        INSIDE,
+        "in ${1:low} .. ${2:high}",
+        "The range of the parameter or the need. In a test, the file of the scenario.",
+    ),
     entry("of", INSIDE, "of ${1:length}", "The dimension of a vector's components."),
     entry("along", INSIDE, "along ${1:direction}", "The direction of the motion, a vector of any length."),
     entry("at", INSIDE, "at ${1:speed}", "The speed of the motion."),
@@ -258,6 +272,14 @@ pub(super) const KEYWORDS: [Keyword; 53] = [
         TIP_MODEL,
         "one_channel",
         "Estimates the tip from the base angle alone, and assumes a surface parallel to the heading.",
+    ),
+    entry("control_rate", NEED, "control_rate in ${1:20} .. ${2:30 Hz}", "The rate of ticks."),
+    entry("sample_rate", NEED, "sample_rate in ${1:200} .. ${2:300 Hz}", "The rate of samples of every whisker."),
+    entry(
+        "sample_age",
+        NEED,
+        "sample_age in 0 .. ${1:40 ms}",
+        "The age of a sample: the time since its base angle was measured.",
     ),
     entry("lost", MARK, "lost", "The whisker has lost the contour at an edge."),
     entry("found", MARK, "found", "The whisker has found contact again."),

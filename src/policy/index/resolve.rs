@@ -62,8 +62,8 @@ pub(super) fn resolve(
                 named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type)
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
-            TokenKind::Name if is_before("mark") => {
-                keyword(token.text).filter(|word| is_mark(word)).map(|word| Meaning::Keyword(word.text))
+            TokenKind::Name if is_before("mark") || is_before("needs") => {
+                keyword(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
             }
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
                 keyword(token.text).map(|word| Meaning::Keyword(word.text))
@@ -125,9 +125,9 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
     std::iter::once(file).chain(names).collect()
 }
 
-/// True if a word has its meaning only after `mark`.
-fn is_mark(word: &Keyword) -> bool {
-    word.positions == [Position::Mark]
+/// True if a word has its meaning only after `mark` or `needs`.
+fn is_contextual(word: &Keyword) -> bool {
+    [[Position::Mark], [Position::Need]].iter().any(|positions| word.positions == positions)
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
@@ -185,7 +185,7 @@ impl<'s> Names<'s> {
         }
         match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
             Some(function) => Some(Meaning::Function(function)),
-            None => keyword(name).filter(|word| !is_mark(word)).map(|word| Meaning::Keyword(word.text)),
+            None => keyword(name).filter(|word| !is_contextual(word)).map(|word| Meaning::Keyword(word.text)),
         }
     }
 

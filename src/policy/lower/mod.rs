@@ -9,6 +9,7 @@ mod function;
 mod hierarchy;
 mod memory;
 mod names;
+mod needs;
 mod parameter;
 mod scope;
 mod statement;

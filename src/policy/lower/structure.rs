@@ -68,6 +68,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let states = compiler.states(file, &scope, declared, &mut timers);
     let initial = compiler.initial(file);
     let contact_estimators = compiler.contact_estimators(file);
+    let needs = compiler.needs(file);
     compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
 
@@ -77,6 +78,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
         contact_estimators,
         optional: file.optional.clone(),
+        needs,
         parameters,
         states,
         initial: initial?,

@@ -92,6 +92,8 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
         ("when w.touching for 1 s \u{a7}", "->", "for"),
         ("if true { hold } \u{a7}", "else", "facing"),
         ("}\nparam x = 3 mm \u{a7}", "in", "when"),
+        ("}\nneeds \u{a7}", "sample_age", "when"),
+        ("}\nneeds sample_rate \u{a7}", "in", "when"),
         ("}\nalways \u{a7}", "when", "param"),
     ] {
         assert!(has(place, yes), "{place}: {:?}", labels(&writing(place)));

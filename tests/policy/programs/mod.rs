@@ -8,3 +8,4 @@ mod interpreter;
 mod side_by_side;
 mod text;
 mod tree;
+mod work;

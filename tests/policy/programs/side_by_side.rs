@@ -33,7 +33,7 @@ prop_compose! {
 }
 
 /// Some ticks of three whiskers, most of which come late by some milliseconds.
-fn scripts() -> impl Strategy<Value = Script> {
+pub(super) fn scripts() -> impl Strategy<Value = Script> {
     let tick = (prop::collection::vec(feel(), 3), prop_oneof![Just(0), 0..30_u8]);
     prop::collection::vec(tick, 1..25).prop_map(|ticks| {
         let (feels, late): (Vec<_>, Vec<_>) = ticks.into_iter().unzip();
@@ -42,7 +42,7 @@ fn scripts() -> impl Strategy<Value = Script> {
 }
 
 /// The machine of a program; `None` if the compiler has found that a tick of it can go round.
-fn machine(text: &str) -> Option<machine::Program> {
+pub(super) fn machine(text: &str) -> Option<machine::Program> {
     match compile(&Source::new("program.fsm", text)) {
         Ok(program) => Some(program),
         Err(faults) => {
@@ -88,7 +88,7 @@ fn run_both(
 }
 
 /// How many programs are compared, unless `PROPTEST_CASES` asks for more.
-fn cases() -> u32 {
+pub(super) fn cases() -> u32 {
     ProptestConfig::default().cases.max(2000)
 }
 

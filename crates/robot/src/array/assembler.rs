@@ -160,6 +160,12 @@ impl Assembler {
         &self.samples
     }
 
+    /// Age (ns) of a value when it is read.
+    #[must_use]
+    pub fn delay_ns(&self) -> u64 {
+        self.delay_ns
+    }
+
     /// Rounds that came after their sample.
     #[must_use]
     pub fn late(&self) -> u64 {

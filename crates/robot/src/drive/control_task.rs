@@ -150,7 +150,7 @@ impl ControlTask {
         // Without room the supervisor is late, and its own watch reports that.
         let _ = self.outputs.commands.push(StampedCommand { time_ns: ended_ns, command });
         let newest_ns = origin_ns + last_slot * self.sample_period_ns;
-        let sample_age_ns = started_ns.saturating_sub(newest_ns);
+        let sample_age_ns = started_ns.saturating_sub(newest_ns) + self.assembler.delay_ns();
         self.vitals.sample_age.add(sample_age_ns);
         self.report(TickReport {
             due_ns,

@@ -12,5 +12,5 @@ pub(crate) use loop_record::record_queues;
 pub use loop_record::{LoopRecord, RecordSender, Records, StepInput};
 pub use record_sink::RecordSink;
 pub use report::TickReport;
-pub(crate) use schedule::{QUEUE, SUPERVISION_NS, TICK_OFFSET_NS};
+pub(crate) use schedule::{QUEUE, SUPERVISION_NS, tick_offset_ns};
 pub use supervisor::Supervisor;

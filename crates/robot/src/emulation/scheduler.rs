@@ -22,7 +22,7 @@ use crate::array::{Assembler, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::{
     ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Started, Supervisor,
-    TICK_OFFSET_NS, record_queues,
+    record_queues, tick_offset_ns,
 };
 use crate::fault::FaultEvent;
 use crate::link::{CommandPacket, StampedCommand};
@@ -287,7 +287,8 @@ impl<P: Plant> Emulation<P> {
     }
 
     fn tick_due_ns(&self) -> u64 {
-        self.control_thread.next_tick * self.rounds_per_tick * self.sample_period_ns + TICK_OFFSET_NS
+        self.control_thread.next_tick * self.rounds_per_tick * self.sample_period_ns
+            + tick_offset_ns(self.sample_period_ns)
     }
 
     fn pose(&mut self) {
@@ -334,7 +335,7 @@ impl<P: Plant> Emulation<P> {
         let missed = (self.now_ns - due_ns) / period_ns;
         self.vitals.miss(Phase::Control, missed);
         self.control_thread.next_tick += missed + 1;
-        let last_slot = (self.now_ns - TICK_OFFSET_NS.min(self.now_ns)) / self.sample_period_ns;
+        let last_slot = self.now_ns.saturating_sub(tick_offset_ns(self.sample_period_ns)) / self.sample_period_ns;
         let (now_ns, does_panic, mut ticked) = (self.now_ns, self.switches.does_control_panic, None);
         let now = || {
             assert!(!does_panic, "an injected fault");

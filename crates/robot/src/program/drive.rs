@@ -12,14 +12,15 @@ use vibrissa_mlx90393::{Address, measure_bus_clock};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, Program};
 
-use super::admission::{Measured, admit, measure_tick};
 use super::command_line::print_error;
 use super::event_log::EventLog;
 use super::machine_run::MachineRun;
+use super::measure::measured;
 use super::real_time::RealTime;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
+use crate::admission::{Admission, Device, admit};
 use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, MqttConfig, PoseSource};
 use crate::drive::RecordSink;
 use crate::histogram::Histogram;
@@ -76,30 +77,36 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
         Some(path) => (read_machine(path)?, MachineRun::of_file()),
         None => MachineRun::of_store(&arguments.store)?,
     };
-    let result = drive_by(artifact, &mut run, config, arguments);
+    let result = drive_by(&artifact, &mut run, &config, arguments);
     run.end();
     result
 }
 
 fn drive_by(
-    artifact: Artifact,
+    artifact: &Artifact,
     run: &mut MachineRun,
-    config: Config,
+    config: &Config,
     arguments: &DriveArguments,
 ) -> Result<ExitCode, Error> {
-    let program = Arc::new(artifact.program);
+    let program = Arc::new(artifact.program.clone());
     let real_time = RealTime::request(|warning| print_error(&format!("warning: {warning}")));
     let clock = SystemClock::start();
     let control = Control::new(&config.rig, Arc::clone(&program)).inspect_err(|error| run.note_failure(error))?;
-    if !arguments.skip_admission {
-        let clocks = bus_clocks(&config, clock)?;
-        let measured = Measured { tick: measure_tick(control.clone(), &config.rig), clocks };
-        admit(&program, &config, &measured).inspect_err(|refusal| {
-            if refusal.concerns_machine() {
-                run.note_failure(refusal);
-            }
-        })?;
+    let admission = if arguments.skip_admission {
+        admit(artifact, config, &mut Device::instant())
+    } else {
+        let clocks = bus_clocks(config, clock)?;
+        measured(&control, &config.rig, clocks, clock, |device| admit(artifact, config, device))
+    };
+    let Admission { config, slower } = admission.inspect_err(|refusal| {
+        if refusal.concerns_machine() {
+            run.note_failure(refusal);
+        }
+    })?;
+    if let Some(slower) = slower {
+        print_error(&format!("warning: {slower}"));
     }
+    let control = Control::new(&config.rig, Arc::clone(&program))?;
     let termination = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
         signal_hook::flag::register(signal, Arc::clone(&termination))?;

@@ -1,10 +1,10 @@
 //! The program on the robot: command line, threads, system buses.
 
-mod admission;
 mod command_line;
 mod drive;
 mod event_log;
 mod machine_run;
+mod measure;
 mod real_time;
 mod receive;
 mod sensors;
@@ -15,7 +15,6 @@ mod system_clock;
 mod threads;
 mod verdict;
 
-pub use admission::Refusal;
 pub use command_line::main;
 pub use real_time::RealTime;
 pub use system_bus::{SystemBus, SystemBusError};

@@ -13,7 +13,7 @@ use crate::array::{Acquisition, Assembler, Bus, Round, StampedPose, StartFault, 
 use crate::config::{Config, ConfigError};
 use crate::drive::{
     ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, RecordSink, Records, SUPERVISION_NS, Supervisor,
-    TICK_OFFSET_NS, record_queues,
+    record_queues, tick_offset_ns,
 };
 use crate::link::{Actuator, StampedCommand};
 use crate::vitals::{Phase, Vitals};
@@ -220,9 +220,10 @@ fn acquire<B: Bus>(
 fn control(common: &Common, mut task: ControlTask, tick_periods: u64) {
     raise_priority(CONTROL_PRIORITY);
     let period_ns = tick_periods * common.sample_period_ns;
+    let offset_ns = tick_offset_ns(common.sample_period_ns);
     let (mut tick, mut has_failed) = (1, false);
     while common.goes_on() {
-        let due_ns = common.origin_ns + tick * period_ns + TICK_OFFSET_NS;
+        let due_ns = common.origin_ns + tick * period_ns + offset_ns;
         let now_ns = common.clock.now_ns();
         let missed = now_ns.saturating_sub(due_ns) / period_ns;
         common.vitals.miss(Phase::Control, missed);

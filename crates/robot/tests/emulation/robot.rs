@@ -2,21 +2,45 @@
 
 use std::sync::Arc;
 
+use vibrissa_robot::admission::{Device, admit};
 use vibrissa_robot::config::Config;
 use vibrissa_robot::emulation::{Emulation, Settings, SwayingPlant};
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::Artifact;
+use vibrissa_runtime::machine::{Artifact, Needs};
 use vibrissa_runtime::rig::Rig;
+
+/// The artifact of the policy `bang`.
+const BANG: &[u8] = include_bytes!("../../../runtime/fixtures/bang.machine");
 
 /// The reference rig under the policy `bang`, among swaying grass.
 pub(crate) fn robot(settings: &Settings) -> Emulation<SwayingPlant> {
-    robot_under(include_bytes!("../../../runtime/fixtures/bang.machine"), settings)
+    robot_under(BANG, settings)
 }
 
 /// The reference rig under a compiled policy, among swaying grass.
 pub(crate) fn robot_under(machine: &[u8], settings: &Settings) -> Emulation<SwayingPlant> {
+    admitted(Artifact::from_bytes(machine).unwrap(), settings, |_| 0.0)
+}
+
+/// The robot with other needs of its machine, on a device with this longest tick (s) for a number of rounds.
+pub(crate) fn admitted_robot(
+    settings: &Settings,
+    needs: Needs,
+    tick: impl FnMut(u32) -> f64 + 'static,
+) -> Emulation<SwayingPlant> {
+    let mut artifact = Artifact::from_bytes(BANG).unwrap();
+    artifact.program.needs = needs;
+    admitted(artifact, settings, tick)
+}
+
+fn admitted(
+    artifact: Artifact,
+    settings: &Settings,
+    tick: impl FnMut(u32) -> f64 + 'static,
+) -> Emulation<SwayingPlant> {
     let config = Config::emulated(Rig::default(), settings.noise_microtesla);
-    let artifact = Artifact::from_bytes(machine).unwrap();
+    let mut device = Device { tick: Box::new(tick), ..Device::instant() };
+    let config = admit(&artifact, &config, &mut device).unwrap().config;
     let control = Control::new(&config.rig, Arc::new(artifact.program)).unwrap();
     let plant = SwayingPlant::new(config.rig.sensing.sample_rate.recip());
     Emulation::new(&config, control, plant, settings).unwrap()

@@ -22,7 +22,7 @@ use super::unsound::Unsound;
 pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
 /// Number of the format. It covers the layout of [`Artifact`] and of everything in it, including the order of
 /// operations and quantities.
-pub const FORMAT: u32 = 5;
+pub const FORMAT: u32 = 6;
 /// Maximum size of an artifact in bytes. The largest program of the compiler has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 
@@ -38,6 +38,9 @@ pub struct Artifact {
     pub origin: Origin,
     /// The compiled policy. [`Program::initial_registers`] contains the values of the parameters that were set.
     pub program: Program,
+    /// Work of a tick: the upper bound of its operations, [`Program::most_operations`]. A device compares it with its own
+    /// speed.
+    pub most_operations: usize,
     /// Positions of states and transitions in the text of the policy.
     pub positions: SourceMap,
 }
@@ -90,6 +93,14 @@ pub enum ArtifactError {
     /// The number of positions differs from the number of states and transitions.
     #[error("the machine's source map belongs to another policy; compile the policy again")]
     Positions,
+    /// The stated work of a tick is not that of the program.
+    #[error("the machine states {stated} operations a tick, but its code has up to {actual}; compile the policy again")]
+    Operations {
+        /// Operations that it states.
+        stated: usize,
+        /// Upper bound of its code.
+        actual: usize,
+    },
     /// The program is not safe to run.
     #[error("the machine is not safe to run: {0}; compile the policy again")]
     Unsound(#[from] Unsound),
@@ -154,7 +165,7 @@ impl Artifact {
         postcard::to_allocvec(self).map_err(|_| ArtifactError::Content)
     }
 
-    /// Checks the texts, the program and the positions.
+    /// Checks the texts, the program, the stated work and the positions.
     fn verify(&self) -> Result<(), ArtifactError> {
         for text in [&self.origin.file, &self.origin.compiler] {
             if text.len() > TEXT_LIMIT || text.chars().any(char::is_control) {
@@ -162,6 +173,10 @@ impl Artifact {
             }
         }
         self.program.verify()?;
+        let (stated, actual) = (self.most_operations, self.program.most_operations());
+        if stated != actual {
+            return Err(ArtifactError::Operations { stated, actual });
+        }
         if self.positions.fits(&self.program) { Ok(()) } else { Err(ArtifactError::Positions) }
     }
 }

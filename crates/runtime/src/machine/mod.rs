@@ -11,6 +11,7 @@ mod configuration;
 mod contact_estimator_kind;
 mod evaluate;
 mod fallback;
+mod needs;
 mod op;
 mod operands;
 mod program;
@@ -29,6 +30,7 @@ pub use action::{Action, ActionPart, Mover, NonFinite, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use contact_estimator_kind::ContactEstimatorKind;
 pub use fallback::{Cause, Fallback};
+pub use needs::{Needs, RateRange, UnmetRate};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
     CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Parameter, Program, REGISTER_LIMIT, SetError, State, Target,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::units::{Dimension, format_si};
 
 use super::contact_estimator_kind::ContactEstimatorKind;
+use super::needs::Needs;
 use super::op::{Block, Op, Register};
 use super::tick::MICROSTEP_LIMIT;
 
@@ -35,6 +36,8 @@ pub struct Program {
     pub contact_estimators: Vec<ContactEstimatorKind>,
     /// True for each whisker that a rig may lack.
     pub optional: Vec<bool>,
+    /// Rates of the loop and age of samples that the policy needs.
+    pub needs: Needs,
     /// The parameters. The parameter with index `i` is in register `i`.
     pub parameters: Vec<Parameter>,
     /// The states. An outer state comes before its inner states.
@@ -236,8 +239,8 @@ impl Program {
         own + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
 
-    /// Upper bound of the operations of any tick. It includes the start of a run, the maximum number of transitions
-    /// with all guards, a fallback transition and all bodies.
+    /// Upper bound of the operations of any tick. It includes the start of a run with its initial state, the maximum
+    /// number of transitions with all guards, a fallback transition and all bodies.
     #[must_use]
     pub fn most_operations(&self) -> usize {
         let most = |of: &dyn Fn(usize) -> usize| (0..self.states.len()).map(of).max().unwrap_or(0);
@@ -250,12 +253,13 @@ impl Program {
             self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.fallback));
         let targets = self.always.iter().map(|one| &one.target).chain(&self.fallback).chain(of_states);
         let entering = |state: &State| state.entry.len() + state.initial.as_ref().map_or(0, |(_, values)| values.len());
+        let enter = most(&|state| along_path(state, &entering));
         let transition = most(&|state| along_path(state, &|state| state.exit.len()))
             + targets.map(values).max().unwrap_or(0)
-            + most(&|state| along_path(state, &entering));
+            + enter;
         let look = most(&|state| along_path(state, &|state| guards(&state.transitions)));
         let act = most(&|state| along_path(state, &|state| state.body.len()));
-        let once = self.start.len() + self.entry.len() + guards(&self.always) + self.body.len();
+        let once = self.start.len() + self.entry.len() + enter + guards(&self.always) + self.body.len();
         once + (MICROSTEP_LIMIT + 1) * (look + transition) + 2 * act
     }
 

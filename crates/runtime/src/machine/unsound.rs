@@ -78,6 +78,9 @@ pub enum Unsound {
     /// The description of a parameter is too long or not one line of plain text.
     #[error("the description of its parameter `{0}` is longer than {DESCRIPTION_LIMIT} bytes or no single line")]
     Description(String),
+    /// The needs that it states are not positive, not in order, or without a whole ratio of the rates.
+    #[error("its needs are not positive, not in order, or have no whole ratio of the rates")]
+    Needs,
     /// A name is not an identifier of the language.
     #[error("{0:?} is no name")]
     Name(String),

@@ -34,6 +34,7 @@ impl Program {
             whiskers,
             contact_estimators,
             optional,
+            needs,
             parameters,
             states,
             initial,
@@ -67,6 +68,9 @@ impl Program {
         let is_unfit = |text: &str| text.len() > DESCRIPTION_LIMIT || text.chars().any(char::is_control);
         if let Some(parameter) = parameters.iter().find(|parameter| is_unfit(&parameter.description)) {
             return Err(Unsound::Description(parameter.name.clone()));
+        }
+        if !needs.are_valid() {
+            return Err(Unsound::Needs);
         }
         self.verify_numbers()?;
         within("state", *initial, states.len())?;

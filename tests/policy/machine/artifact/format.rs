@@ -22,6 +22,8 @@ fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
 const SMALL: &str = r#"
 machine small
 whisker a, b by sliding if fitted
+needs control_rate in 20 .. 30 Hz
+needs sample_age in 0 .. 10 ms
 param low = 1 in 0 .. 2  # described
 var n = low
 record a

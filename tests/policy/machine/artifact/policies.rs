@@ -12,6 +12,9 @@ use vibrissa_runtime::machine::Artifact;
 pub(crate) const EVERYTHING: &str = r#"
 machine everything
 whisker a, b
+needs control_rate in 20 .. 30 Hz
+needs sample_rate in 200 .. 300 Hz
+needs sample_age in 0 .. 10 ms
 param fast = 50 mm/s in 1 .. 200 mm/s
 param free = 2
 let bend(w: whisker) = abs(w.deflection) + turn(w.yaw, body.yaw) * sign(w.side) * w.sense

@@ -1,7 +1,7 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
 use vibrissa_runtime::machine::{
-    Artifact, ArtifactError, Guard, Mark, Op, Program, State, Target, Transition, WhiskerScalar,
+    Artifact, ArtifactError, Guard, Mark, Needs, Op, Program, RateRange, State, Target, Transition, WhiskerScalar,
 };
 
 use super::{erratic, policies};
@@ -315,6 +315,36 @@ fn a_source_map_fits_its_program() {
 }
 
 #[test]
+fn the_stated_work_of_a_tick_is_that_of_the_code() {
+    let whole = policies::everything();
+    let actual = whole.program.most_operations();
+    for stated in [0, actual - 1, actual + 1, usize::MAX] {
+        let artifact = Artifact { most_operations: stated, ..whole.clone() };
+        assert_eq!(artifact.to_bytes(), Err(ArtifactError::Operations { stated, actual }));
+    }
+}
+
+#[test]
+fn needs_are_positive_in_order_and_have_a_whole_ratio() {
+    let range = |low, high| Some(RateRange { low, high });
+    for age in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let told = refusal(|program| program.needs.sample_age = Some(age));
+        assert!(told.contains("its needs"), "{told}");
+    }
+    for (control_rate, sample_rate) in [
+        (range(30.0, 20.0), None),
+        (range(0.0, 20.0), None),
+        (None, range(-1.0, 20.0)),
+        (None, range(1.0, f64::INFINITY)),
+        (range(f64::NAN, 20.0), None),
+        (range(40.0, 45.0), range(50.0, 70.0)),
+    ] {
+        let told = refusal(|program| program.needs = Needs { control_rate, sample_rate, sample_age: None });
+        assert!(told.contains("its needs"), "{told}");
+    }
+}
+
+#[test]
 fn the_largest_machine_fits_into_an_artifact_and_runs() {
     let mut artifact = policies::everything();
     let program = &mut artifact.program;
@@ -323,6 +353,7 @@ fn the_largest_machine_fits_into_an_artifact_and_runs() {
     program.initial_registers.resize(60_000, -1.0 / 3.0);
     program.code.resize(50_000, Op::Rotate { to: 59_998, a: free, b: 59_000 });
     program.states[0].body = from..50_000;
+    artifact.most_operations = program.most_operations();
     let bytes = artifact.to_bytes().unwrap();
     erratic::run(Artifact::from_bytes(&bytes).unwrap().program);
 }
