@@ -1,5 +1,6 @@
 //! `vibrissa drive`
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -8,12 +9,14 @@ use clap::{Arg, Args};
 use sha2::Digest;
 use vibrissa_robot::admission::{Admission, Device, admit};
 use vibrissa_robot::config::Config;
+use vibrissa_robot::drive::LoopRecord;
 use vibrissa_robot::emulation::{Injection, Settings as EmulationSettings};
 
 use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{Format, WorldOptions};
 use super::output;
+use super::run_recording::RunRecording;
 use super::trials::{ReportFiles, inputs, make_directory, report_events};
 use super::values::parse_seed;
 use crate::emulated;
@@ -55,6 +58,9 @@ pub(super) struct DriveArguments {
     seed: Option<u64>,
     #[command(flatten)]
     world: WorldOptions,
+    /// Record the run into this MCAP file, for `vibrissa keep` and `vibrissa replay`
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
     /// Write a picture and the result into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -110,13 +116,13 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         noise_microtesla: arguments.sensor_noise,
         injections,
     };
-    let config = match &arguments.config {
+    let (config, config_text) = match &arguments.config {
         Some(path) => {
-            let config = config(path, &mut files)?;
+            let (config, text) = config(path, &mut files)?;
             scene.rig = config.rig.clone();
-            config
+            (config, Some(text))
         }
-        None => Config::emulated(scene.rig.clone(), settings.noise_microtesla),
+        None => (Config::emulated(scene.rig.clone(), settings.noise_microtesla), None),
     };
     let artifact = policy.value.artifact;
     let admission = admit(&artifact, &config, &mut Device::instant());
@@ -134,13 +140,28 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     };
     let world = arguments.world.of(&scene);
     let inputs = inputs(scenario, &scenario_hash.finalize(), &policy.hash.finalize());
+    let mut recording = match &arguments.record {
+        Some(path) => {
+            let details = BTreeMap::from([
+                ("scenario".to_owned(), scene.name.clone()),
+                ("scenario_hash".to_owned(), inputs.scenario_hash.clone()),
+                ("seed".to_owned(), settings.seed.to_string()),
+            ]);
+            Some(RunRecording::new(path, &config, config_text, &artifact, details, &mut files)?)
+        }
+        None => None,
+    };
     let program = Arc::new(artifact.program);
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
-    let emulated = emulated::run(&trial, &config, &settings).map_err(|cause| {
+    let record = |entry: &LoopRecord| recording.iter_mut().for_each(|recording| recording.take(entry));
+    let emulated = emulated::run(&trial, &config, &settings, record).map_err(|cause| {
         let scenario = trial.inputs.scenario.clone();
         Failure::Emulated { scenario, cause }
     })?;
+    if let Some(recording) = recording {
+        recording.finish()?;
+    }
     let document = trial.document(&emulated.result);
     report_events(&document);
     for violation in &emulated.result.violations {
@@ -161,9 +182,11 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     Ok(exit)
 }
 
-fn config(path: &Path, files: &mut CommandFiles) -> Result<Config, Failure> {
-    let text = load::read(path, files)?;
-    Config::from_text(&text.text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })
+/// Reads a configuration. The result has its text too.
+fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, String), Failure> {
+    let text = load::read(path, files)?.text;
+    let config = Config::from_text(&text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
+    Ok((config, text))
 }
 
 /// Reads a list of faults.

@@ -14,6 +14,7 @@ use crate::report::ChartTooLarge;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
+use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::SetError;
 use vibrissa_runtime::rig::UnknownWhisker;
@@ -123,6 +124,14 @@ pub(super) enum Failure {
     Refused(#[from] Refusal),
     #[error(transparent)]
     Push(#[from] PushError),
+    #[error("{}: {cause}", path.display())]
+    Keep { path: PathBuf, cause: KeepError },
+    #[error("{}: no fault has stopped the robot in this recording; give a time with --at", path.display())]
+    NoStop { path: PathBuf },
+    #[error("{}: the recording ends at {end:.3} s; give an earlier time with --at", path.display())]
+    Ended { path: PathBuf, end: f64 },
+    #[error("the run cannot be recorded: {0}")]
+    Record(#[from] WriteError),
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
 }

@@ -14,6 +14,7 @@ mod failure;
 mod families;
 mod fmt;
 mod graph;
+mod keep;
 mod lsp;
 mod man;
 mod merge;
@@ -23,7 +24,9 @@ mod output;
 mod pareto;
 mod progress;
 mod push;
+mod replay;
 mod run;
+mod run_recording;
 #[cfg(test)]
 mod schema;
 mod stress;
@@ -82,6 +85,10 @@ enum Command {
     Drive(drive::DriveArguments),
     /// Send a signed machine to a robot, which verifies it and drives it at its next start
     Push(push::PushArguments),
+    /// Keep the part of a recording until a stop, as a test that `replay` repeats
+    Keep(keep::KeepArguments),
+    /// Repeat a recorded run through driver, perception and machine, and compare every result bit for bit
+    Replay(replay::ReplayArguments),
     /// Draw the statechart of a policy
     Graph(graph::GraphArguments),
     /// Calibrate the contact estimators of a whisker
@@ -137,6 +144,8 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Drive(arguments) => drive::drive(arguments),
         Command::Push(arguments) => push::push(arguments),
+        Command::Keep(arguments) => keep::keep(arguments),
+        Command::Replay(arguments) => replay::replay(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
         Command::Estimators(arguments) => estimators::estimators(arguments),

@@ -50,12 +50,12 @@ pub(super) fn documents<const N: usize>(
 }
 
 /// Prints a document as JSON, or the tables of `tables`.
-pub(super) fn document<const N: usize>(
+pub(super) fn document<T: AsRef<[Table]>>(
     format: Format,
     document: &impl Document,
-    tables: impl FnOnce() -> [Table; N],
+    tables: impl FnOnce() -> T,
 ) -> Result<(), Failure> {
-    if format.json { json(document) } else { self::tables(&tables(), format.wide) }
+    if format.json { json(document) } else { self::tables(tables().as_ref(), format.wide) }
 }
 
 /// Prints a document as JSON.

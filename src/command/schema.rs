@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema};
 
 use crate::family::FamilyRun;
 use crate::mujoco::Pruning;
-use crate::results::{Document, DriveResult, RunResult, TickLine, Versioned};
+use crate::results::{Document, DriveResult, ReplayResult, RunResult, TickLine, Versioned};
 use crate::study::bench::BenchRow;
 use crate::study::compare::Comparison;
 use crate::study::estimators::EstimatorRow;
@@ -32,6 +32,7 @@ fn every_json_output_is_as_its_schema_says() {
     let schemas = [
         schema::<RunResult>(),
         schema::<DriveResult>(),
+        schema::<ReplayResult>(),
         schema::<TickLine<'static>>(),
         schema::<BenchRow>(),
         schema::<TimingRow>(),

@@ -19,6 +19,9 @@ const MAX_RUNS: u64 = 100_000;
 /// Largest deviation of starts (m), larger than any scene.
 const MAX_JITTER: f64 = 10.0;
 
+/// Largest time of a recording (s), longer than any robot runs.
+const MAX_TIME: f64 = 1e9;
+
 /// Number of runs at a time.
 pub(super) fn parse_jobs(text: &str) -> Result<NonZeroUsize, String> {
     let most = processors().get().saturating_mul(JOBS_PER_PROCESSOR);
@@ -66,6 +69,11 @@ pub(super) fn parse_jitter(text: &str) -> Result<f64, String> {
 /// Largest deviation of a heading from that of a scenario (rad). Half a turn to either side includes every heading.
 pub(super) fn parse_jitter_heading(text: &str) -> Result<f64, String> {
     parse_size(text, Dimension::ANGLE, PI, "from 0 to 180 deg, such as \"10 deg\"")
+}
+
+/// A time of a recording (s).
+pub(super) fn parse_time(text: &str) -> Result<f64, String> {
+    parse_size(text, Dimension::TIME, MAX_TIME, "from 0 to 1e9 s, such as \"12.3 s\"")
 }
 
 /// A quantity (SI) of this dimension from 0 to `most`. `range` describes it in messages.

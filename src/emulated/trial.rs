@@ -3,15 +3,21 @@
 use std::sync::Arc;
 
 use vibrissa_robot::config::{Config, ConfigError};
+use vibrissa_robot::drive::LoopRecord;
 use vibrissa_robot::emulation::{Emulation, EmulationError, Settings, Stopped};
 use vibrissa_robot::fault::FaultEvent;
 use vibrissa_robot::vitals::Phase;
 use vibrissa_runtime::control::{BindError, Control};
+use vibrissa_runtime::machine::Tick;
+use vibrissa_runtime::signal::Command;
 
 use super::world_plant::WorldPlant;
 use crate::run::{Ending, Monitor};
 use crate::scene::Outcome;
 use crate::trial::{ExecuteError, Trial, TrialResult};
+
+/// Time (ns) of a run between two looks at its records. Their queue holds some seconds.
+const RECORDING_NS: u64 = 1_000_000_000;
 
 /// The result of a trial with an emulated array.
 #[derive(Debug, Clone)]
@@ -43,11 +49,17 @@ pub enum EmulatedError {
     Emulation(#[from] EmulationError),
 }
 
-/// Runs a trial with the robot's own loop under `config`. Control assumes the rig of the configuration.
+/// Runs a trial with the robot's own loop under `config`. Control assumes the rig of the configuration. `record` receives
+/// the records of the loop.
 ///
 /// # Errors
 /// [`EmulatedError`] if the run cannot begin. The outcome of a run is part of the result.
-pub fn run(trial: &Trial, config: &Config, settings: &Settings) -> Result<EmulatedResult, EmulatedError> {
+pub fn run(
+    trial: &Trial,
+    config: &Config,
+    settings: &Settings,
+    mut record: impl FnMut(&LoopRecord),
+) -> Result<EmulatedResult, EmulatedError> {
     let mut plant_trial = trial.clone();
     let sensing = &mut plant_trial.scene.rig.sensing;
     // The emulated sensors have the noise, and commands take effect at every sample.
@@ -64,12 +76,23 @@ pub fn run(trial: &Trial, config: &Config, settings: &Settings) -> Result<Emulat
     // The robot may be stopped for good, so the time is limited beside the ticks. Neutral values take a second.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the time of a run")]
     let limit_ns = ((trial.scene.stop.time * 2.0 + 10.0) * 1e9) as u64;
-    let stopped = emulation.run(limit_ns, |control, command, tick, plant| {
+    let mut observe = |control: &Control, command: Command, tick: &Tick, plant: &mut WorldPlant| {
         ending = monitor.observe(control, command, tick, plant);
         plant.next_tick();
         crash = plant.fault().cloned();
         ending.is_none()
-    })?;
+    };
+    let stopped = loop {
+        // The queue of records must not become full.
+        let until_ns = limit_ns.min(emulation.now_ns() + RECORDING_NS);
+        let stopped = emulation.run(until_ns, &mut observe)?;
+        while let Some(entry) = emulation.next_record() {
+            record(&entry);
+        }
+        if stopped != Stopped::Time || until_ns == limit_ns {
+            break stopped;
+        }
+    };
     let ending = match (ending, stopped) {
         (Some(ending), _) => ending,
         (None, Stopped::Plant(fault)) => match crash {

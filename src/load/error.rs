@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use vibrissa_robot::recording::ReadError;
 use vibrissa_runtime::machine::ArtifactError;
 
 use crate::calibration::SetsError;
@@ -63,6 +64,14 @@ pub(crate) enum LoadError {
         /// The cause.
         cause: SetsError,
     },
+    /// The file is no recording that can be used.
+    #[error("{}: {cause}", path.display())]
+    Recording {
+        /// The file, or the first one of several.
+        path: PathBuf,
+        /// The cause.
+        cause: ReadError,
+    },
 }
 
 impl LoadError {
@@ -76,6 +85,12 @@ impl LoadError {
     pub(crate) fn artifact(path: &Path) -> impl FnOnce(ArtifactError) -> Self {
         let path = path.to_owned();
         |cause| Self::Artifact { path, cause }
+    }
+
+    /// The error of the recording at `path`.
+    pub(crate) fn recording(path: &Path) -> impl FnOnce(ReadError) -> Self {
+        let path = path.to_owned();
+        |cause| Self::Recording { path, cause }
     }
 
     /// The error that is one diagnostic of a text.

@@ -1,7 +1,8 @@
-//! Reading the files that a command names: scenarios, policies, contact sets.
+//! Reading the files that a command names: scenarios, policies, contact sets, recordings.
 
 mod error;
 mod policy;
+mod recording;
 mod scenario;
 mod text;
 
@@ -12,6 +13,7 @@ pub(crate) use policy::{
     Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_text, program,
     with_libraries, with_settings,
 };
+pub(crate) use recording::recording;
 pub(crate) use scenario::{beside, built_in_scenario, contact_sets, outline_file, scenario, scenario_in};
 pub(crate) use text::{read, read_standard};
 

@@ -14,13 +14,13 @@ use super::{Document, RunResult};
 pub struct DriveResult {
     /// The run.
     pub run: RunResult,
-    /// The faults, in the order of their detection.
+    /// The faults, in the order of their detection. Their times are counted from the begin of the machine.
     pub faults: Vec<FaultRecord>,
     /// Missed periods of each phase of the loop.
     pub missed: BTreeMap<String, u64>,
 }
 
-/// A fault with its times. They are counted from the begin of the machine.
+/// A fault with its times.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FaultRecord {
@@ -49,8 +49,8 @@ impl DriveResult {
     }
 }
 
-/// Joins the changes of each fault.
-fn fault_records(events: &[FaultEvent], begun_ns: u64) -> Vec<FaultRecord> {
+/// Joins the changes of each fault. Times are counted from `begun_ns`.
+pub(super) fn fault_records(events: &[FaultEvent], begun_ns: u64) -> Vec<FaultRecord> {
     let seconds = |time_ns: u64| (time_ns as f64 - begun_ns as f64) * 1e-9;
     let mut records: Vec<FaultRecord> = Vec::new();
     for event in events {

@@ -2,12 +2,14 @@
 
 mod document;
 mod drive_result;
+mod replay_result;
 mod run_result;
 mod tally;
 mod tick_line;
 
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
+pub use replay_result::{DifferenceRecord, ReplayResult};
 pub use run_result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, Passage, Retrieval,
     RunResult, TickUs, TipErrorMm,

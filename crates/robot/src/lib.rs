@@ -28,6 +28,8 @@ pub mod link;
 pub mod mqtt;
 #[cfg(feature = "program")]
 pub mod program;
+#[cfg(feature = "recording")]
+pub mod recording;
 #[cfg(feature = "store")]
 pub mod store;
 pub mod telemetry;

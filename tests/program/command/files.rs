@@ -64,6 +64,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("graph @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
     ("compile @/quick.fsm -o @/OUT", "quick.fsm", "OUT", "--out"),
     ("compile @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
+    ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "quick.fsm", "OUT", "--record"),
+    ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "scene.yaml", "OUT", "--record"),
     ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "scene.yaml", "calibration.yaml", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "r0.yaml", "profile.svg", "--out"),
@@ -299,6 +301,7 @@ fn a_pipe_that_nobody_reads_is_refused_before_the_first_run() {
         ("graph @/quick.fsm -o @/pipe", "pipe"),
         ("compile @/quick.fsm -o @/pipe", "pipe"),
         ("run @/scene.yaml --ticks @/pipe", "pipe"),
+        ("drive @/quick.fsm --emulate @/scene.yaml --record @/pipe", "pipe"),
         ("run @/scene.yaml --out @", "scene.svg"),
         ("merge @/done --out @/pipe", "pipe"),
         ("calibrate @/measured.csv --out @", "profile.svg"),
@@ -345,6 +348,8 @@ const READ: &[(&str, &str)] = &[
     ("compile @/quick.machine -o @/other.machine", "quick.machine"),
     ("graph @/quick.fsm", "laws.fsm"),
     ("test @/quick.fsm", "scene.yaml"),
+    ("replay @/run.mcap", "run.mcap"),
+    ("keep @/run.mcap --at 1s --out @/kept.mcap", "run.mcap"),
     ("fmt @/quick.fsm", "quick.fsm"),
 ];
 
@@ -391,6 +396,7 @@ fn a_file_larger_than_any_of_its_kind_is_not_read_to_its_end() {
         ("run @/large.yaml", "large.yaml", "it is larger than 1 MiB"),
         ("sweep @/large.yaml --out @/out", "large.yaml", "it is larger than 1 MiB"),
         ("calibrate @/large.csv", "large.csv", "it is larger than 1 MiB"),
+        ("replay @/large.mcap", "large.mcap", "it is no MCAP file"),
         ("merge @/large.jsonl", "large.jsonl", "line 1: it has more than 16 MiB"),
         ("run @/scene.yaml", "r0.yaml", "it is no calibration"),
         ("check @/quick.fsm", "laws.fsm", "it is larger than 1 MiB"),

@@ -17,6 +17,7 @@ mod library;
 #[cfg(target_os = "linux")]
 mod names;
 pub(crate) mod program;
+mod recording;
 mod run;
 pub(crate) mod schema;
 mod stress;

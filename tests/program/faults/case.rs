@@ -65,6 +65,25 @@ pub(super) const COMPILE: Case = Case {
     is_long: false,
 };
 
+pub(super) const DRIVE: Case = Case {
+    name: "drive",
+    prepare: policy,
+    arguments: |folder| words("drive @/quick.fsm --emulate @/scene.yaml --record @/out/run.mcap", folder),
+    old,
+    is_long: false,
+};
+
+pub(super) const KEEP: Case = Case {
+    name: "keep",
+    prepare: |folder| {
+        fs::copy(Path::new(ROOT).join("tests/recordings/stale-sensor.mcap"), folder.join("run.mcap")).unwrap();
+        Content::new()
+    },
+    arguments: |folder| words("keep @/run.mcap --out @/out/kept.mcap", folder),
+    old,
+    is_long: false,
+};
+
 pub(super) const RUN: Case = Case {
     name: "run",
     prepare: policy,

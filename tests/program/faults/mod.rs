@@ -4,7 +4,7 @@
 mod case;
 mod shim;
 
-use case::{CALIBRATE, COMPILE, Case, FAMILIES, FMT, GRAPH, MERGE, RUN, TEST};
+use case::{CALIBRATE, COMPILE, Case, DRIVE, FAMILIES, FMT, GRAPH, KEEP, MERGE, RUN, TEST};
 use shim::{Kind, Shim};
 
 use std::collections::BTreeMap;
@@ -153,6 +153,16 @@ fn graph_leaves_the_old_chart_or_the_new_one() {
 #[test]
 fn compile_leaves_the_old_machine_or_the_new_one() {
     survives(&COMPILE);
+}
+
+#[test]
+fn drive_leaves_the_old_recording_or_the_new_one() {
+    survives(&DRIVE);
+}
+
+#[test]
+fn keep_leaves_the_old_recording_or_the_new_one() {
+    survives(&KEEP);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use vibrissa_mlx90393::{
-    Address, Axis, CheckedSettings, InvalidAddress, Measurement, RawRead, ReadError, Sensor, StartError,
+    Address, CheckedSettings, InvalidAddress, Measurement, RawRead, ReadError, Sensor, StartError,
 };
 
 use super::bus::{Bus, Port};
@@ -107,34 +107,18 @@ impl Board {
         }
         let result = self.sensor.read(bus);
         let raw = raw(&result);
-        let state = self.state(&result);
+        let state = ReadingState::of(&result);
         match state {
             ReadingState::Fresh(_) | ReadingState::Saturated => (self.failures, self.stale) = (0, 0),
             ReadingState::Stale => self.stale += 1,
-            ReadingState::Garbled | ReadingState::Silent | ReadingState::Lost => self.failures += 1,
+            ReadingState::Garbled | ReadingState::Silent => self.failures += 1,
+            // The registers are lost as well, so further reads are of no use.
+            ReadingState::Lost => self.is_started = false,
         }
         if self.failures >= MOST_FAILURES || self.stale >= MOST_STALE {
             self.is_started = false;
         }
         BoardReading { state, raw }
-    }
-
-    fn state<E>(&mut self, result: &Result<Measurement, ReadError<E>>) -> ReadingState {
-        match result {
-            Ok(measurement) => match measurement.y {
-                Some(_) if measurement.is_saturated(Axis::Y) => ReadingState::Saturated,
-                Some(counts) => ReadingState::Fresh(counts),
-                None => ReadingState::Garbled,
-            },
-            Err(ReadError::Stale { .. }) => ReadingState::Stale,
-            Err(ReadError::Garbled { .. }) => ReadingState::Garbled,
-            Err(ReadError::ModeLost { .. } | ReadError::Reset { .. }) => {
-                // The registers are lost as well, so further reads are of no use.
-                self.is_started = false;
-                ReadingState::Lost
-            }
-            Err(ReadError::Bus(_)) => ReadingState::Silent,
-        }
     }
 }
 

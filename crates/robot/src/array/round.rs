@@ -1,6 +1,6 @@
 //! A round: one reading of every board on a bus.
 
-use vibrissa_mlx90393::RawRead;
+use vibrissa_mlx90393::{Axis, Measurement, RawRead, ReadError};
 
 use crate::config::MAX_BOARDS;
 use crate::fault::FaultKind;
@@ -49,6 +49,22 @@ pub enum ReadingState {
 }
 
 impl ReadingState {
+    /// The result of a read of the driver. It depends only on the received bytes, if there are any.
+    #[must_use]
+    pub fn of<E>(read: &Result<Measurement, ReadError<E>>) -> Self {
+        match read {
+            Ok(measurement) => match measurement.y {
+                Some(_) if measurement.is_saturated(Axis::Y) => Self::Saturated,
+                Some(counts) => Self::Fresh(counts),
+                None => Self::Garbled,
+            },
+            Err(ReadError::Stale { .. }) => Self::Stale,
+            Err(ReadError::Garbled { .. }) => Self::Garbled,
+            Err(ReadError::ModeLost { .. } | ReadError::Reset { .. }) => Self::Lost,
+            Err(ReadError::Bus(_)) => Self::Silent,
+        }
+    }
+
     /// The value in counts, if it is new and valid.
     #[must_use]
     pub fn counts(self) -> Option<i32> {

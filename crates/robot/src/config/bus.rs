@@ -2,25 +2,25 @@
 
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::quantity;
 
 /// An I²C bus.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BusConfig {
     /// The device file, such as `/dev/i2c-1`.
     pub device: PathBuf,
     /// Lowest clock frequency (Hz) with which the loop starts. It is measured at the start.
-    #[serde(default = "fast_mode", deserialize_with = "quantity::frequency")]
+    #[serde(default = "fast_mode", with = "quantity::frequency")]
     pub clock: f64,
     /// The boards, in the order of a round.
     pub boards: Vec<BoardConfig>,
 }
 
 /// A board with a sensor at the base of a whisker.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoardConfig {
     /// Name of the whisker in the rig.

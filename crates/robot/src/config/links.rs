@@ -3,12 +3,12 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::quantity;
 
 /// The receiver of the commands.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ActuatorConfig {
     /// No command leaves the program.
@@ -35,19 +35,19 @@ fn yes() -> bool {
 }
 
 /// The source of the platform's pose.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseConfig {
     /// The sender.
     #[serde(flatten)]
     pub source: PoseSource,
     /// Age of a pose when it arrives (s).
-    #[serde(default, deserialize_with = "quantity::time")]
+    #[serde(default, with = "quantity::time")]
     pub latency: f64,
 }
 
 /// The sender of poses.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseSource {
     /// Packets to this address of the robot.
@@ -60,7 +60,7 @@ pub enum PoseSource {
 }
 
 /// An MQTT broker.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MqttConfig {
     /// Name or address of the broker.
@@ -82,7 +82,7 @@ fn mqtt_buffer() -> usize {
 }
 
 /// The recording on the device.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordConfig {
     /// Directory of the recordings.

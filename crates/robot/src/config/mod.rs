@@ -1,13 +1,14 @@
 //! The configuration of a robot: its rig, buses, limits and links. It is a YAML file such as `deploy/pi/array.yaml`.
 
 mod bus;
+mod json;
 mod links;
 mod quantity;
 mod rig;
 mod safety;
 mod sensor;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use vibrissa_mlx90393::CheckedSettings;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::MAX_WHISKERS;
@@ -27,7 +28,10 @@ pub const MAX_BOARDS: usize = 8;
 pub const CONFIG_LIMIT: usize = 1 << 20;
 
 /// The configuration of a robot.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Its file has the differences from the defaults. [`to_json`](Self::to_json) has every value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Config {
     /// Name of the robot. It is part of every MQTT topic.
     pub name: String,
@@ -238,7 +242,8 @@ impl Config {
             timeouts: Timeouts::default(),
             responses: Responses::default(),
             actuator: ActuatorConfig::DryRun,
-            pose: PoseConfig { source: PoseSource::Mqtt {}, latency: 0.0 },
+            // Nobody listens there. The emulation has the poses.
+            pose: PoseConfig { source: PoseSource::Udp { listen: ([127, 0, 0, 1], 9751).into() }, latency: 0.0 },
             mqtt: None,
             record: None,
         }

@@ -1,10 +1,11 @@
 //! Quantities with units in the configuration.
 
 use serde::de::{Deserialize, Deserializer, Error};
+use serde::ser::Serializer;
 use vibrissa_runtime::units::{Dimension, parse_quantity};
 
 /// Reads text such as `75 mm` as a number in SI units. A unit of another dimension is an error.
-fn quantity<'de, D: Deserializer<'de>>(deserializer: D, dimension: Dimension) -> Result<f64, D::Error> {
+fn read<'de, D: Deserializer<'de>>(deserializer: D, dimension: Dimension) -> Result<f64, D::Error> {
     let text = String::deserialize(deserializer)?;
     let quantity = parse_quantity(&text).map_err(|error| D::Error::custom(format!("{error}; {}", error.hint())))?;
     if quantity.dimension == dimension {
@@ -15,35 +16,53 @@ fn quantity<'de, D: Deserializer<'de>>(deserializer: D, dimension: Dimension) ->
     }
 }
 
-/// Defines the reader of one dimension, for `#[serde(deserialize_with = ...)]`.
-macro_rules! readers {
-    ($($name:ident: $dimension:ident,)*) => {
+/// Writes a number in SI units with its unit. [`read`] gives exactly this number again.
+fn write<S: Serializer>(value_si: f64, serializer: S, dimension: Dimension) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&format_args!("{value_si} {}", dimension.si_unit()))
+}
+
+/// Defines a module for each dimension, for `#[serde(with = ...)]`. The ones with `serialize` are written too.
+macro_rules! dimensions {
+    ($($name:ident: $dimension:ident $(, $serialize:ident)?;)*) => {
         $(
-            #[doc = concat!("Reads a quantity of the dimension ", stringify!($dimension), ".")]
-            pub(super) fn $name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-                quantity(deserializer, Dimension::$dimension)
+            #[doc = concat!("Quantities of the dimension ", stringify!($dimension), ".")]
+            pub(super) mod $name {
+                use super::{Deserializer, Dimension};
+
+                pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+                    super::read(deserializer, Dimension::$dimension)
+                }
+
+                $(
+                    pub(in super::super) fn $serialize<S: super::Serializer>(
+                        value: &f64,
+                        serializer: S,
+                    ) -> Result<S::Ok, S::Error> {
+                        super::write(*value, serializer, Dimension::$dimension)
+                    }
+                )?
             }
         )*
     };
 }
 
-readers! {
-    length: LENGTH,
-    angle: ANGLE,
-    time: TIME,
-    mass: MASS,
-    speed: SPEED,
-    angular_speed: ANGULAR_SPEED,
-    frequency: FREQUENCY,
-    inertia: INERTIA,
-    torsion_stiffness: TORSION_STIFFNESS,
-    pressure: PRESSURE,
+dimensions! {
+    length: LENGTH;
+    angle: ANGLE, serialize;
+    time: TIME, serialize;
+    mass: MASS;
+    speed: SPEED, serialize;
+    angular_speed: ANGULAR_SPEED, serialize;
+    frequency: FREQUENCY, serialize;
+    inertia: INERTIA;
+    torsion_stiffness: TORSION_STIFFNESS;
+    pressure: PRESSURE;
 }
 
 /// Reads two lengths, such as `[53 mm, -30 mm]`.
 pub(super) fn two_lengths<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
     #[derive(serde::Deserialize)]
-    struct Length(#[serde(deserialize_with = "length")] f64);
+    struct Length(#[serde(deserialize_with = "length::deserialize")] f64);
     let [first, second] = <[Length; 2]>::deserialize(deserializer)?;
     Ok([first.0, second.0])
 }

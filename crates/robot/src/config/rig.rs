@@ -65,7 +65,7 @@ mod some {
     macro_rules! optional {
         ($($name:ident)*) => { $(
             pub(super) fn $name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-                quantity::$name(deserializer).map(Some)
+                quantity::$name::deserialize(deserializer).map(Some)
             }
         )* };
     }

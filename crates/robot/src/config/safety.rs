@@ -2,23 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::quantity;
 use crate::fault::FaultKind;
 
 /// Limits that no command and no valid reading exceeds.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
     /// Largest speed of a command (m/s).
-    #[serde(deserialize_with = "quantity::speed")]
+    #[serde(with = "quantity::speed")]
     pub speed: f64,
     /// Largest yaw rate of a command (rad/s).
-    #[serde(deserialize_with = "quantity::angular_speed")]
+    #[serde(with = "quantity::angular_speed")]
     pub yaw_rate: f64,
     /// Largest base angle (rad). A whisker with a larger one may break.
-    #[serde(default = "baseline_angle", deserialize_with = "quantity::angle")]
+    #[serde(default = "baseline_angle", with = "quantity::angle")]
     pub base_angle: f64,
 }
 
@@ -36,26 +36,26 @@ fn baseline_angle() -> f64 {
 }
 
 /// Times without a sign of life after which a part has failed (s).
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Timeouts {
     /// Since the last round on a bus.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub bus: f64,
     /// Since the last new value of a sensor.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub sensor: f64,
     /// Since the last pose.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub pose: f64,
     /// Since the last tick of the control loop.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub control: f64,
     /// Since the last acknowledgement of a command.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub link: f64,
     /// Time without a fault before the loop resumes.
-    #[serde(deserialize_with = "quantity::time")]
+    #[serde(with = "quantity::time")]
     pub settle: f64,
 }
 
@@ -66,7 +66,7 @@ impl Default for Timeouts {
 }
 
 /// The response to a fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultResponse {
     /// Log the fault and go on.
@@ -79,7 +79,7 @@ pub enum FaultResponse {
 }
 
 /// The responses to faults. A kind that is not listed has its own default.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Responses(BTreeMap<FaultKind, FaultResponse>);
 

@@ -1,12 +1,12 @@
 //! The section `sensor`: the settings that all sensors share.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use vibrissa_mlx90393::{
     CheckedSettings, DigitalFilter, Gain, OutOfRange, Oversampling, Refusal, Resolution, Resolutions, Settings,
 };
 
 /// The settings of the sensors. They are those of the baseline's array by default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SensorConfig {
     /// Oversampling ratio, OSR (0 to 3).

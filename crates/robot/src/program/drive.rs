@@ -17,6 +17,7 @@ use super::event_log::EventLog;
 use super::machine_run::MachineRun;
 use super::measure::measured;
 use super::real_time::RealTime;
+use super::recorder::recorder;
 use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use super::threads::{PoseReceiver, Robot, ThreadError, Threads};
@@ -25,6 +26,7 @@ use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, MqttConfig, PoseSource
 use crate::drive::RecordSink;
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, MqttActuator, MqttPoses, UdpActuator, UdpPoses};
+use crate::recording::Recorder;
 use crate::store::DEFAULT_STORE;
 use crate::telemetry::{Publisher, TelemetrySink};
 use crate::vitals::{Phase, Vitals};
@@ -72,12 +74,12 @@ const FAREWELL: Duration = Duration::from_millis(100);
 const POSE_WAIT: Duration = Duration::from_millis(10);
 
 pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
-    let config = read_config(&arguments.config)?;
+    let (config, config_text) = read_config(&arguments.config)?;
     let (artifact, mut run) = match &arguments.machine {
         Some(path) => (read_machine(path)?, MachineRun::of_file()),
         None => MachineRun::of_store(&arguments.store)?,
     };
-    let result = drive_by(&artifact, &mut run, &config, arguments);
+    let result = drive_by(&artifact, &mut run, &config, config_text, arguments);
     run.end();
     result
 }
@@ -86,6 +88,7 @@ fn drive_by(
     artifact: &Artifact,
     run: &mut MachineRun,
     config: &Config,
+    config_text: String,
     arguments: &DriveArguments,
 ) -> Result<ExitCode, Error> {
     let program = Arc::new(artifact.program.clone());
@@ -107,6 +110,7 @@ fn drive_by(
         print_error(&format!("warning: {slower}"));
     }
     let control = Control::new(&config.rig, Arc::clone(&program))?;
+    let recorder = recorder(&config, config_text, artifact)?;
     let termination = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
         signal_hook::flag::register(signal, Arc::clone(&termination))?;
@@ -119,6 +123,7 @@ fn drive_by(
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
     let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog)];
     sinks.extend(run.good_after(ticks(arguments.good_after, config.rig.sensing.control_rate)));
+    sinks.extend(recorder.map(|recorder| Box::new(recorder) as Box<dyn RecordSink>));
     // It is last, because its end takes longest.
     sinks.extend(telemetry(&config, &program)?);
     let robot = Robot { config, control, buses, actuator, poses, sinks, clock };
@@ -216,10 +221,12 @@ fn summary(vitals: &Vitals, buses: usize) -> Vec<String> {
     lines
 }
 
-pub(super) fn read_config(path: &Path) -> Result<Config, Error> {
+/// The configuration and its text.
+pub(super) fn read_config(path: &Path) -> Result<(Config, String), Error> {
     let bytes = read(path, CONFIG_LIMIT)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{} is not UTF-8 text", path.display()))?;
-    Ok(Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?)
+    let config = Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok((config, text))
 }
 
 fn read_machine(path: &Path) -> Result<Artifact, Error> {

@@ -7,6 +7,7 @@ mod machine_run;
 mod measure;
 mod real_time;
 mod receive;
+mod recorder;
 mod sensors;
 mod status;
 mod store_options;

@@ -44,7 +44,7 @@ struct WhiskerLine {
 
 /// Reads all buses in turn, and prints a line for each whisker and second.
 pub(super) fn sensors(arguments: &SensorsArguments) -> Result<ExitCode, Error> {
-    let config = read_config(&arguments.config)?;
+    let (config, _) = read_config(&arguments.config)?;
     let clock = SystemClock::start();
     let settings = config.settings()?;
     let microtesla = f64::from(settings.field_per_count_microtesla(vibrissa_mlx90393::Axis::Y));

@@ -22,9 +22,9 @@ const STOP_NS: u64 = 100 * MS;
 
 /// A schedule. It is shown as the YAML that `vibrissa drive --inject` reads.
 #[derive(Clone)]
-struct Schedule {
-    seed: u64,
-    injections: Vec<Injection>,
+pub(crate) struct Schedule {
+    pub(crate) seed: u64,
+    pub(crate) injections: Vec<Injection>,
 }
 
 impl fmt::Debug for Schedule {
@@ -44,7 +44,7 @@ fn injection() -> impl Strategy<Value = Injection> {
     })
 }
 
-fn schedule() -> impl Strategy<Value = Schedule> {
+pub(crate) fn schedule() -> impl Strategy<Value = Schedule> {
     (0_u64..1000, proptest::collection::vec(injection(), 1..4))
         .prop_map(|(seed, injections)| Schedule { seed, injections })
 }

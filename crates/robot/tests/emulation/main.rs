@@ -1,9 +1,14 @@
 //! The loop in emulated time.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test may panic and open files")]
 
 mod admission;
 mod artifacts;
 mod campaign;
+mod damage;
+mod kept;
 mod panic;
+mod recorder;
+mod recording;
+mod replay;
 mod robot;
 mod steady;

@@ -10,11 +10,16 @@ use vibrissa_runtime::machine::{Artifact, Needs};
 use vibrissa_runtime::rig::Rig;
 
 /// The artifact of the policy `bang`.
-const BANG: &[u8] = include_bytes!("../../../runtime/fixtures/bang.machine");
+pub(crate) const MACHINE: &[u8] = include_bytes!("../../../runtime/fixtures/bang.machine");
+
+/// The configuration of the reference rig.
+pub(crate) fn config(settings: &Settings) -> Config {
+    Config::emulated(Rig::default(), settings.noise_microtesla)
+}
 
 /// The reference rig under the policy `bang`, among swaying grass.
 pub(crate) fn robot(settings: &Settings) -> Emulation<SwayingPlant> {
-    robot_under(BANG, settings)
+    robot_under(MACHINE, settings)
 }
 
 /// The reference rig under a compiled policy, among swaying grass.
@@ -28,7 +33,7 @@ pub(crate) fn admitted_robot(
     needs: Needs,
     tick: impl FnMut(u32) -> f64 + 'static,
 ) -> Emulation<SwayingPlant> {
-    let mut artifact = Artifact::from_bytes(BANG).unwrap();
+    let mut artifact = Artifact::from_bytes(MACHINE).unwrap();
     artifact.program.needs = needs;
     admitted(artifact, settings, tick)
 }
@@ -38,9 +43,8 @@ fn admitted(
     settings: &Settings,
     tick: impl FnMut(u32) -> f64 + 'static,
 ) -> Emulation<SwayingPlant> {
-    let config = Config::emulated(Rig::default(), settings.noise_microtesla);
     let mut device = Device { tick: Box::new(tick), ..Device::instant() };
-    let config = admit(&artifact, &config, &mut device).unwrap().config;
+    let config = admit(&artifact, &config(settings), &mut device).unwrap().config;
     let control = Control::new(&config.rig, Arc::new(artifact.program)).unwrap();
     let plant = SwayingPlant::new(config.rig.sensing.sample_rate.recip());
     Emulation::new(&config, control, plant, settings).unwrap()

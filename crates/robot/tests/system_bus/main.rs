@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use robot::{Outside, program};
 use server::Server;
 use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
+use vibrissa_robot::fault::{FaultChange, FaultEvent, FaultKind};
 
 #[test]
 fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
@@ -36,7 +37,7 @@ fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
 }
 
 #[test]
-fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_and_stops_at_the_end() {
+fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_stops_at_the_end_and_can_be_replayed() {
     let server = Server::start();
     let outside = Outside::new("drive");
     let mut child = outside.files.drive(&server);
@@ -60,6 +61,15 @@ fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_and_stops_at_the_end() 
     outside.wait_for(|packet| packet.is_stop);
     let status = child.wait();
     assert!(status.success(), "{status}");
+    let replayed = outside.replay();
+    assert!(replayed.difference.is_none() && !replayed.is_cut && replayed.ticks > 0, "{replayed:?}");
+    let has_stopped = |kind| {
+        let is_stop = |event: &FaultEvent| event.fault.kind == kind && event.change == FaultChange::Reacted;
+        replayed.events.iter().any(is_stop)
+    };
+    for kind in [FaultKind::SensorLost, FaultKind::BusBlocked, FaultKind::PoseOld, FaultKind::Terminated] {
+        assert!(has_stopped(kind), "{kind:?} in {:?}", replayed.events);
+    }
 }
 
 #[test]

@@ -1,13 +1,15 @@
 //! The program under test, and the actuator and localisation around it.
 
+use std::fs::File;
 use std::net::{SocketAddr, UdpSocket};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use vibrissa_robot::link::{CommandPacket, PosePacket};
+use vibrissa_robot::recording::{Part, Recording, Replayed, replay};
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use crate::server::{Server, scratch, shim};
@@ -26,12 +28,15 @@ pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
 pub(crate) struct Files {
     pub(crate) config: String,
     machine: String,
+    recordings: PathBuf,
 }
 
 impl Files {
     /// A configuration with these links, and a machine.
     pub(crate) fn new(name: &str, links: &str) -> Self {
         let config = scratch().join(format!("{name}.yaml"));
+        let recordings = scratch().join(format!("{name}-recordings"));
+        let _ = std::fs::remove_dir_all(&recordings);
         let text = format!(
             "name: test\n\
              buses:\n\
@@ -39,12 +44,14 @@ impl Files {
              - {{device: /dev/i2c-3, clock: 1 kHz, boards: [{{whisker: l0, address: 12}}]}}\n\
              limits: {{speed: 0.2 m/s, yaw_rate: 1 rad/s}}\n\
              timeouts: {{bus: 80 ms, sensor: 80 ms, pose: 120 ms, control: 120 ms, link: 160 ms}}\n\
-             {links}"
+             record: {{directory: '{}'}}\n\
+             {links}",
+            recordings.display()
         );
         std::fs::write(&config, text).unwrap();
         let machine = scratch().join(format!("{name}.machine"));
         std::fs::write(&machine, include_bytes!("../../../runtime/fixtures/bang.machine")).unwrap();
-        Self { config: config.display().to_string(), machine: machine.display().to_string() }
+        Self { config: config.display().to_string(), machine: machine.display().to_string(), recordings }
     }
 
     pub(crate) fn drive(&self, server: &Server) -> Running {
@@ -90,6 +97,13 @@ impl Outside {
         };
         outside.send_poses(poses);
         outside
+    }
+
+    /// The replay of the recording of the run.
+    pub(crate) fn replay(&self) -> Replayed {
+        let files = std::fs::read_dir(&self.files.recordings).unwrap();
+        let parts = files.map(|entry| Part::open(File::open(entry.unwrap().path()).unwrap()).unwrap()).collect();
+        replay(Recording::join(parts).unwrap()).unwrap()
     }
 
     pub(crate) fn pause_poses(&self, is_paused: bool) {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::contact_set::ContactSet;
 use super::least_squares;
@@ -23,7 +23,7 @@ const APART: f64 = 0.25;
 /// positions of the contacts. They fill a crescent, so their convex hull is too large. A position is valid if it is in
 /// the convex hull of those positions that are within `reach` of it. The positions form a net, and `reach` is the
 /// diagonal of its widest mesh. This closes all holes of the net and does not extend beyond it.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AngleSurface {
     /// Mean of the positions (m, frame of the base): the origin of the polynomial.

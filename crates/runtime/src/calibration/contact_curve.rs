@@ -1,7 +1,7 @@
 //! The contact position as polynomials in the base angle.
 
 use nalgebra::Matrix2;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::contact_set::ContactSet;
 use super::least_squares;
@@ -13,7 +13,7 @@ const COUNT: usize = 6;
 
 /// The contact position as polynomials of order five in the base angle, for a bend to the left. The contact estimator
 /// `one_channel` uses it.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactCurve {
     /// Smallest and largest base angle (rad) of the contacts.

@@ -5,12 +5,15 @@ mod contact_curve;
 mod contact_set;
 mod least_squares;
 
+use serde::{Deserialize, Serialize};
+
 pub use angle_surface::AngleSurface;
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
 
 /// Measured properties of a whisker. Perception derives missing ones from the mechanics.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Calibration {
     /// A description of the measurement, for people.
     pub about: String,

@@ -1,6 +1,7 @@
 //! Points, vectors, angles and poses in the plane.
 
 mod angle;
+pub(crate) mod coordinates;
 mod pose;
 
 pub use angle::{turn_between, wrap};

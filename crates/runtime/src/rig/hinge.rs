@@ -1,7 +1,10 @@
 //! The hinge at the base of a whisker.
 
+use serde::{Deserialize, Serialize};
+
 /// The base hinge of a whisker: a torsion spring with damping.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Hinge {
     /// Stiffness (N m/rad).
     pub stiffness: f64,

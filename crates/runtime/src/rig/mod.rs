@@ -8,6 +8,8 @@ mod sensing;
 mod shaft;
 mod whisker;
 
+use serde::{Deserialize, Serialize};
+
 pub use hinge::Hinge;
 pub use platform::{Platform, YawController};
 pub use sensing::Sensing;
@@ -18,7 +20,8 @@ pub use whisker::Whisker;
 ///
 /// [`Rig::default`] is the reference rig: the baseline's platform with one whisker of 100 mm per side, swept back by
 /// 15°.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Rig {
     /// The body that carries the whiskers.
     pub platform: Platform,

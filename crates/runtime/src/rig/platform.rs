@@ -1,9 +1,11 @@
 //! The platform and its servos.
 
 use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
 
 /// The body that carries the whiskers. Its footprint is a trapezoid that is symmetric about its axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Platform {
     /// Width at the tail (m).
     pub tail_width: f64,
@@ -60,7 +62,8 @@ impl Default for Platform {
 }
 
 /// Gains of the yaw controller, a limited PI controller that rotates the platform to a heading.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct YawController {
     /// Yaw rate per error of the heading (1/s).
     pub proportional: f64,

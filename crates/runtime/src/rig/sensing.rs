@@ -1,7 +1,10 @@
 //! The sensors of a rig.
 
+use serde::{Deserialize, Serialize};
+
 /// Rates, noise and filters of the sensors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Sensing {
     /// Sample rate (Hz).
     pub sample_rate: f64,

@@ -1,9 +1,12 @@
 //! An elastic shaft.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math;
 
 /// An elastic shaft of round wire, straight at rest, uniform or with a linear taper towards the tip.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Shaft {
     /// Length from the base to the tip (m).
     pub length: f64,

@@ -3,16 +3,20 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
 
 use super::{Hinge, Shaft};
 use crate::calibration::Calibration;
+use crate::geometry::coordinates;
 
 /// A whisker: its mounting, shaft and base hinge.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Whisker {
     /// The name by which policies bind the whisker.
     pub name: String,
     /// Position of the base in the body frame (m).
+    #[serde(with = "coordinates")]
     pub base_body: Point2<f64>,
     /// Direction of the undeflected shaft in the body frame (rad, counter-clockwise from the heading).
     pub direction_body: f64,
