@@ -1,4 +1,4 @@
-//! The policy language: compiling the thesis's policy and our own, and a tick of it beside the same law written in Rust by hand.
+//! The policy language: the compilation of `thesis.fsm` and `vibrissa.fsm`, and a tick of `thesis.fsm` beside the same law written in Rust.
 //!
 //! To be reached: compiling within 2 ms, a tick within 1 µs and within three times the one by hand.
 

@@ -15,7 +15,7 @@ macro_rules! text_file {
     };
 }
 
-/// The scenes of the thesis, in its order.
+/// The baseline's scenes, in its order.
 pub const SCENARIOS: &[TextFile] = &[
     text_file!("scenarios/disk.yaml"),
     text_file!("scenarios/rounded-rectangle.yaml"),

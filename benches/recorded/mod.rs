@@ -26,7 +26,7 @@ const VECTORS: [WhiskerVector; 5] = [
 /// How far behind a contour's end (m) the policy asks for its direction.
 const BACK: f64 = 5e-3;
 
-/// What the thesis's policy felt in one tick, taken down so that reading it costs next to nothing.
+/// The values that `thesis.fsm` read in one tick. They are recorded, so that reading them costs almost nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct Recorded {
     time: f64,

@@ -45,7 +45,7 @@ pub(crate) struct Tape {
 }
 
 impl Stage {
-    /// The disk, which the thesis's policy follows with one whisker.
+    /// The disk, which `thesis.fsm` follows with one whisker.
     pub(crate) fn disk() -> Result<Self, Box<dyn Error>> {
         Self::load("scenarios/disk.yaml", "policies/thesis.fsm")
     }

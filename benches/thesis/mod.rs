@@ -1,4 +1,4 @@
-//! Swiping as the thesis's policy does it, as one would write it in Rust: the yardstick for the compiled one.
+//! The contour following of `thesis.fsm`, written in Rust, as the reference for the compiled policy.
 
 use std::f64::consts::FRAC_PI_4;
 

@@ -49,7 +49,7 @@ pub fn read_sets(bytes: &[u8]) -> Result<Vec<ContactSet>, SetsError> {
     }
     let mut seen = BTreeSet::new();
     if let Some(name) = header.iter().find(|name| !seen.insert(*name)) {
-        return Err(at_top(format!("the column `{name}` is there twice; take one out")));
+        return Err(at_top(format!("the column `{name}` occurs twice; remove one")));
     }
     let column = |name: &str| header.iter().position(|found| found == name);
     let mut sets = Vec::new();

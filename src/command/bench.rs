@@ -107,7 +107,7 @@ fn report_row(row: &BenchRow, violations: &[Violation]) {
     let RunResult { policy, outcome, reason, .. } = &row.result;
     let scene = row.scene();
     if *outcome != Outcome::Completed {
-        let reason = reason.as_deref().unwrap_or("for no reason that is known");
+        let reason = reason.as_deref().unwrap_or("unknown reason");
         output::message(format_args!("{scene}, {policy}: {outcome}: {reason}"));
     }
     for violation in violations.iter().filter(|_| row.conditions.are_ideal()) {

@@ -21,7 +21,7 @@ use crate::report::{held_out_table, profile_picture};
 use crate::results::Document;
 use crate::scenario::write_calibration;
 
-const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n\nExit status: 0 done; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
@@ -125,7 +125,11 @@ fn report_missing(Fitted { calibration, .. }: &Fitted) {
             "contacts with many base angles, on surfaces nearly parallel to the heading",
         ),
         (calibration.recursive.is_none(), "recursive", "contacts distributed over the plane"),
-        (calibration.hinge_stiffness.is_none(), "the base hinge", "a rig whose hinge is within a factor of five of it"),
+        (
+            calibration.hinge_stiffness.is_none(),
+            "the base hinge",
+            "a rig with a hinge stiffness within a factor of five of the measured one",
+        ),
     ];
     for (_, name, needed) in missing.iter().filter(|(is_missing, ..)| *is_missing) {
         output::message(format_args!("{name} is not fitted: it needs {needed}"));

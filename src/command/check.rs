@@ -18,7 +18,7 @@ use crate::policy::{self, Checked as Found};
 use crate::report::Table;
 use crate::results::Document;
 
-const EXAMPLE: &str = "Example:\n  vibrissa check policies/thesis.fsm --deny-warnings\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa check policies/thesis.fsm --deny-warnings\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa check`.
 #[derive(Debug, Args)]

@@ -88,7 +88,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
 fn report_incomplete(comparison: &Comparison) {
     for PolicyRuns { policy, incomplete, .. } in &comparison.policies {
         for Incomplete { scenario, seed, outcome, reason } in incomplete {
-            let reason = reason.as_deref().unwrap_or("for no reason that is known");
+            let reason = reason.as_deref().unwrap_or("unknown reason");
             output::message(format_args!("{policy}: {scenario}, seed {seed}: {outcome}: {reason}"));
         }
     }
@@ -117,7 +117,7 @@ fn settings(
     let is_jittered = jitter.position > 0.0 || jitter.heading > 0.0;
     if is_jittered && arguments.seeds < 2 {
         output::message(format_args!(
-            "--jitter does nothing to the first run of a scenario: ask for more with --seeds"
+            "--jitter does not affect the first run of a scenario; request more runs with --seeds"
         ));
     }
     let mut settings = Vec::new();
@@ -125,7 +125,7 @@ fn settings(
         let differs = is_jittered || scene.rig.sensing.is_noisy();
         if !differs && arguments.seeds > 1 {
             output::message(format_args!(
-                "{}: without noise or --jitter all seeds are the same run, so it is done once",
+                "{}: without noise or --jitter all seeds give the same run, so only one is run",
                 path.display()
             ));
         }

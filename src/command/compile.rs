@@ -11,7 +11,7 @@ use super::output;
 use crate::file::CommandFiles;
 use crate::load::{self, LoadError};
 
-const EXAMPLE: &str = "Example:\n  vibrissa compile policies/vibrissa.fsm --out vibrissa.machine\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa compile policies/vibrissa.fsm --out vibrissa.machine\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa compile`.
 #[derive(Debug, Args)]

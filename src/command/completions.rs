@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::output;
 
 const EXAMPLE: &str = "Example:\n  vibrissa completions bash > ~/.local/share/bash-completion/completions/vibrissa\n\n\
-                       Exit status: 0 done; 2 unusable input; 3 internal error.";
+                       Exit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa completions`.
 #[derive(Debug, Args)]

@@ -26,7 +26,7 @@ use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
 use crate::trial::{Inputs, Trial};
 
-const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The program that drives the real array.
 #[cfg(unix)]

@@ -14,7 +14,7 @@ use crate::load;
 use crate::mujoco::Pruning;
 use crate::results::Document;
 
-const EXAMPLE: &str = "Example:\n  vibrissa explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa explain`.
 #[derive(Debug, Args)]

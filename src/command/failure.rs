@@ -33,21 +33,23 @@ pub(super) enum Failure {
     Output(#[from] OutputError),
     #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
     Rewrite { path: PathBuf, cause: std::io::Error },
-    #[error("{} is a compiled machine, which carries no tests; test the policy that it was made from", policy.display())]
+    #[error("{} is a compiled machine, which has no tests; test its policy", policy.display())]
     NoText { policy: PathBuf },
     #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
     NoSuchTest { filter: String },
     #[error(transparent)]
     NoWhisker(UnknownWhisker),
     #[error(
-        "{count} tip contacts are too few, or at too few positions: give {MIN_POSITIONS} positions or more, distributed over the plane"
+        "{count} tip contacts are too few, or at too few positions; give at least {MIN_POSITIONS} positions, distributed over the plane"
     )]
     TooFewSets { count: usize },
     #[cfg(feature = "sim")]
     #[error(transparent)]
     CalibrationRig(#[from] CalibrationRigError),
     #[cfg(not(feature = "sim"))]
-    #[error("this build has no world; give measured contacts, or build it with the feature `sim`")]
+    #[error(
+        "this build has no simulator for the calibration rig; give measured contacts, or build with the feature `sim`"
+    )]
     NoCalibrationRig,
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
@@ -55,7 +57,7 @@ pub(super) enum Failure {
         "cannot watch files: the system starts no thread for that ({0}); end other programs, or run without --watch"
     )]
     NoWatch(std::io::Error),
-    #[error("{} and {} are both called `{name}`; run them one by one", first.display(), second.display())]
+    #[error("{} and {} have the same name `{name}`; run them separately", first.display(), second.display())]
     SameName { first: PathBuf, second: PathBuf, name: String },
     #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]
     TooFewPolicies { count: usize },
@@ -86,7 +88,7 @@ pub(super) enum Failure {
     #[error("there are no results of a sweep in {}; `vibrissa sweep FILE --out {}` writes some", directory.display(), directory.display())]
     NoResults { directory: PathBuf },
     #[error(
-        "the process of a run gave an answer that is not a result ({0}); this is a fault of the program, please report it"
+        "a worker process gave an answer that is not a result ({0}); this is a fault of the program, please report it"
     )]
     Answer(serde_json::Error),
     #[error("a stress test cannot be made: {0}; this is a fault of the program, please report it")]

@@ -13,7 +13,7 @@ use crate::file::{CommandFiles, replace};
 use crate::load;
 use crate::policy::format;
 
-const EXAMPLE: &str = "Example:\n  vibrissa fmt --check policies/*.fsm\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa fmt --check policies/*.fsm\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa fmt`.
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use crate::load;
 use crate::policy::chart::View;
 use crate::report::{chart_dot, chart_mermaid, chart_svg};
 
-const EXAMPLE: &str = "Example:\n  vibrissa graph policies/thesis.fsm --out thesis.svg\n  vibrissa graph policies/vibrissa.fsm --depth 1 --format mermaid\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa graph policies/thesis.fsm --out thesis.svg\n  vibrissa graph policies/vibrissa.fsm --depth 1 --format mermaid\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa graph`.
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use super::trials::make_directory;
 use crate::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa man --out ~/.local/share/man/man1\n\n\
-                       Exit status: 0 done; 2 unusable input; 3 internal error.";
+                       Exit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa man`.
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use crate::file::CommandFiles;
 use crate::load::LoadError;
 use crate::sweep::{Missing, SweepSummary, merge as merge_files};
 
-const EXAMPLE: &str = "Example:\n  vibrissa merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa merge`.
 #[derive(Debug, Args)]
@@ -89,7 +89,7 @@ fn report_missing(missing: &[Missing]) {
     let shards: Vec<_> = shards.iter().map(|shard| format!("--shard {shard}")).collect();
     let runs = if missing.len() == 1 { "1 run is".to_owned() } else { format!("{} runs are", missing.len()) };
     output::error(format_args!(
-        "{runs} missing, and nothing was written; do the same sweep again with {}, and merge then",
+        "{runs} missing, so nothing was written; run the sweep again with {}, then merge",
         shards.join(", ")
     ));
 }

@@ -10,7 +10,7 @@ use super::output;
 use crate::file::CommandFiles;
 use crate::{load, mujoco};
 
-const EXAMPLE: &str = "Example:\n  vibrissa mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa mjcf`.
 #[derive(Debug, Args)]

@@ -57,7 +57,7 @@ struct Arguments {
 }
 
 const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; \
-                           3 internal error.";
+                           3 internal error; 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

@@ -72,7 +72,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     progress.finish();
     let pareto = measured.map_err(failed)?;
     for row in pareto.settings.iter().filter(|row| row.outcome != Ending::Completed) {
-        let reason = row.reason.as_deref().unwrap_or("for no reason that is known");
+        let reason = row.reason.as_deref().unwrap_or("unknown reason");
         output::message(format_args!("{}: {reason}", row.setting));
     }
     if let Some([results, picture]) = report {

@@ -96,7 +96,7 @@ fn line(resumed: u64, done: u64, all: u64, elapsed: Duration) -> String {
 fn interrupted(done: u64, all: u64, kept: &Kept) -> String {
     match kept {
         Kept::Nothing => {
-            format!("interrupted after {done} of {all} runs; nothing is kept of them, as results come at the end")
+            format!("interrupted after {done} of {all} runs; their results are not kept")
         }
         Kept::In(path) => format!(
             "interrupted after {done} of {all} runs; their results are in {}, and the same command resumes from them",

@@ -21,7 +21,7 @@ use crate::report::results_table;
 use crate::results::{RunResult, tick_lines};
 use crate::trial::{Inputs, Trial, TrialResult};
 
-const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa run`.
 #[derive(Debug, Args)]

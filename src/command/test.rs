@@ -20,7 +20,7 @@ use crate::policy::PolicyTest;
 use crate::results::{Document, RunResult};
 use crate::trial::{Trial, violations};
 
-const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa test`.
 #[derive(Debug, Args)]

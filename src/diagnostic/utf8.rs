@@ -4,7 +4,7 @@ use super::{Position, Source};
 
 /// The error for bytes that are not UTF-8.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("it is not UTF-8 text: in line {}, column {} the byte 0x{byte:02X} begins no letter", position.line, position.column)]
+#[error("it is not UTF-8 text: the byte 0x{byte:02X} in line {}, column {} is invalid", position.line, position.column)]
 pub struct NotUtf8 {
     /// Position of the first invalid byte.
     pub position: Position,
@@ -14,7 +14,7 @@ pub struct NotUtf8 {
 
 impl NotUtf8 {
     /// Advice for the user.
-    pub const ADVICE: &str = "save it as UTF-8, or is it the wrong file?";
+    pub const ADVICE: &str = "save it as UTF-8, or check that it is the right file";
 }
 
 /// Decodes bytes as UTF-8.

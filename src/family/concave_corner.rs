@@ -9,7 +9,7 @@ use super::sampler::Sampler;
 use crate::geometry::{Vector2, perpendicular, unit};
 
 pub(super) const FAMILY: Family =
-    Family { name: "concave-corner", about: "an angle iron, whose inner corner turns by 15° to 75° back", lay };
+    Family { name: "concave-corner", about: "an L-shaped bar with an inner corner of 15° to 75°", lay };
 
 fn lay(sampler: &mut Sampler) -> Layout {
     let turn = sampler.between(15.0, 75.0) / 180.0 * PI;

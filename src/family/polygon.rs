@@ -11,7 +11,7 @@ use crate::geometry::Vector2;
 
 pub(super) const FAMILY: Family = Family {
     name: "polygon",
-    about: "a convex polygon of 3 to 8 corners, each sharp or rounded by 2 to 10 cm where there is room",
+    about: "a convex polygon of 3 to 8 corners, each sharp or, if the sides are long enough, rounded by 2 to 10 cm",
     lay,
 };
 

@@ -10,7 +10,7 @@ use crate::geometry::{Harmonic, Vector2, unit};
 
 pub(super) const FAMILY: Family = Family {
     name: "smooth-curve",
-    about: "a smooth closed curve with up to five bulges, no narrower bent than 8 cm outwards and 25 cm inwards",
+    about: "a smooth closed curve with up to five bulges, and radii of at least 8 cm outwards and 25 cm inwards",
     lay,
 };
 

@@ -7,7 +7,7 @@ use super::sampler::Sampler;
 use crate::geometry::{Vector2, rotate};
 
 pub(super) const FAMILY: Family =
-    Family { name: "thin-wall", about: "a straight wall, 2 to 20 mm thick, that stands free", lay };
+    Family { name: "thin-wall", about: "a free-standing straight wall, 2 to 20 mm thick", lay };
 
 fn lay(sampler: &mut Sampler) -> Layout {
     let (length, thickness) = (sampler.between(0.3, 0.6), sampler.between(2e-3, 0.02));

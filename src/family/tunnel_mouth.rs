@@ -6,8 +6,11 @@ use super::position::{before, mouth};
 use super::sampler::Sampler;
 use crate::geometry::unit;
 
-pub(super) const FAMILY: Family =
-    Family { name: "tunnel-mouth", about: "a straight tunnel, 18 to 26 cm clear, between walls of 5 to 40 mm", lay };
+pub(super) const FAMILY: Family = Family {
+    name: "tunnel-mouth",
+    about: "a straight tunnel with a free width of 18 to 26 cm and walls of 5 to 40 mm",
+    lay,
+};
 
 fn lay(sampler: &mut Sampler) -> Layout {
     let (clear, thickness) = (sampler.between(0.18, 0.26), sampler.between(5e-3, 0.04));

@@ -10,7 +10,7 @@ use crate::geometry::{Vector2, unit};
 
 pub(super) const FAMILY: Family = Family {
     name: "zigzag-tunnel",
-    about: "a tunnel of straight runs with turns of 10° to 60° to and fro, 18 to 26 cm clear",
+    about: "a tunnel of straight runs with alternating turns of 10° to 60°, and a free width of 18 to 26 cm",
     lay,
 };
 

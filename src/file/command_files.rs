@@ -39,7 +39,7 @@ enum OutputKind {
 
 /// The error for an input that is already an output.
 #[derive(Debug, thiserror::Error)]
-#[error("this command writes to the same file: {0}; give one of them another place")]
+#[error("this command writes to the same file: {0}; give one of them another path")]
 struct IsOutput(String);
 
 impl CommandFiles {

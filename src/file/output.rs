@@ -47,7 +47,7 @@ impl fmt::Display for Stream {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OutputError {
     /// The file cannot be written.
-    #[error("cannot write {}: {cause}; give another place with {argument}", path.display())]
+    #[error("cannot write {}: {cause}; give another path with {argument}", path.display())]
     Unwritable {
         /// The argument that names the file or its folder.
         argument: &'static str,
@@ -57,7 +57,7 @@ pub(crate) enum OutputError {
         cause: Error,
     },
     /// The command reads the file.
-    #[error("cannot write {}: this command reads it as {}; give another place with {argument}", path.display(), input.display())]
+    #[error("cannot write {}: this command reads it as {}; give another path with {argument}", path.display(), input.display())]
     Input {
         /// The argument that names the file or its folder.
         argument: &'static str,
@@ -67,7 +67,7 @@ pub(crate) enum OutputError {
         input: PathBuf,
     },
     /// The command writes another output to the file.
-    #[error("cannot write {}: {other_argument} writes it as {}; give another place with {argument}", path.display(), other.display())]
+    #[error("cannot write {}: {other_argument} writes it as {}; give another path with {argument}", path.display(), other.display())]
     Twice {
         /// The argument that names the file or its folder.
         argument: &'static str,

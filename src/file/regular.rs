@@ -62,7 +62,7 @@ fn kind_and_advice(kind: FileType) -> (&'static str, &'static str) {
     {
         use std::os::unix::fs::FileTypeExt;
         if kind.is_fifo() {
-            return ("a pipe", "save what the pipe gives in a file, and give that");
+            return ("a pipe", "save the output of the pipe in a file, and give that file");
         }
         if kind.is_socket() {
             return ("a socket", "give a file");

@@ -45,7 +45,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
 /// The error for a pipe without a reader.
 #[cfg(unix)]
 #[derive(Debug, Clone, Copy, thiserror::Error)]
-#[error("it is a pipe that nobody reads; start what reads it, or remove it")]
+#[error("it is a pipe without a reader; start its reader, or remove it")]
 struct NoReader;
 
 #[cfg(unix)]

@@ -16,7 +16,7 @@ pub enum ContourError {
     },
     /// A radius is zero or negative.
     #[error(
-        "the radius of arc {piece} is {radius} m: it must be positive (the sign of the sweep says which way it bends)"
+        "the radius of arc {piece} is {radius} m: it must be positive (the sign of the sweep is the direction of the arc)"
     )]
     Radius {
         /// The piece.
@@ -53,10 +53,10 @@ pub enum ContourError {
         distance: f64,
     },
     /// An open contour ends at its start.
-    #[error("the contour ends where it starts: make it a closed one")]
+    #[error("the contour ends at its start: make it closed")]
     EndsMeet,
     /// There are too many pairs of long neighbouring pieces for an intersection test.
-    #[error("more than {limit} pairs of its pieces may meet: use fewer long slanting sides")]
+    #[error("more than {limit} pairs of its pieces may intersect: use fewer long sides")]
     Intricate {
         /// The largest number of pairs.
         limit: usize,

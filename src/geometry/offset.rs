@@ -29,8 +29,8 @@ pub enum OffsetError {
     },
     /// The result fails its verification.
     #[error(
-        "there is no sound parallel contour at {distance} m: at this very distance it touches itself, splits or vanishes; \
-         take one a micrometre more or less"
+        "the parallel contour at {distance} m is degenerate: it touches itself, splits or vanishes; \
+         use a distance that is a micrometre larger or smaller"
     )]
     Unsound {
         /// The distance (m).

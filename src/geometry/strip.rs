@@ -26,7 +26,7 @@ pub enum Side {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StripError {
     /// The strip is too wide for a piece: an arc is too tight, or a segment between two corners is too short.
-    #[error("the strip is too wide for piece {piece} of its line: make it narrower, or the line less tight")]
+    #[error("the strip is too wide for piece {piece} of its centre line: make it narrower, or the bend wider")]
     TooWide {
         /// The piece.
         piece: usize,
@@ -38,7 +38,7 @@ pub enum StripError {
         piece: usize,
     },
     /// A side or the outline is not a contour.
-    #[error("the strip meets itself: {0}")]
+    #[error("the strip intersects itself: {0}")]
     Contour(#[from] ContourError),
 }
 

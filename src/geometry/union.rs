@@ -36,7 +36,7 @@ pub enum UnionError {
         at: Point2,
     },
     /// They have too many intersections, or too many possible ones.
-    #[error("outline {first} and others meet, or may meet, in more than {limit} places")]
+    #[error("outline {first} and others have more than {limit} possible crossings")]
     Crossings {
         /// The first of these outlines.
         first: usize,
@@ -46,7 +46,7 @@ pub enum UnionError {
         limit: usize,
     },
     /// They are so close to each other, without touching, that their union is ambiguous.
-    #[error("outlines {first} and {second} meet too nearly to tell what they make together")]
+    #[error("outlines {first} and {second} touch too closely to be united")]
     Unclear {
         /// The first of these outlines.
         first: usize,

@@ -25,7 +25,7 @@ pub(crate) enum LoadError {
     },
     /// The path is not UTF-8 text.
     #[error(
-        "cannot read {}: its path is not UTF-8 text; give the file or folder another name, or go into the folder and name the file from there",
+        "cannot read {}: its path is not UTF-8 text; rename the file or folder, or run the command in the folder of the file",
         path.as_os_str().as_encoded_bytes().escape_ascii()
     )]
     Name {

@@ -109,7 +109,7 @@ pub(crate) fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Pr
 /// A built-in policy. It uses only the standard library.
 pub(crate) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
     let source = Source::new(file.path, file.text);
-    compiled(&source, &mut |_| Err("it is no part of the program".to_owned()))
+    compiled(&source, &mut |_| Err("it is not built into the program".to_owned()))
 }
 
 fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>, LoadError> {

@@ -37,7 +37,7 @@ pub(crate) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
 
 /// A built-in scenario.
 pub(crate) fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, LoadError> {
-    read_scenario(&Source::new(file.path, file.text), |_| Err("it is no part of the program".to_owned()))
+    read_scenario(&Source::new(file.path, file.text), |_| Err("it is not built into the program".to_owned()))
 }
 
 fn read_scenario(

@@ -28,7 +28,7 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {
     let unusable = |cause: &str| Error::new(ErrorKind::InvalidData, cause);
     if bytes.len() > SIZE_LIMIT {
         return Err(unusable(
-            "it is larger than 1 MiB; a scenario or policy is a page of text: is this the right file?",
+            "it is larger than 1 MiB; a scenario or policy is a short text; check that this is the right file",
         ));
     }
     let text = utf8(bytes).map_err(|fault| unusable(&format!("{fault}; {}", NotUtf8::ADVICE)))?;

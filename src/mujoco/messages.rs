@@ -11,9 +11,9 @@ use super::library::{self, LibraryError};
 
 /// Texts for MuJoCo's warning counters, in their order, with advice.
 pub(super) const WARNINGS: [&str; 7] = [
-    "an inertia matrix became singular; give the rig heavier parts",
-    "there are more contacts than memory for them; make `links` smaller",
-    "there are more constraints than memory for them; make `links` smaller",
+    "an inertia matrix became singular; make parts of the rig heavier",
+    "the contacts need more memory than reserved; reduce `links`",
+    "the constraints need more memory than reserved; reduce `links`",
     "a position is too large or not a number; make `physics.step` smaller",
     "a velocity is too large or not a number; make `physics.step` smaller",
     "an acceleration is too large or not a number; make `physics.step` smaller or the shaft less stiff",

@@ -14,7 +14,7 @@ const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
 pub enum PluginError {
     /// The program is linked with a system-wide MuJoCo, whose directory is unknown.
     #[error(
-        "this program is linked with a MuJoCo of the system and does not know where its plugin for cables is: build it with \
+        "this program uses the system's MuJoCo, and the directory of its cable plugin is not known: build the program with \
          MUJOCO_DYNAMIC_LINK_DIR set to the directory of MuJoCo's library and put {file} there, \
          or leave `preset: peer_cable` out of the rig"
     )]
@@ -24,7 +24,7 @@ pub enum PluginError {
     },
     /// The file does not exist.
     #[error(
-        "MuJoCo's plugin for cables is not there ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
+        "MuJoCo's cable plugin is missing ({}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig",
         path.display()
     )]
     NoPlugin {
@@ -33,7 +33,7 @@ pub enum PluginError {
     },
     /// The file exists but cannot be loaded.
     #[error(
-        "MuJoCo's plugin for cables cannot be loaded ({cause}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig"
+        "MuJoCo's cable plugin cannot be loaded ({cause}): run `cargo x setup`, or leave `preset: peer_cable` out of the rig"
     )]
     Damaged {
         /// The message of the loader.

@@ -22,7 +22,7 @@ pub enum OutlineFault {
     #[error("this build reads no outlines from files")]
     NotBuilt,
     /// The file is empty.
-    #[error("there is nothing in it")]
+    #[error("the file is empty")]
     Empty,
     /// The file is not valid text.
     #[error("{0}")]
@@ -42,13 +42,13 @@ pub enum OutlineFault {
         reason: String,
     },
     /// The unit of length is unknown.
-    #[error("it does not say what 1 in it is")]
+    #[error("the file does not state its unit of length")]
     NoUnit,
     /// The file contains no outline.
-    #[error("there is no outline in it")]
+    #[error("the file has no closed outline")]
     NoOutline,
     /// The requested element or layer does not exist.
-    #[error("there is no `{element}` in it")]
+    #[error("the file has no element or layer `{element}`")]
     NoElement {
         /// The requested name.
         element: String,
@@ -56,7 +56,7 @@ pub enum OutlineFault {
         meant: Option<String>,
     },
     /// The file contains an unsupported feature that may change outlines.
-    #[error("{what} is not understood")]
+    #[error("{what} is not supported")]
     Unsupported {
         /// The feature.
         what: String,
@@ -64,7 +64,7 @@ pub enum OutlineFault {
         advice: &'static str,
     },
     /// A number is not finite, or too large.
-    #[error("a coordinate is more than 100 m from the origin, or no number")]
+    #[error("a coordinate is more than 100 m from the origin, or not a number")]
     FarOff,
     /// The radius of a circle or an arc is not positive.
     #[error("a circle or an arc has the radius {radius}: it must be positive")]
@@ -79,7 +79,7 @@ pub enum OutlineFault {
         ratio: f64,
     },
     /// A polygon has too few corners.
-    #[error("{count} corners make no polygon")]
+    #[error("a polygon has {count} corners, and needs at least three")]
     Corners {
         /// The number of its corners.
         count: usize,
@@ -105,7 +105,7 @@ pub enum OutlineFault {
         at: Point2,
     },
     /// An outline is not a valid contour.
-    #[error("an outline cannot be: {0}")]
+    #[error("an outline is invalid: {0}")]
     Contour(ContourError),
     /// A curve has a cusp or a degenerate part.
     #[error("a curve cannot be fitted by arcs to 1 µm")]
@@ -118,7 +118,7 @@ pub enum OutlineFault {
     },
     /// The plane does not intersect the mesh. Heights are relative to the file's z = 0 (m).
     #[error(
-        "the plane at {} passes it by: it reaches from {} to {}", length(*height), length(*lowest), length(*highest)
+        "the plane at {} does not cut the mesh, which extends from {} to {}", length(*height), length(*lowest), length(*highest)
     )]
     Missed {
         /// The height of the plane.
@@ -141,29 +141,29 @@ impl OutlineFault {
     #[must_use]
     pub fn advice(&self) -> String {
         match self {
-            Self::NotBuilt => "build it with them: `cargo build --release --features outlines`",
+            Self::NotBuilt => "build the program with the readers: `cargo build --release --features outlines`",
             Self::Empty | Self::Syntax { .. } => {
-                "look there, or save it anew: it may be damaged, cut off, or not what its ending says"
+                "check this line, or export the file again: it may be damaged, truncated, or in another format than its extension says"
             }
             Self::NotUtf8(_) => NotUtf8::ADVICE,
-            Self::TooLarge { .. } => "leave out what the whiskers cannot tell, or split it into several files",
+            Self::TooLarge { .. } => "leave out details that are finer than whiskers resolve, or split the drawing into several files",
             Self::NoUnit => "add `unit`, such as `unit: 1 mm`",
-            Self::NoOutline => "draw lines, arcs, curves or shapes that are closed; texts and pictures are none",
+            Self::NoOutline => "draw closed lines, arcs, curves or shapes; texts and pictures are not read",
             Self::NoElement { meant: Some(meant), .. } => return format!("did you mean `{meant}`?"),
-            Self::NoElement { .. } => "leave `element` out for all that is in the file",
+            Self::NoElement { .. } => "leave `element` out to read the whole file",
             Self::Unsupported { advice, .. } => advice,
             Self::FarOff => "is the `unit` right?",
-            Self::Radius { .. } => "draw it anew with a positive radius, or take it out",
-            Self::AxisRatio { .. } => "draw it anew with a positive ratio, or take it out",
-            Self::Corners { .. } => "give at least three, a line each",
-            Self::Open { .. } => "close it; or, if it is no outline, take it out or choose another `element`",
-            Self::Branches { .. } => "take out what is drawn twice, and lines that are no outline",
-            Self::Crosses { .. } => "go round the object once, without crossing an earlier side",
-            Self::Contour(_) => "draw it anew there",
-            Self::Curve => "round its cusp off, or end the curve there and begin another",
-            Self::NotWatertight { .. } => "mend the mesh: most modelling programs can",
-            Self::Missed { .. } => "choose a `height` between, or another `unit`",
-            Self::Hole { .. } => "whiskers cannot reach a hole: take it out, or choose one of the two as `element`",
+            Self::Radius { .. } => "give it a positive radius, or remove it",
+            Self::AxisRatio { .. } => "give it a positive ratio, or remove it",
+            Self::Corners { .. } => "add corners, one in each line",
+            Self::Open { .. } => "close it; if it is not an outline, remove it or choose another `element`",
+            Self::Branches { .. } => "remove duplicate lines, and lines that are not outlines",
+            Self::Crosses { .. } => "trace the object once, without crossing an earlier side",
+            Self::Contour(_) => "correct the drawing there",
+            Self::Curve => "round the cusp off, or split the curve there",
+            Self::NotWatertight { .. } => "close the hole; most modelling programs can repair a mesh",
+            Self::Missed { .. } => "choose a `height` between them, or another `unit`",
+            Self::Hole { .. } => "whiskers cannot reach a hole: remove it, or choose one of the two outlines by `element`",
         }
         .to_owned()
     }
@@ -215,6 +215,6 @@ struct Other(Option<usize>);
 
 impl fmt::Display for Other {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |line| write!(f, ", that of line {line}"))
+        self.0.map_or(Ok(()), |line| write!(f, ", which begins in line {line}"))
     }
 }

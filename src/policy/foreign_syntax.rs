@@ -4,18 +4,18 @@
 const WORDS: [(&[&str], &str); 17] = [
     (
         &["while", "loop", "until", "repeat", "break", "continue", "foreach"],
-        "there are no loops: every tick runs the statements of a state anew; write `if condition { \u{2026} }`, or a state that `when condition -> State` leaves",
+        "there are no loops: a state executes its statements in every tick; write `if condition { \u{2026} }`, or a state with the transition `when condition -> State`",
     ),
     (
         &["print", "println", "printf", "echo", "log"],
-        "a policy prints nothing; `vibrissa run --ticks FILE` writes what every tick perceived and commanded",
+        "a policy cannot print; `vibrissa run --ticks FILE` writes the perception and the command of every tick",
     ),
     (&["elif", "elseif", "elsif"], "write `else if condition { \u{2026} }`"),
-    (&["then"], "a block stands in braces: `if condition { \u{2026} }`"),
+    (&["then"], "a block is in braces: `if condition { \u{2026} }`"),
     (&["endif", "end", "fi"], "a block ends with `}`"),
     (
         &["return"],
-        "a law gives no value, and goes on to its `}`; `let name(w: whisker) = expression` is a value that depends on others",
+        "a law has no result and always runs to its `}`; `let name(w: whisker) = expression` is a value with arguments",
     ),
     (
         &["def", "fn", "func", "function", "fun", "proc"],
@@ -23,24 +23,21 @@ const WORDS: [(&[&str], &str); 17] = [
     ),
     (&["goto", "goTo", "transition", "switch_to"], "write `when condition -> State`, or `after 1 s -> State`"),
     (&["switch", "match", "case"], "write `if condition { \u{2026} } else if condition { \u{2026} }`"),
-    (
-        &["wait", "sleep", "delay"],
-        "a tick waits for nothing: a state stays active until `after 1 s -> State` leaves it",
-    ),
+    (&["wait", "sleep", "delay"], "a tick cannot wait; `after 1 s -> State` leaves the state after that time"),
     (
         &["import", "include", "require", "from"],
         "write `use \"file.fsm\"`, or `use std.swipe` for a module of the standard library",
     ),
     (
         &["mut", "const", "int", "float", "double", "bool", "auto", "local"],
-        "write `let name = value` for a value, `var name = value` for memory, or `param name = 50 mm/s` for what a run can set; their types are not written",
+        "write `let name = value` for a value, `var name = value` for memory, or `param name = 50 mm/s` for a value that a run can set; types are inferred",
     ),
     (&["pass", "noop"], "leave it out: a block may be empty"),
     (&["True", "TRUE"], "write `true`"),
     (&["False", "FALSE"], "write `false`"),
     (
         &["null", "NULL", "None", "nil", "undefined"],
-        "every value is there; keep in a `var` of its own whether one counts: `var is_known = false`",
+        "there are no missing values; mark validity in a separate `var`: `var is_known = false`",
     ),
     (&["pi", "PI"], "write an angle with its unit: `180 deg`"),
 ];
@@ -53,8 +50,8 @@ pub(super) fn advice_for(word: &str) -> Option<&'static str> {
 /// Advice for a target that other languages use for a successful end.
 pub(super) fn target_advice(state: &str) -> Option<&'static str> {
     ["success", "succeeded", "done", "end", "finish", "finished", "completed", "exit"].contains(&state.to_lowercase().as_str()).then_some(
-        "a run is completed when what the scenario's `stop` names has come about; a policy ends it only by `Failure(\"reason\")`, and stands still \
-         in a state that does: `state Done { stop }`",
+        "a run is completed by the condition `stop` of the scenario; a policy can end it only by `Failure(\"reason\")`, or stop the platform \
+         in a state: `state Done { stop }`",
     )
 }
 

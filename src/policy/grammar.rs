@@ -59,14 +59,14 @@ pub(super) fn matches(source: &Source) -> Result<Cow<'static, [Match]>, Box<Diag
 /// Parses a whole file.
 pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
     if source.text.len() > LENGTH_LIMIT {
-        let label = format!("the text goes on for {} bytes", source.text.len());
+        let label = format!("the text has {} bytes", source.text.len());
         let span = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
         return Err(Box::new(
             Diagnostic::error("P0102", "the policy is too long", span, label).hint("a policy may have 256 KiB of text"),
         ));
     }
     if let Some(span) = too_deep(&source.text) {
-        let message = format!("brackets nest more than {NESTING_LIMIT} deep");
+        let message = format!("brackets are nested more than {NESTING_LIMIT} deep");
         return Err(Box::new(
             Diagnostic::error("P0103", message, span, "this one is too deep").hint("name parts of it with `let`"),
         ));

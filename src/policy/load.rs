@@ -59,7 +59,7 @@ pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
 pub(super) fn text_of(source: &Source, name: &str, library: &mut Library<'_>) -> Result<String, String> {
     let text = standard(name).map_or_else(|| library(name), |text| Ok(text.to_owned()))?;
     let fits = source.text.len() + text.len() < TEXT_LIMIT;
-    if fits { Ok(text) } else { Err("with it, the policy would have more than 1 MiB of text".to_owned()) }
+    if fits { Ok(text) } else { Err("with this file, the policy has more than 1 MiB of text".to_owned()) }
 }
 
 impl Loaded {
@@ -77,7 +77,9 @@ impl Loaded {
         let index = known.or_else(|| {
             if self.source.count() >= FILE_LIMIT {
                 let message = format!("the policy consists of more than {FILE_LIMIT} files");
-                self.report(Diagnostic::error("P0602", message, used.span, "one too many").hint("join some of them"));
+                self.report(
+                    Diagnostic::error("P0602", message, used.span, "one too many").hint("combine some of them"),
+                );
                 return None;
             }
             let text = text_of(&self.source, &name, library);
@@ -142,7 +144,7 @@ impl Loaded {
                 let message = format!("`{}` is a machine, not a library", self.source.part_name(index));
                 let fault =
                     Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, "a machine");
-                misfits.push(fault.hint("put what both need into a file that begins with `library` and a name"));
+                misfits.push(fault.hint("move the shared laws into a file that begins with `library` and a name"));
             }
         }
         misfits.extend(self.cycle(&uses));
@@ -188,7 +190,7 @@ impl Loaded {
                 let span = uses.get(file)?.get(next)?.span;
                 return Some(
                     Diagnostic::error("P0604", message, span, "leads back")
-                        .hint("put what both need into a third file, and use that in both"),
+                        .hint("move the shared laws into a third file, and use it in both"),
                 );
             }
             if !is_done[used] {
@@ -212,7 +214,7 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
         parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
-        Diagnostic::error("P0603", "a library holds laws and derived values only", first, "belongs to a machine")
+        Diagnostic::error("P0603", "a library has only laws and derived values", first, "belongs to a machine")
             .note(file.name.span, "a library")
             .hint(
                 "pass values to a law as arguments; only a machine has states, whiskers, needs, parameters, memory and tests",

@@ -202,7 +202,7 @@ fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Low
 
 /// The diagnostic for a library where a machine is needed.
 fn library(file: &ast::File) -> Diagnostic {
-    let message = format!("`{}` is a library and does nothing by itself", file.name.text);
+    let message = format!("`{}` is a library and cannot run by itself", file.name.text);
     let fault = Diagnostic::error("P0603", message, file.name.span, "not a machine");
     fault.hint("give a policy, which begins with `machine` and uses this file; `check` takes both")
 }

@@ -121,7 +121,7 @@ fn fitted(optional: Pair<'_>) -> Parsed<()> {
     }
     let message = format!("`{}` is unexpected here", word.as_str());
     // The `if` may be the beginning of a statement.
-    Err(Box::new(Diagnostic::error("P0101", message, word.span(), "expected `fitted`, or `{` behind this")))
+    Err(Box::new(Diagnostic::error("P0101", message, word.span(), "expected `fitted`, or `{` after this")))
 }
 
 fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
@@ -242,6 +242,6 @@ fn named(pair: Pair<'_>) -> Name {
 }
 
 fn internal(span: Span) -> Box<Diagnostic> {
-    let message = "the grammar and its reader disagree; this is a fault of the compiler";
-    Box::new(Diagnostic::error("P0199", message, span, "here").hint("please report the policy that shows it"))
+    let message = "the compiler does not handle this syntax; this is a fault of the program";
+    Box::new(Diagnostic::error("P0199", message, span, "here").hint("please report it with the policy"))
 }

@@ -16,7 +16,7 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>
         From::Path(path) => match fault(path) {
             None => Ok(join(using, path)),
             Some(fault) => {
-                let message = format!("`{path}` is no path of a library");
+                let message = format!("`{path}` is not the path of a library");
                 let fault = Diagnostic::error("P0601", message, used.span, fault);
                 Err(Box::new(fault.hint(
                     "a path is relative to the folder of this file, such as \"laws/corner.fsm\" or \"../corner.fsm\"",
@@ -36,7 +36,7 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>
             Err(Box::new(
                 diagnostic
                     .hint(format!("the standard library has {list}"))
-                    .hint("a file of your own stands in quotes: `use \"laws/corner.fsm\"`"),
+                    .hint("your own files are in quotes: `use \"laws/corner.fsm\"`"),
             ))
         }
     }
@@ -50,13 +50,13 @@ pub(super) fn standard(name: &str) -> Option<&'static str> {
 /// The reason for which a path is not allowed.
 fn fault(path: &str) -> Option<&'static str> {
     if path.contains(['\\', ':']) || path.contains(char::is_control) {
-        Some("a path has `/` between its folders, and no `\\` or `:`")
+        Some("separate folders by `/`, without `\\` or `:`")
     } else if path.starts_with('/') {
-        Some("a path is relative to the folder of the file that contains it, and does not begin at the root")
+        Some("use a path that is relative to the folder of this file")
     } else if path.split('/').any(|part| part.trim() != part || part.is_empty()) {
-        Some("a folder or the file has no name, or blanks around it")
+        Some("a name in the path is empty, or has spaces around it")
     } else if Path::new(path).extension().is_none_or(|extension| extension != "fsm") {
-        Some("a library's file ends in `.fsm`")
+        Some("the name of a library's file ends in `.fsm`")
     } else {
         None
     }

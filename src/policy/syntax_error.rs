@@ -26,8 +26,13 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     let rules: &[Rule] = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives,
         ErrorVariant::CustomError { message } => {
-            return Diagnostic::error("P0103", "the policy nests too deep", word_at(&source.text, at), message.clone())
-                .hint("name parts of it with `let`");
+            return Diagnostic::error(
+                "P0103",
+                "the policy is nested too deeply",
+                word_at(&source.text, at),
+                message.clone(),
+            )
+            .hint("name parts of it with `let`");
         }
     };
     let span = word_at(&source.text, at);
@@ -51,7 +56,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
             .hint("end it with `\"` on the same line");
     }
     if is_keyword(found) && rules.contains(&Rule::name) {
-        let message = format!("`{found}` is a word of the language");
+        let message = format!("`{found}` is a keyword");
         return Diagnostic::error("P0101", message, span, "cannot be a name").hint("choose another name");
     }
     let mut diagnostic =
@@ -62,7 +67,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
         diagnostic = diagnostic.note(Span::new(opened, opened + 1), "still open");
     }
     if opened.is_none() && ["}", ")"].contains(&found) {
-        return diagnostic.hint(format!("nothing is open that `{found}` could close"));
+        return diagnostic.hint(format!("`{found}` closes nothing"));
     }
     if let Some(advice) = advice(found, source.text.split_at(at), rules) {
         return diagnostic.hint(advice);
@@ -75,8 +80,8 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
 fn at_the_end(source: &Source, at: usize, rules: &[Rule], opened: Option<usize>) -> Diagnostic {
     let span = Span::new(at, at);
     if rules.contains(&Rule::file) || rules.contains(&Rule::kw_machine) {
-        return Diagnostic::error("P0101", "the file holds no policy", span, "expected `machine` and its name")
-            .hint("a policy begins with `machine` and its name; then come its whiskers, parameters, laws and states");
+        return Diagnostic::error("P0101", "the file has no policy", span, "expected `machine` and its name")
+            .hint("a policy begins with `machine` and its name, followed by whiskers, parameters, laws and states");
     }
     let Some(opened) = opened else {
         return Diagnostic::error("P0101", "the policy ends too early", span, expected(rules).unwrap_or_default());
@@ -117,43 +122,43 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         "-" if starts("->") => "a transition begins with `when` or `after`: `when condition -> State`".to_owned(),
         ":" if is_block_due => BLOCK.to_owned(),
         ":" if rules.contains(&Rule::equals) && rest[1..].trim_start().starts_with(char::is_alphabetic) => {
-            "leave out the type: the value tells it, as in `let name = value`".to_owned()
+            "leave out the type, which is inferred from the value: `let name = value`".to_owned()
         }
         ":" if rules.contains(&Rule::equals) => "write `=`".to_owned(),
         "+" | "-" | "*" | "/" if rest[1..].starts_with('=') => {
-            format!("write the value out: `set name = name {found} value`")
+            format!("write `set name = name {found} value`")
         }
-        "+" | "-" if rest[1..].starts_with(found) => format!("write the value out: `set name = name {found} 1`"),
+        "+" | "-" if rest[1..].starts_with(found) => format!("write `set name = name {found} 1`"),
         "?" => "write `if condition { \u{2026} } else { \u{2026} }`, or `blend(from, to, share)`".to_owned(),
         "=" if starts("=>") => "write `->`".to_owned(),
         "=" if before.split_whitespace().nth_back(1) == Some("needs") => {
             "a need is a range: `needs control_rate in 20 .. 60 Hz`".to_owned()
         }
-        "=" => "`==` compares two values; `let name = value` names one".to_owned(),
+        "=" => "write `==` to compare two values, or `let name = value` to name one".to_owned(),
         "&" => "write `and`".to_owned(),
         "|" if starts("||") => "write `or`".to_owned(),
         "!" => "write `not`".to_owned(),
-        ";" => "leave it out; a new statement needs no sign before it".to_owned(),
+        ";" => "leave it out; statements need no separator".to_owned(),
         "[" | "]" => "write `vector(x, y)` for a vector; there are no lists".to_owned(),
-        "/" if starts("//") || starts("/*") => "a comment begins with `#` and goes to the end of its line".to_owned(),
+        "/" if starts("//") || starts("/*") => "a comment begins with `#` and ends with its line".to_owned(),
         _ if is_behind_tab_and_number(before) => {
-            "only spaces stand between a number and its unit: use spaces instead of the tab".to_owned()
+            "use spaces between a number and its unit, instead of the tab".to_owned()
         }
         "/" | "*" if rules.contains(&Rule::kw_in) => {
-            "a parameter is one number with a unit, and a unit has no blanks in it: `50 mm/s`".to_owned()
+            "a parameter is one number with a unit, and a unit has no spaces: `50 mm/s`".to_owned()
         }
         "^" => "multiply instead: `x * x`".to_owned(),
         "%" => "write the share as a plain number, such as 0.95".to_owned(),
-        "'" => "a text stands between double quotes".to_owned(),
-        "\"" => "a text can only be the reason of `Failure`, a path behind `use`, or what a test is about".to_owned(),
-        "." => "a number has digits before and behind its point".to_owned(),
+        "'" => "a text is in double quotes".to_owned(),
+        "\"" => "a text can only be the reason of `Failure`, a path after `use`, or the title or scenario of a test".to_owned(),
+        "." => "a number has digits before and after its decimal point".to_owned(),
         "for" if rules.contains(&Rule::kw_do) => {
-            "there are no loops: every tick runs the statements of a state anew; write a statement out for each whisker, or in a `law` for \
+            "there are no loops: a state executes its statements in every tick; write one statement for each whisker, or a `law` that is called by \
              `do`"
                 .to_owned()
         }
         "else" => "`else` follows the `}` of an `if`".to_owned(),
-        "machine" | "library" => "a file holds one machine or one library, which stands first".to_owned(),
+        "machine" | "library" => "a file has one machine or one library, in its first line".to_owned(),
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
         _ if advice_for(found).is_some() => advice_for(found)?.to_owned(),
         _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
@@ -161,14 +166,14 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         }
         _ if is_block_due && !is_value_due(rules) && begins_statement(found) => BLOCK.to_owned(),
         _ if is_keyword(found) && is_value_due(rules) => {
-            format!("`{found}` is a word of the language and cannot stand for a value")
+            format!("`{found}` is a keyword and cannot be a value")
         }
         _ => return None,
     })
 }
 
 /// Advice on the notation of blocks.
-const BLOCK: &str = "a block stands in braces: `if condition { \u{2026} }`";
+const BLOCK: &str = "a block is in braces: `if condition { \u{2026} }`";
 
 /// Advice for a name at the beginning of a statement, depending on the following text.
 fn statement(name: &str, behind: &str) -> Option<String> {

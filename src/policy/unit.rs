@@ -22,7 +22,7 @@ pub(super) fn unit_hint(error: &UnitError) -> String {
             format!("the units are {}", words.collect::<Vec<_>>().join(", "))
         }
         UnitError::Ambiguous { .. } => {
-            "put products first and each divisor behind a slash of its own: N*m/rad, kg/m/s".to_owned()
+            "write products first, and a slash before each divisor: N*m/rad, kg/m/s".to_owned()
         }
         _ => error.hint(),
     }

@@ -212,6 +212,26 @@ impl Facet {
         }
     }
 
+    /// The points at which a step from one point to another crosses the facet: the share of the step, and the outward
+    /// normal.
+    pub(super) fn crossings(&self, from: Point2, to: Point2) -> impl Iterator<Item = (f64, Vector2)> {
+        let step = to - from;
+        let shares = match self.curve {
+            CarrierCurve::Flat { start, tangent, .. } => {
+                [tangent.perp(&(start - from)) / tangent.perp(&step), f64::NAN]
+            }
+            CarrierCurve::Round { centre, radius, .. } => {
+                let (square, from_centre) = (step.norm_squared(), from - centre);
+                let half = step.dot(&from_centre) / square;
+                let root = (half * half - (from_centre.norm_squared() - radius * radius) / square).sqrt();
+                [-half - root, -half + root]
+            }
+        };
+        let is_on_step = |share: &f64| (0.0..=1.0).contains(share);
+        let crossing = move |share: f64| Some((share, self.project(from + share * step)?.normal));
+        shares.into_iter().filter(is_on_step).filter_map(crossing)
+    }
+
     /// The centre and the radius (m) of a convex arc. `None` for other facets.
     pub(super) fn bulge(&self) -> Option<(Point2, f64)> {
         match self.curve {

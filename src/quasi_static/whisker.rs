@@ -3,6 +3,7 @@
 use crate::geometry::{Point2, Pose, Vector2, unit};
 use vibrissa_runtime::rig::Whisker;
 
+use super::base_path::BasePath;
 use super::contact::{Contact, Pair, broad_phase, narrow_phase};
 use super::equilibrium::{EquilibriumSolver, Step};
 use super::first_order_lag::FirstOrderLag;
@@ -14,6 +15,7 @@ use super::surface::Surfaces;
 pub(super) struct QuasiStaticWhisker {
     rod: Rod,
     shape: Shape,
+    base_path: BasePath,
     hinge: FirstOrderLag,
     solver: EquilibriumSolver,
     pairs: Vec<Pair>,
@@ -35,6 +37,8 @@ pub(super) struct QuasiStaticWhisker {
 pub(super) enum EquilibriumError {
     /// The whisker penetrates a solid by this depth (m).
     Penetration(f64),
+    /// The base passed through a solid. The distance (m) is that of its points of entry and exit.
+    PassedThrough(f64),
     /// The iteration did not converge.
     NotConverged,
 }
@@ -63,6 +67,7 @@ impl QuasiStaticWhisker {
         let rod = Rod::new(whisker);
         Self {
             shape: Shape::straight(&rod, base),
+            base_path: BasePath::default(),
             hinge: FirstOrderLag::new(whisker.hinge.damping / whisker.hinge.stiffness),
             solver: EquilibriumSolver::default(),
             pairs: Vec::new(),
@@ -119,6 +124,9 @@ impl QuasiStaticWhisker {
         limit: f64,
     ) -> Result<(), EquilibriumError> {
         let from = self.shape.base;
+        if let Some(distance) = self.base_path.follow(from.position, base.position, surfaces) {
+            return Err(EquilibriumError::PassedThrough(distance));
+        }
         let base_motion =
             (base.position - from.position).norm() + self.rod.length() * (base.heading - from.heading).abs();
         let is_straight = self.unsettled_samples == 0 && self.shape.is_straight();

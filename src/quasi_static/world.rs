@@ -25,7 +25,7 @@ pub enum QuasiStaticError {
         friction: f64,
     },
     /// The rig overlaps or touches a solid at the start.
-    #[error("{part} is in a solid, or touches it, where the run starts; start elsewhere")]
+    #[error("{part} touches or overlaps a solid at the start; choose another start")]
     Start {
         /// The affected part of the rig.
         part: String,
@@ -123,8 +123,10 @@ impl QuasiStaticWorld {
             let base = Pose { position, heading: body.heading + part.direction_body };
             whisker.follow(base, self.period, &self.surfaces, limit).map_err(|error| match error {
                 EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit },
+                // The base is a part of the platform.
+                EquilibriumError::PassedThrough(depth) => Fault::Crash { time, depth },
                 EquilibriumError::NotConverged => {
-                    Fault::Diverged { time, cause: "the equilibrium of a whisker did not converge; go slower" }
+                    Fault::Diverged { time, cause: "the equilibrium of a whisker did not converge; reduce the speed" }
                 }
             })?;
             *snapped_off |= whisker.relative_motion() > SNAP_OFF_SPEED * self.period;

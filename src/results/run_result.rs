@@ -179,7 +179,7 @@ pub struct Failsafes {
     pub first_cause: Option<String>,
 }
 
-/// Retrievals of whiskers that had lost the object, by the baseline's definitions (section 5.2 of the thesis).
+/// Retrievals of whiskers that had lost the object, by the baseline's definitions (section 5.2 of its report).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Retrieval {

@@ -35,7 +35,7 @@ impl StallWatch {
         }
         (tick.time - self.newest >= after).then(|| {
             let millimetres = within * 1e3;
-            format!("no progress for {after} s: neither the platform nor a recorded tip came {millimetres} mm from where it had been")
+            format!("no progress for {after} s: neither the platform nor a recorded tip moved {millimetres} mm away from its earlier positions")
         })
     }
 }

@@ -31,7 +31,7 @@ struct Heading {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CalibrationError {
     /// The text is not a calibration.
-    #[error("it is no calibration: {0}")]
+    #[error("it is not a calibration: {0}")]
     Syntax(String),
     /// The format version is not supported.
     #[error("it is in format {found}, this program reads format {FORMAT}; calibrate with this program")]

@@ -35,10 +35,10 @@ impl Change {
             behind += word.len() + 1;
             let kind = node.value.kind();
             let Node::Mapping(entries) = &mut node.value else {
-                let message = format!("`{}` has no keys that could vary", words[..index].join("."));
+                let message = format!("`{}` has no keys that can be varied", words[..index].join("."));
                 let label = format!("it is {kind} in the scenario");
                 let fault = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, label);
-                reader.report(fault.hint("vary it as a whole: give the values that it is to have"));
+                reader.report(fault.hint("vary the value itself: list its values"));
                 return;
             };
             let position = entries.iter().position(|entry| entry.key.value == word).unwrap_or_else(|| {

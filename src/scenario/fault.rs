@@ -66,7 +66,7 @@ pub(crate) fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Di
     if source.text.len() > MAX_BYTES {
         let message = format!("the {what} is larger than 1 MiB");
         let fault = Diagnostic::error(TOO_LARGE, message, Span::default(), "of this file");
-        return Err(vec![fault.hint(format!("a {what} is a page of text: is this the right file?"))]);
+        return Err(vec![fault.hint(format!("a {what} is a short text; check that this is the right file"))]);
     }
     let parse = |duplicate_keys| {
         let options = serde_yaml::options! {
@@ -94,13 +94,13 @@ fn diagnose(source: &Source, what: &str, error: &Error) -> Diagnostic {
     match cause {
         Error::DuplicateMappingKey { key, .. } => {
             let key = key.as_deref().unwrap_or(source.slice(span));
-            Diagnostic::error(DUPLICATE_KEY, format!("`{key}` is there twice"), span, "the second one")
-                .hint("a key or a name stands once in its mapping: take one out, or rename it")
+            Diagnostic::error(DUPLICATE_KEY, format!("the key `{key}` occurs twice"), span, "the second one")
+                .hint("remove one of them, or rename it")
         }
         Error::MultipleDocuments { .. } => {
             let message = format!("a file holds one {what}");
             Diagnostic::error(DOCUMENTS, message, span, "a second document begins here")
-                .hint("put it into a file of its own, or take the line `---` out")
+                .hint("move it to a file of its own, or remove the line `---`")
         }
         Error::Budget { .. }
         | Error::AliasReplayCounterOverflow { .. }
@@ -110,16 +110,16 @@ fn diagnose(source: &Source, what: &str, error: &Error) -> Diagnostic {
             TOO_LARGE,
             format!("the {what} is too large or too deeply nested"),
             span,
-            "the limit is passed here",
+            "the limit is exceeded here",
         )
-        .hint(format!("a {what} has at most {MAX_NODES} values, those that aliases repeat included")),
+        .hint(format!("a {what} has at most {MAX_NODES} values, including those that aliases repeat")),
         Error::RecursiveReferencesRequireWeakTypes { .. } => {
-            Diagnostic::error(SYNTAX, "an alias stands inside what it stands for", span, "this goes round for ever")
-                .hint("write the value out")
+            Diagnostic::error(SYNTAX, "an alias refers to a value that contains it", span, "this reference has no end")
+                .hint("replace the alias by a value")
         }
         Error::UnknownAnchor { .. } => {
-            Diagnostic::error(SYNTAX, "an alias stands for nothing", span, "there is no such anchor above")
-                .hint("mark the value that is meant with `&name`, or write it out here")
+            Diagnostic::error(SYNTAX, "an alias has no anchor", span, "there is no such anchor above")
+                .hint("mark the value with `&name`, or replace the alias by a value")
         }
         _ => Diagnostic::error(SYNTAX, "this is not valid YAML", span, UserMessageFormatter.format_message(cause))
             .hint("look at this line and the one above it: indentation, brackets, quotes, a `:` too many or too few"),

@@ -14,9 +14,10 @@ pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<
     let Some(name) = Path::new(&path.value).file_stem().and_then(|name| name.to_str()) else {
         let message = match path.value.as_str() {
             "" => "the path of a file is empty".to_owned(),
-            other => format!("`{other}` is no path of a file"),
+            other => format!("`{other}` is not the path of a file"),
         };
-        let fault = Diagnostic::error(fault::NAME, message, path.span, "must lead from this file to another");
+        let fault =
+            Diagnostic::error(fault::NAME, message, path.span, "must be a path relative to the folder of this file");
         reader.report(fault.hint("for example `../policies/vibrissa.fsm`"));
         return None;
     };
@@ -28,5 +29,5 @@ pub(crate) fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<
 pub(crate) fn unreadable(file: &FileReference, reason: &str) -> Diagnostic {
     let message = format!("cannot read `{}`", file.path.display());
     let fault = Diagnostic::error(fault::FILE, message, file.span, reason);
-    fault.hint("a path leads from the folder of this file to the other")
+    fault.hint("a path is relative to the folder of this file")
 }

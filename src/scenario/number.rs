@@ -122,7 +122,7 @@ fn wrong_dimension(node: &Node, span: Span, quantity: &Quantity, key: &Key) -> D
     let (due, found) = (key.dimension.phrase(), quantity.dimension.phrase());
     if key.dimension == Dimension::NUMBER {
         let message = format!("`{}` is {due}, found {found}", key.name);
-        return Diagnostic::error(fault::DIMENSION, message, span, "no unit is due here").hint(example(key));
+        return Diagnostic::error(fault::DIMENSION, message, span, "write it without a unit").hint(example(key));
     }
     if quantity.unit.is_none() {
         let number = written(node);

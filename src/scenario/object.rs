@@ -139,7 +139,9 @@ fn read_polygon(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
             let fault =
                 Diagnostic::error(fault::SHAPE, "two neighbouring vertices are the same", second.span, "this one");
             reader.report(
-                fault.note(first.span, "and this one").hint("take one out: the first is not repeated at the end"),
+                fault
+                    .note(first.span, "the same vertex")
+                    .hint("remove one of them; the first vertex is not repeated at the end"),
             );
             None
         }
@@ -192,23 +194,23 @@ pub(super) fn made(
             let meeting = format!("at ({}, {})", millimetres(at.x), millimetres(at.y));
             let (first, second) = (pieces.get(*first).copied(), pieces.get(*second).copied());
             let message = "the outline crosses or touches itself";
-            let label = format!("the side that begins here meets another {meeting}");
+            let label = format!("the side that begins here meets another side {meeting}");
             let fault = Diagnostic::error(fault::SHAPE, message, second.or(first).unwrap_or(place), label);
             let fault = if let (Some(first), Some(_)) = (first, second) {
                 fault.note(first, "which begins here")
             } else {
                 fault
             };
-            fault.hint("go round the object once, without crossing an earlier side")
+            fault.hint("trace the object once, without crossing an earlier side")
         }
         ShapeError::ShortStep { step, length } => {
             let place = pieces.get(*step).copied().unwrap_or(place);
             let label = format!("{} long", format_si(*length, Dimension::LENGTH));
             Diagnostic::error(fault::SHAPE, "a step of the path has no length", place, label)
-                .hint("leave it out, or use `turn` to turn on the spot")
+                .hint("leave it out, or use `turn` to change the heading only")
         }
-        _ => Diagnostic::error(fault::SHAPE, "there is no such shape", place, error.to_string())
-            .hint("change the numbers of the shape"),
+        _ => Diagnostic::error(fault::SHAPE, "a shape with these values is not possible", place, error.to_string())
+            .hint("change the values of the shape"),
     };
     reader.report(fault);
     None

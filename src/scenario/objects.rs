@@ -95,7 +95,7 @@ impl Objects {
         });
         let met = pairs.find(|(wall, other)| wall.value.outline().overlaps(other.value.outline()));
         let Some((wall, other)) = met else { return true };
-        let message = "a wall of a tunnel overlaps or touches something else";
+        let message = "a wall of a tunnel overlaps or touches another object";
         let fault = Diagnostic::error(fault::SHAPE, message, wall.span, "this tunnel");
         let fault = if other.span == wall.span { fault } else { fault.note(other.span, "and this object") };
         reader.report(fault.hint("move them apart: walls of a tunnel are not united with objects"));
@@ -119,16 +119,14 @@ impl Work {
         let (count, limit, what) = if self.parts > MAX_PARTS {
             (self.parts, MAX_PARTS, "parts")
         } else if self.corners > MAX_CORNERS {
-            (self.corners, MAX_CORNERS, "corners, those of each part squared")
+            (self.corners, MAX_CORNERS, "as the sum of the squared corner counts of all parts")
         } else {
             return Some(());
         };
-        let label = format!("with those before it {count} {what}, must be at most {limit}");
+        let label = format!("{count} {what} up to this object; the limit is {limit}");
         let fault =
             Diagnostic::error(fault::TOO_LARGE, "the objects together are too large to be simulated", place, label);
-        reader.report(
-            fault.hint("leave out objects, or make them smaller: arcs become chords, a few hundred for a large one"),
-        );
+        reader.report(fault.hint("leave out objects, or make them smaller; an arc becomes up to some hundred chords"));
         None
     }
 }
@@ -173,44 +171,48 @@ fn report_union(reader: &mut Reader<'_>, error: &UnionError, spans: &[Span]) {
     let (&first, &second, message, label, hint) = match error {
         UnionError::Hole { first, second, at } => {
             let [x, y] = [at.x, at.y].map(|metres| format_si(metres * 1e3, Dimension::NUMBER));
-            let label = format!("the hole's outline goes through ({x} mm, {y} mm)");
-            let hint = "leave a gap for the platform to go in by, or fill the hole with an object";
+            let label = format!("the hole is at ({x} mm, {y} mm)");
+            let hint = "leave a gap that the platform can enter, or fill the hole with an object";
             (first, second, "objects that meet enclose a hole", label, hint)
         }
         UnionError::Crossings { first, second, limit } => {
-            let label = format!("in more than {limit} places, or they may");
+            let label = format!("more than {limit} possible crossings");
             let hint = "draw them as one outline, or with fewer sides";
             (first, second, "objects cross or touch each other too often", label, hint)
         }
         UnionError::Unclear { first, second } => {
-            let label = "this one, or one that it meets".to_owned();
+            let label = "this object, or one that touches it".to_owned();
             let hint = "let them overlap by a millimetre, move them apart by one, or draw them as one outline";
-            (first, second, "objects meet too nearly to tell what they make together", label, hint)
+            (first, second, "objects touch too closely to be united", label, hint)
         }
     };
     let (Some(&one), Some(&other)) = (spans.get(first), spans.get(second)) else { return };
     let fault = Diagnostic::error(fault::SHAPE, message, other, label);
-    let fault = if one == other { fault } else { fault.note(one, "with this one") };
+    let fault = if one == other { fault } else { fault.note(one, "the other object") };
     reader.report(fault.hint(hint));
 }
 
 /// Reports why an object has no solid.
 fn report(reader: &mut Reader<'_>, error: &SolidError, place: Span) {
     let (message, label, hint) = match error {
-        SolidError::Open => ("the object has no inside", "an open contour".to_owned(), "close it with `closed: true`"),
+        SolidError::Open => (
+            "the object has an open outline, and cannot be solid",
+            "the outline is open".to_owned(),
+            "close it with `closed: true`",
+        ),
         SolidError::Corners { count, limit } => (
             "the object has too many corners to be simulated",
-            format!("{count} corners, must be at most {limit}"),
-            "leave out vertices that hardly turn, or use arcs",
+            format!("{count} corners; the limit is {limit}"),
+            "leave out vertices at which the outline is almost straight, or use arcs",
         ),
         SolidError::Parts { count, limit } => (
             "the tunnel is too long to be simulated",
-            format!("{count} parts, must be at most {limit}"),
-            "make it shorter, or less bent",
+            format!("{count} parts; the limit is {limit}"),
+            "make the tunnel shorter, or its bends wider",
         ),
         SolidError::Chords => (
             "the object comes within micrometres of itself",
-            "too near to itself to be simulated".to_owned(),
+            "two of its sides are too close to each other".to_owned(),
             "move its sides apart",
         ),
         SolidError::Strip(error) => ("a wall of the tunnel meets itself", error.to_string(), "make the tunnel wider"),

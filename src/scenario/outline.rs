@@ -42,7 +42,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
     let bytes = reader.file(&path.value).map_err(|reason| {
         let message = format!("cannot read `{}`", path.value);
         let fault = Diagnostic::error(fault::FILE, message, path.span, reason);
-        reader.report(fault.hint("a path leads from the folder of the scenario to the file"));
+        reader.report(fault.hint("a path is relative to the folder of the scenario"));
     });
     let options = ReadOptions { unit, element: element.as_ref().map(|element| element.value.as_str()), height };
     match outline::read(&bytes.ok()?, format, &options) {
@@ -66,7 +66,7 @@ fn format(reader: &mut Reader<'_>, path: &Placed<String>) -> Option<Format> {
     let format = Format::of(&path.value);
     if format.is_none() {
         let endings = Format::ALL.map(|format| format!(".{}", format.ending()));
-        let message = format!("`{}` is of no format that can be read", path.value);
+        let message = format!("`{}` is not in a supported format", path.value);
         let label = format!("must end in {}", list(&endings, "or"));
         let fault = Diagnostic::error(fault::FILE, message, path.span, label);
         reader.report(fault.hint("save the drawing in one of these formats"));
@@ -77,7 +77,7 @@ fn format(reader: &mut Reader<'_>, path: &Placed<String>) -> Option<Format> {
 fn diagnose(error: &OutlineError, path: &str, place: Span) -> Diagnostic {
     let (code, message) = match error.fault {
         OutlineFault::NotBuilt => (fault::NOT_BUILT, format!("cannot read `{path}`")),
-        _ => (fault::OUTLINE, format!("there is a fault in `{path}`")),
+        _ => (fault::OUTLINE, format!("`{path}` cannot be used")),
     };
     Diagnostic::error(code, message, place, error.to_string()).hint(error.fault.advice())
 }

@@ -32,7 +32,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {
         let message = format!("a polar curve cannot have {} harmonics", items.len());
         let label = format!("must be at most {MAX_HARMONICS}");
         let fault = Diagnostic::error(fault::RANGE, message, harmonics.key.span, label);
-        reader.report(fault.hint("join those of the same order"));
+        reader.report(fault.hint("combine harmonics of the same order"));
         return None;
     }
     let harmonics: Vec<_> = items.iter().map(|item| harmonic(reader, item, harmonics.key.span)).collect();

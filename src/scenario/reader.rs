@@ -40,7 +40,7 @@ impl<'s> Reader<'s> {
             Ok(()) => Some(()),
             Err(Some(count)) => {
                 let message = "the objects have too many lines and arcs";
-                let label = format!("with those before it up to {count}, must be at most {MAX_PIECES}");
+                let label = format!("up to {count} with this object; the limit is {MAX_PIECES}");
                 let fault = Diagnostic::error(fault::TOO_LARGE, message, place, label);
                 self.report(
                     fault.hint("leave out objects, or make them with fewer sides, shorter lines or longer waves"),
@@ -146,7 +146,7 @@ impl<'s> Reader<'s> {
             return Some(Placed { value: text.clone(), span: self.extent(node) });
         }
         let hint = match &node.value {
-            Node::Null => "write a text, or leave the key out if it may be".to_owned(),
+            Node::Null => "write a text, or leave the key out if it is optional".to_owned(),
             Node::List(_) | Node::Mapping(_) => "write a text on the line of its key".to_owned(),
             scalar => format!("put it into quotes: \"{}\"", written(scalar)),
         };
@@ -178,7 +178,7 @@ impl<'s> Reader<'s> {
         };
         let [entry] = entries.as_slice() else {
             let (span, label) = match entries.get(1) {
-                Some(second) => (second.key.span, "this would be a second one"),
+                Some(second) => (second.key.span, "a second kind"),
                 None => (self.extent(node), "none here"),
             };
             let message = format!("{what} is exactly one of {}", list(kinds, "or"));

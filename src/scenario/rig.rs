@@ -86,7 +86,7 @@ fn platform(reader: &mut Reader<'_>, entry: &Entry, platform: &mut Platform) {
             format_si(ahead, Dimension::LENGTH),
             format_si(length, Dimension::LENGTH)
         );
-        let fault = Diagnostic::error(fault::RIG, "the centre of mass lies ahead of the nose", place, label);
+        let fault = Diagnostic::error(fault::RIG, "the centre of mass is in front of the platform", place, label);
         reader.report(fault.hint("give `length` and `centre_of_mass`, the second from 0 mm to the first"));
     }
 }

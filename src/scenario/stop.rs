@@ -37,23 +37,23 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop
 }
 
 fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {
-    let mut fields = Fields::of(reader, &entry.value, "the closing of a loop", entry.key.span)?;
+    let mut fields = Fields::of(reader, &entry.value, "`loop_closed`", entry.key.span)?;
     let within = fields.number(reader, &WITHIN);
     let after = fields.number(reader, &AFTER);
     fields.finish(reader);
     let (within, after) = (within?, after?);
-    is_in_time(reader, "the loop can never close", &after, end)?;
+    is_in_time(reader, "the run ends before the loop can close", &after, end)?;
     Some(LoopClosed { within: within.value, after: after.value })
 }
 
 fn read_reached(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<Reached> {
-    let mut fields = Fields::of(reader, &entry.value, "the reaching of a place", entry.key.span)?;
+    let mut fields = Fields::of(reader, &entry.value, "`reached`", entry.key.span)?;
     let place = fields.required(PLACE.name, PLACE.example).and_then(|entry| reader.point(&entry.value, &PLACE));
     let within = fields.number(reader, &WITHIN);
     let after = fields.number(reader, &AFTER);
     fields.finish(reader);
     let (place, within, after) = (place?, within?, after?);
-    is_in_time(reader, "the place can never be reached", &after, end)?;
+    is_in_time(reader, "the run ends before the position can be reached", &after, end)?;
     Some(Reached { place: place.value, within: within.value, after: after.value })
 }
 
@@ -72,9 +72,9 @@ fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Op
     if after.value < end.value {
         return Some(());
     }
-    let label = format!("not before the end, at {}", format_si(end.value, Dimension::TIME));
+    let label = format!("the run ends at {}", format_si(end.value, Dimension::TIME));
     let fault = Diagnostic::error(fault::TIMING, never, after.span, label);
-    reader.report(fault.note(end.span, "the run ends here").hint("make `after` shorter than `time`"));
+    reader.report(fault.note(end.span, "the end of the run").hint("make `after` shorter than `time`"));
     None
 }
 

@@ -37,8 +37,13 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Tunnel> {
     fields.finish(reader);
     let (line, width, thickness, frame) = (line?, width?, thickness?, frame?);
     if thickness.value >= width.value {
-        let fault = Diagnostic::error(fault::SHAPE, "the tunnel has no room", thickness.span, "as thick as the width");
-        let fault = fault.note(width.span, "between the middles of the walls");
+        let fault = Diagnostic::error(
+            fault::SHAPE,
+            "the walls of the tunnel leave no free width",
+            thickness.span,
+            "at least as thick as the tunnel is wide",
+        );
+        let fault = fault.note(width.span, "the distance between the centre lines of the walls");
         reader.report(fault.hint("make the walls thinner, or the tunnel wider"));
         return None;
     }
@@ -46,8 +51,13 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Tunnel> {
     match Tunnel::new(&line, width.value, thickness.value, &frame) {
         Ok(tunnel) => Some(tunnel),
         Err(error) => {
-            let fault = Diagnostic::error(fault::SHAPE, "there is no such tunnel", entry.key.span, error.to_string());
-            reader.report(fault.hint("change the numbers of the tunnel"));
+            let fault = Diagnostic::error(
+                fault::SHAPE,
+                "a tunnel with these values is not possible",
+                entry.key.span,
+                error.to_string(),
+            );
+            reader.report(fault.hint("change the values of the tunnel"));
             None
         }
     }
@@ -69,7 +79,7 @@ fn polyline(reader: &mut Reader<'_>, entry: &Entry, corners: Corners) -> Option<
     let example = format!("{}: {RUNS}", entry.key.value);
     let items = reader.items(&entry.value, "a list of runs", &example)?;
     if items.is_empty() {
-        let fault = Diagnostic::error(fault::SHAPE, "the tunnel has no run", entry.key.span, "empty");
+        let fault = Diagnostic::error(fault::SHAPE, "the centre line has no straight run", entry.key.span, "empty");
         reader.report(fault.hint(format!("for example `{example}`")));
         return None;
     }

@@ -121,7 +121,9 @@ fn calibration(reader: &mut Reader<'_>, entry: &Entry) -> Option<Calibration> {
     found
         .map_err(|reason| {
             let fault = Diagnostic::error(fault::FILE, format!("cannot use `{}`", path.value), path.span, reason);
-            reader.report(fault.hint("a path leads from the folder of the scenario to a file of `vibrissa calibrate`"));
+            reader.report(
+                fault.hint("give the path of a file of `vibrissa calibrate`, relative to the folder of the scenario"),
+            );
         })
         .ok()
 }
@@ -159,7 +161,7 @@ fn thick_tip(shaft: &Shaft, tip_radius: f64, place: Span) -> Diagnostic {
     let label = format!("at the base the radius is {}", millimetres(shaft.radius));
     let message = format!("the shaft is thicker at the tip: {}", millimetres(tip_radius));
     Diagnostic::error(fault::RIG, message, place, label)
-        .hint("give a `tip_radius` up to `radius`, or none for a wire that is as thick all along")
+        .hint("set `tip_radius` to at most `radius`; without it, the shaft has one radius")
 }
 
 /// Checks that the moment of inertia of the last and lightest link is large enough for the simulator. Its mass is then
@@ -170,10 +172,13 @@ fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
         return;
     }
     let kilogram_metres = |moment| format_si(moment, Dimension::INERTIA);
-    let label =
-        format!("a link has {} about its middle, and needs {}", kilogram_metres(inertia), kilogram_metres(MIN_INERTIA));
+    let label = format!(
+        "a link has a moment of inertia of {} about its centre, and needs {}",
+        kilogram_metres(inertia),
+        kilogram_metres(MIN_INERTIA)
+    );
     let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated", place, label);
-    reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser wire"));
+    reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser shaft"));
 }
 
 /// Reads a hinge, as differences from the `usual` one.

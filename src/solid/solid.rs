@@ -19,7 +19,7 @@ pub struct Solid {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// The contour is open and has no interior.
-    #[error("an open contour has no inside that could be solid; close it")]
+    #[error("an open contour has no interior; close it")]
     Open,
     /// The contour has too many pieces.
     #[error("a contour of {count} corners, arcs as chords, is too large to be simulated; use at most {limit}")]

@@ -52,17 +52,17 @@ fn read_sweep(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Sweep> {
 
 fn too_many(reader: &mut Reader<'_>, span: Span) {
     let message = format!("a sweep has at most {MAX_RUNS} runs");
-    let label = "with every value and every policy it is more";
+    let label = "the values and policies give more runs";
     let fault = Diagnostic::error(fault::RANGE, message, span, label);
-    reader.report(fault.hint("make several sweeps of it, or `trials` fewer"));
+    reader.report(fault.hint("split the sweep, or reduce `trials`"));
 }
 
 /// The items of a list that is not empty.
 fn some<'n>(reader: &mut Reader<'_>, entry: &'n Entry, expected: &str, example: &str) -> Option<&'n [Placed<Node>]> {
     let items = reader.items(&entry.value, expected, example)?;
     if items.is_empty() {
-        let message = format!("`{}` is empty, so that there would be no run", entry.key.value);
-        let fault = Diagnostic::error(fault::RANGE, message, entry.key.span, "needs one at least");
+        let message = format!("`{}` is empty, so the sweep has no run", entry.key.value);
+        let fault = Diagnostic::error(fault::RANGE, message, entry.key.span, "needs at least one item");
         reader.report(fault.hint(format!("for example `{}: {example}`", entry.key.value)));
         return None;
     }
@@ -72,9 +72,9 @@ fn some<'n>(reader: &mut Reader<'_>, entry: &'n Entry, expected: &str, example: 
 /// Reports a repeated item, whose runs would be the same.
 fn check_new<K: Ord>(reader: &mut Reader<'_>, seen: &mut BTreeMap<K, Span>, key: K, span: Span, name: &str) {
     if let Some(first) = seen.get(&key) {
-        let message = format!("`{name}` is there twice, and its runs would be too");
+        let message = format!("`{name}` occurs twice, so its runs would be repeated");
         let fault = Diagnostic::error(fault::REPEATED, message, span, "the second one");
-        reader.report(fault.note(*first, "the first one").hint("take one out, or make them differ"));
+        reader.report(fault.note(*first, "the first one").hint("remove one of them, or make them different"));
     } else {
         seen.insert(key, span);
     }
@@ -123,7 +123,7 @@ fn read_scenes(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<SweepScen
         (Some(entry), None) => family(reader, entry).map(ScenesOf::Family),
         (None, Some(entry)) => reference(reader, &entry.value).map(ScenesOf::Scenario),
         (family, _) => {
-            let label = if family.is_some() { "these are two" } else { "none here" };
+            let label = if family.is_some() { "both are given" } else { "neither is given" };
             let message = "a source of scenes is a `family` or a `scenario`";
             let fault = Diagnostic::error(fault::MISSING_KEY, message, reader.extent(item), label);
             reader.report(fault.hint("for example `{family: convex-corner, trials: 100}` or `{scenario: disk.yaml}`"));
@@ -151,7 +151,7 @@ fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
 /// Keys of a scenario that the sweep sets, with a hint.
 const GIVEN: [(&str, &str); 2] = [
     ("policy", "list the policies in the sweep's own `policies`"),
-    ("seed", "give the scenes `trials`, each of which has noise of its own, and a `seed` to begin with"),
+    ("seed", "use `trials`: each trial has its own noise, and `seed` is the seed of the first"),
 ];
 
 /// Checks that the axes are independent. Otherwise results would be listed under values that their runs did not have.
@@ -164,16 +164,16 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
     let spans: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
     for Placed { value, span } in &parameters {
         if let Some(&other) = spans.get(value.as_str()) {
-            let message = format!("two things called `{value}` vary");
-            let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "a parameter of the policies");
-            let fault = fault.note(other, "a key of the scenarios of the same name");
-            reader.report(fault.hint("make two sweeps of it, or rename the parameter"));
+            let message = format!("the name `{value}` is varied twice");
+            let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "as a parameter of the policies");
+            let fault = fault.note(other, "as a key of the scenarios");
+            reader.report(fault.hint("split the sweep, or rename the parameter"));
         }
     }
     for Placed { value, span } in &keys {
         if let Some((_, hint)) = GIVEN.iter().find(|(given, _)| given == value) {
-            let message = format!("`{value}` of a scenario cannot vary");
-            let label = "a sweep gives it to every run";
+            let message = format!("the key `{value}` of a scenario cannot be varied");
+            let label = "the sweep sets it for every run";
             reader.report(Diagnostic::error(fault::ENTANGLED, message, *span, label).hint(*hint));
         }
         for (end, _) in value.match_indices('.') {
@@ -181,8 +181,8 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
             if let Some(&outer) = spans.get(above) {
                 let message = format!("`{above}` and `{value}` cannot both vary");
                 let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "this key");
-                let fault = fault.note(outer, "is in this one, which has values, too");
-                reader.report(fault.hint(format!("vary `{above}` as a whole, or the keys in it one by one")));
+                let fault = fault.note(outer, "this key contains it");
+                reader.report(fault.hint(format!("vary either `{above}` or the keys in it")));
             }
         }
     }
@@ -197,7 +197,7 @@ fn named(
 ) -> Vec<Option<Axis>> {
     let Some(entry) = entry else { return Vec::new() };
     let Node::Mapping(entries) = &entry.value.value else {
-        reader.wrong_type(&entry.value, "a mapping", format!("write every name with its values, `{example}`"));
+        reader.wrong_type(&entry.value, "a mapping", format!("write every name with a list of values, `{example}`"));
         return vec![None];
     };
     let mut axis = |entry: &Entry| {
@@ -227,7 +227,7 @@ fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterVa
         Node::Text(text) => match parse_quantity(text) {
             Ok(quantity) => (quantity, text.clone()),
             Err(error) => {
-                let message = format!("`{text}` is no value of a parameter");
+                let message = format!("`{text}` is not the value of a parameter");
                 let fault = Diagnostic::error(fault::QUANTITY, message, reader.extent(node), error.to_string());
                 reader.report(fault.hint(error.hint()));
                 return None;
@@ -248,6 +248,6 @@ fn changes(_: &mut Reader<'_>, path: &Placed<String>, items: &[Placed<Node>]) ->
 
 /// The error of a policy, or of a value for one, at a span.
 pub(super) fn unfit(span: Span, reason: &str) -> Diagnostic {
-    let fault = Diagnostic::error(fault::UNFIT, "the policy cannot be run so", span, reason);
-    fault.hint("what varies of a policy are parameters that all policies have; those of families have a `speed`")
+    let fault = Diagnostic::error(fault::UNFIT, "the policy does not fit the sweep", span, reason);
+    fault.hint("vary only parameters that all policies have; for scenes of families, policies need a parameter `speed`")
 }

@@ -32,7 +32,7 @@ pub(crate) enum ResultsError {
         path: PathBuf,
     },
     /// The file has other content.
-    #[error("{} does not begin as results of a sweep do ({cause}); choose another path with --out", path.display())]
+    #[error("{} does not contain results of a sweep ({cause}); choose another path with --out", path.display())]
     NoResults {
         /// The file.
         path: PathBuf,
@@ -58,7 +58,7 @@ pub(crate) enum ResultsError {
         cause: String,
     },
     /// A line is too long to be a result.
-    #[error("{}, line {line}: it has more than {} MiB, and no line of results has; is this the right file?", path.display(), LINE_LIMIT >> 20)]
+    #[error("{}, line {line} is longer than {} MiB, the limit of a result; check that this is the right file", path.display(), LINE_LIMIT >> 20)]
     LongLine {
         /// The file.
         path: PathBuf,
@@ -66,7 +66,7 @@ pub(crate) enum ResultsError {
         line: usize,
     },
     /// A run has two results.
-    #[error("{} and {} both have the run `{key}`; merge results of shards of the same number, each once", first.display(), second.display())]
+    #[error("{} and {} both have the run `{key}`; merge each part once, and only parts of the same division", first.display(), second.display())]
     Twice {
         /// One of the files.
         first: PathBuf,
@@ -121,9 +121,9 @@ impl Results {
             let wrong = |cause: String| ResultsError::Line { path: path.to_owned(), line: number, cause };
             let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
             let index = indices.get(&key).filter(|_| header.shard.has(&key));
-            let index = *index.ok_or_else(|| wrong(format!("there is no run `{key}` here")))?;
+            let index = *index.ok_or_else(|| wrong(format!("this part of the sweep has no run `{key}`")))?;
             if there.insert(index, figures).is_some() {
-                return Err(wrong(format!("the run `{key}` is there a second time")));
+                return Err(wrong(format!("the run `{key}` occurs a second time")));
             }
         }
         let whole = lines.whole();

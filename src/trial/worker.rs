@@ -26,10 +26,10 @@ pub struct Worker {
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
     /// Its process cannot be started.
-    #[error("a process for runs cannot be started: {0}")]
+    #[error("a worker process cannot be started: {0}")]
     Process(#[from] io::Error),
     /// Its process ended, for this reason.
-    #[error("a process for runs ended before its first: {0}")]
+    #[error("a worker process ended before its first run: {0}")]
     Ended(String),
     /// It would execute other runs.
     #[error(
@@ -135,7 +135,7 @@ pub fn answer(
             Err(_) => reason = slot.take().map_or(reason, |mut worker| worker.end()),
         }
     }
-    Ok(Answer::Crash(format!("its process ended {ATTEMPTS} times, at last with {reason}")))
+    Ok(Answer::Crash(format!("its process ended {ATTEMPTS} times, the last time with {reason}")))
 }
 
 #[cfg(all(test, unix))]

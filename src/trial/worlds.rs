@@ -17,7 +17,7 @@ pub enum ExecuteError {
     #[error(transparent)]
     Bind(#[from] BindError),
     /// The run was stopped.
-    #[error("the run was broken off")]
+    #[error("the run was interrupted")]
     Interrupted,
     /// The world could not be built.
     #[cfg(feature = "sim")]
@@ -27,7 +27,7 @@ pub enum ExecuteError {
     #[error(transparent)]
     QuasiStatic(#[from] QuasiStaticError),
     /// The program was built without the world.
-    #[error("this build has no world `{0}`; build it with the feature `sim`, or run in the world `quasistatic`")]
+    #[error("this build has no world `{0}`; build the program with the feature `sim`, or use the world `quasistatic`")]
     NoWorld(WorldKind),
 }
 

@@ -20,7 +20,7 @@ pub enum Fault {
     /// A whisker penetrates an object too deeply.
     #[error(
         "a whisker penetrated the object by {:.3} mm at {time:.3} s, beyond the limit of {:.3} mm; make `physics.step` and \
-         `physics.contact_time` smaller, as `physics: {{step: 0.5556 ms, contact_time: 1.25 ms}}`, or go slower", depth * 1e3, limit * 1e3
+         `physics.contact_time` smaller, as `physics: {{step: 0.5556 ms, contact_time: 1.25 ms}}`, or reduce the speed", depth * 1e3, limit * 1e3
     )]
     Penetration {
         /// Simulated time (s).
@@ -30,9 +30,10 @@ pub enum Fault {
         /// Permitted penetration depth (m).
         limit: f64,
     },
-    /// The platform was driven into an object. The cause is the policy, not the simulation.
+    /// The platform was driven into an object, or the base of a whisker through one. The cause is the policy, not the
+    /// simulation.
     #[error(
-        "the platform was driven {:.3} mm into the object at {time:.3} s; the policy does not keep clear of it", depth * 1e3
+        "the platform penetrated the object by {:.3} mm at {time:.3} s; make the policy keep a distance from it", depth * 1e3
     )]
     Crash {
         /// Simulated time (s).

@@ -10,7 +10,7 @@ use crate::answered::{is_answered_the_same, is_handled};
 use crate::random::Random;
 use crate::{STACK, THESIS, allocator, mutate};
 
-/// The most times that any text may take as long as the thesis's policy.
+/// The largest time of any text, as a multiple of the time of `thesis.fsm`.
 const MOST_TIME: f64 = 1000.0;
 /// The most bytes that any text may take at once.
 const MOST_MEMORY: usize = 256 << 20;
@@ -21,7 +21,7 @@ struct Report {
     texts: usize,
     compiled: usize,
     bytes: usize,
-    /// The time that the thesis's policy took.
+    /// The time that `thesis.fsm` took.
     unit: Duration,
     slowest: (Duration, String),
     largest: (usize, String),
@@ -83,7 +83,7 @@ fn fastest<T>(work: impl Fn() -> T) -> Duration {
 }
 
 impl Report {
-    /// How many times the slowest text took as long as the thesis's policy.
+    /// The time of the slowest text, as a multiple of the time of `thesis.fsm`.
     fn ratio(&self) -> f64 {
         self.slowest.0.as_secs_f64() / self.unit.as_secs_f64()
     }
@@ -99,7 +99,7 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let share = 100.0 * self.compiled as f64 / self.texts as f64;
         writeln!(f, "{} texts, {} bytes; {share:.1} % compiled; {} panics", self.texts, self.bytes, self.panics.len())?;
-        writeln!(f, "slowest: {:?}, {:.0} times the thesis's policy", self.slowest.0, self.ratio())?;
+        writeln!(f, "slowest: {:?}, {:.0} times the time of `thesis.fsm`", self.slowest.0, self.ratio())?;
         writeln!(f, "most memory: {} bytes", self.largest.0)?;
         for (title, text) in [("slowest", &self.slowest.1), ("largest", &self.largest.1)] {
             writeln!(f, "--- {title} ({} bytes)\n{text}", text.len())?;

@@ -1,4 +1,4 @@
-//! The main job: the disk, felt all the way round by the thesis's policy.
+//! The disk, traced completely by `thesis.fsm`.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -100,7 +100,7 @@ fn the_policy_follows_disks_of_other_sizes_at_other_speeds() {
     }
 }
 
-/// A policy that none of the thesis's is: deflection alone, and two commands.
+/// A minimal policy: base angle alone, and two commands.
 #[test]
 fn bang_bang_following_goes_round_too() {
     let program = compile(&read("policies/bang.fsm")).unwrap();
@@ -149,5 +149,5 @@ fn a_run_is_completed_where_the_platform_is_to_get_to() {
     assert!((end.body.position.y - 0.12).abs() <= 0.005 && end.time >= 0.5);
     let elsewhere = reaching("[5 m, 0 m]", "time: 2 s");
     assert_eq!(elsewhere.outcome, Outcome::Timeout);
-    assert_eq!(elsewhere.reason.as_deref(), Some("the place was not reached within 2 s"));
+    assert_eq!(elsewhere.reason.as_deref(), Some("the position was not reached within 2 s"));
 }

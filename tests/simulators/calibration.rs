@@ -270,7 +270,7 @@ fn a_line_that_cannot_be_read_is_told() {
         ),
         ("x_mm,y_mm,base_angle_urad\n1,2,inf\n", "line 2: `base_angle_urad` must be a number"),
         ("x_mm,y_mm,base_angle_urad\n1,2e300,3\n", "line 2: `y_mm` must be a number from -10000 to 10000"),
-        ("x_mm,y_mm,base_angle_urad,x_mm\n", "line 1: the column `x_mm` is there twice"),
+        ("x_mm,y_mm,base_angle_urad,x_mm\n", "line 1: the column `x_mm` occurs twice"),
         ("x_mm,y_mm,base_angle_urad\n1,2\n", "line 2: every line"),
         ("x_mm,y_mm,base_angle_urad,contact\n1,2,3,edge\n", "line 2: `contact` must be `tip` or `shaft`"),
     ] {

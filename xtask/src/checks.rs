@@ -1,14 +1,14 @@
 //! Every test and every lint.
 
 use std::path::Path;
-use std::process::{ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
-use std::{fs, io};
+use std::{env, fs, io};
 
 use thiserror::Error;
 
 use crate::book::{self, BookError};
-use crate::cargo::{NotStarted, cargo};
+use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::checkout::Checkout;
 use crate::comments::{self, CommentsError};
 use crate::imports::{self, ImportsError};
@@ -55,7 +55,7 @@ pub(crate) enum CheckError {
     CoreNeedsMujoco,
     #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
     LeftBehind(String),
-    #[error("cannot list the examples: {0}")]
+    #[error("cannot list or start the examples: {0}")]
     Examples(io::Error),
     #[error(transparent)]
     Imports(#[from] ImportsError),
@@ -138,7 +138,8 @@ const CHECKS: [Check; 18] = [
         ],
     ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
-    check("benches, each run once", &["test", "--package", "vibrissa", "--features", FEATURES, "--benches"]),
+    // The whole workspace, so that dependencies have the features with which the tests were built.
+    check("benches, each run once", &["test", "--workspace", "--features", FEATURES, "--bench", "*"]),
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 
@@ -228,25 +229,26 @@ fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckE
     if tree.contains("mujoco-rs") { Err(CheckError::CoreNeedsMujoco) } else { Ok(()) }
 }
 
-/// The folders with examples, and how Cargo runs one of them.
-const EXAMPLES: [(&str, &[&str]); 2] = [
-    // The build of the tests.
-    ("examples", &["run", "--quiet", "--package", "vibrissa", "--features", FEATURES, "--example"]),
-    ("crates/runtime/examples", &["run", "--quiet", "--package", "vibrissa-runtime", "--example"]),
-];
+/// The folders with examples.
+const EXAMPLES: [&str; 2] = ["examples", "crates/runtime/examples"];
 
-/// Runs every example as a program.
+/// Runs every example as a program. They are built as one workspace, as the tests have built them. `cargo run` of one
+/// package would build dependencies again, because they get fewer features.
 fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
-    for (folder, command) in EXAMPLES {
+    const BUILD: CargoRun =
+        CargoRun { environment: &[], arguments: &["build", "--workspace", "--features", FEATURES, "--examples"] };
+    BUILD.succeed(title, root)?;
+    let programs = target_directory(root).join("debug/examples");
+    for folder in EXAMPLES {
         let entries = fs::read_dir(root.join(folder)).map_err(CheckError::Examples)?;
         let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
         let mut paths = paths.map_err(CheckError::Examples)?;
         paths.sort();
-        for name in paths.iter().filter_map(|path| path.file_stem()?.to_str()) {
-            let arguments = [command, &[name]].concat();
-            let rerun = format!("cargo {}", arguments.join(" "));
+        for name in paths.iter().filter_map(|path| path.file_stem()) {
+            let program = programs.join(name).with_extension(env::consts::EXE_EXTENSION);
+            let rerun = program.display().to_string();
             println!("      {rerun}");
-            let status = cargo(root, &arguments).status().map_err(|source| NotStarted { program: "cargo", source })?;
+            let status = Command::new(&program).current_dir(root).status().map_err(CheckError::Examples)?;
             if !status.success() {
                 return Err(CheckError::Failed { title, status, rerun });
             }

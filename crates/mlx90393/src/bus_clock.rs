@@ -2,8 +2,8 @@
 
 use crate::address::Address;
 use crate::axes::Axes;
-use crate::code::Register;
 use crate::command::READ_REGISTER;
+use crate::register::Register;
 use embedded_hal::i2c::I2c;
 use thiserror::Error;
 

@@ -47,6 +47,7 @@ macro_rules! code {
         }
     };
 }
+pub(crate) use code;
 
 code! {
     /// Gain of the analog path (`GAIN_SEL`), from 0 to 7. Code 7 is the most sensitive: a count is the smallest field.
@@ -71,15 +72,6 @@ code! {
     BurstInterval, "BURST_DATA_RATE", 63, [CONTINUOUS = 0 "No pause. All rates of 50 Hz and more need it."]
 }
 
-code! {
-    /// Address of a 16-bit register in the customer area, from 0 to 31.
-    Register, "a register address", 31, [
-        GAIN = 0 "Gain, plates and the factory trim.",
-        MODE = 1 "Burst mode, pin and temperature compensation.",
-        CONVERSION = 2 "Resolution, filter and oversampling."
-    ]
-}
-
 impl BurstInterval {
     /// The pause in microseconds.
     #[must_use]
@@ -99,7 +91,6 @@ mod tests {
             assert_eq!(Oversampling::new(code).is_ok(), code <= 0b11);
             assert_eq!(DigitalFilter::new(code).is_ok(), code <= 0b111);
             assert_eq!(BurstInterval::new(code).is_ok(), code <= 0b11_1111);
-            assert_eq!(Register::new(code).is_ok(), code <= 0x1F);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Commands, and the errors of commands.
 
-use crate::code::Register;
+use crate::register::Register;
 use crate::status::Status;
 use core::fmt;
 use thiserror::Error;

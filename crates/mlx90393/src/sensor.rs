@@ -2,11 +2,11 @@
 
 use crate::address::Address;
 use crate::checked_settings::CheckedSettings;
-use crate::code::Register;
 use crate::command::{CommandError, EXIT, READ_MEASUREMENT, READ_REGISTER, RESET, START_BURST, Step, WRITE_REGISTER};
 use crate::measurement::{Measurement, decode};
 use crate::raw_read::RawRead;
 use crate::read_error::ReadError;
+use crate::register::Register;
 use crate::start::{StartError, StartReport};
 use crate::status::Status;
 use embedded_hal::delay::DelayNs;

@@ -1,7 +1,7 @@
 //! The start of a sensor.
 
-use crate::code::Register;
 use crate::command::CommandError;
+use crate::register::Register;
 use crate::status::Status;
 use thiserror::Error;
 

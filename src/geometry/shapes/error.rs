@@ -47,8 +47,8 @@ pub enum ShapeError {
     },
     /// A path ends near its start, but not at it.
     #[error(
-        "the path ends {gap} m from its start, too far off to close it and too near for a side: give its lengths and \
-         angles more digits, or leave out the last length"
+        "the path ends {gap} m from its start. This is too far to close it, and too short for a side: give lengths and \
+         angles with more digits, or leave out the last length"
     )]
     NearlyClosed {
         /// The distance from its end to its start (m).
@@ -63,14 +63,14 @@ pub enum ShapeError {
         length: f64,
     },
     /// The waves of a curve are too small for an approximation by arcs.
-    #[error("the waves of the curve are too fine: lower their orders")]
+    #[error("the harmonics of the curve are too fine: use lower orders")]
     TooFine,
     /// A tunnel bends too tightly for its width.
     #[error("the tunnel bends too tightly for its width: make it narrower, or its bends wider")]
     TooTight,
     /// The opening of a round tunnel and its funnel are longer than the wall.
     #[error(
-        "the opening and its funnel do not fit into the wall: `from` must be below `to`, and the funnels need room beside it"
+        "the opening and its funnel do not fit into the wall: `from` must be below `to`, and the wall must be long enough for the funnel on each side"
     )]
     Opening,
     /// A wall is too thick.

@@ -64,9 +64,9 @@ impl Pruning {
             WorldKind::Mujoco => in_mujoco(&mut decisions, rig, physics, solids, start),
             WorldKind::QuasiStatic => decisions.push(Decision {
                 verdict: Verdict::LeftOut,
-                subject: "pieces of outlines that no whisker is near".to_owned(),
-                saves: Some("a tree of their boxes is asked for those that are near".to_owned()),
-                why: "a link touches only what is as near as it is long".to_owned(),
+                subject: "pieces of outlines far from all whiskers".to_owned(),
+                saves: Some("distances to these pieces; a bounding-box tree returns the near ones".to_owned()),
+                why: "a link touches only pieces within its own length".to_owned(),
             }),
         }
         whiskers(&mut decisions, rig, bound);
@@ -83,14 +83,14 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
             verdict: Verdict::LeftOut,
             subject: "parts of solids out of reach".to_owned(),
             saves: Some(format!("{} of {parts} geoms at the start", parts - near)),
-            why: "the rig cannot get to them before the model is built anew with what is then near".to_owned(),
+            why: "the rig cannot reach them before the model is rebuilt with the parts that are near then".to_owned(),
         });
     } else {
         decisions.push(Decision {
             verdict: Verdict::Kept,
             subject: format!("all parts of solids, of which there are {parts}"),
             saves: None,
-            why: "they are so few that building models with fewer of them would take longer".to_owned(),
+            why: "they are few, and rebuilding the model would take longer".to_owned(),
         });
     }
     let links: usize = rig.whiskers.iter().map(|whisker| whisker.shaft.links).sum();
@@ -99,14 +99,13 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
         verdict: Verdict::LeftOut,
         subject: "contacts of links and parts that are not near each other".to_owned(),
         saves: Some(format!("{} of {} pairs at the start", links * near - touchable, links * near)),
-        why: "what is near is looked up anew before anything of the rig has gone 2 mm; by then nothing else can touch"
-            .to_owned(),
+        why: "pairs are updated before any part of the rig has moved 2 mm, so no other pair can touch".to_owned(),
     });
     if !rig.sensing.forces {
         decisions.push(Decision {
             verdict: Verdict::LeftOut,
             subject: "forces at the bases of whiskers".to_owned(),
-            saves: Some(format!("{} sensors, and a pass of the dynamics in every sample", rig.whiskers.len())),
+            saves: Some(format!("{} sensors, and one evaluation of the dynamics per sample", rig.whiskers.len())),
             why: "the rig does not sense them".to_owned(),
         });
     }
@@ -117,10 +116,10 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
         let all = 3 + rig.whiskers.iter().map(freedom).sum::<usize>();
         decisions.push(Decision {
             verdict: Verdict::Setting,
-            subject: "`rigid_in_air`: whiskers that hang at rest in the air do not bend".to_owned(),
+            subject: "`rigid_in_air`: whiskers at rest in the air are rigid".to_owned(),
             saves: Some(format!("{joints} of {all} degrees of freedom at the start")),
-            why: "they read less than a hundredth of the contact threshold; but the last digits of the platform's path change, and \
-                  policies make more of that where they decide"
+            why: "their base angles are below a hundredth of the contact threshold. The last digits of the path change, which can \
+                  change decisions of a policy"
                 .to_owned(),
         });
     }
@@ -130,9 +129,9 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
     if together > 1 {
         decisions.push(Decision {
             verdict: Verdict::Setting,
-            subject: "`calm_step`: short steps while no whisker moves fast".to_owned(),
+            subject: "`calm_step`: longer steps while no whisker moves fast".to_owned(),
             saves: Some(format!("{} of {together} steps", together - 1)),
-            why: "what slides needs no more; a long step after which something is fast is done again in short ones"
+            why: "a sliding contact needs no shorter steps. A long step that ends with a fast whisker is repeated in short steps"
                 .to_owned(),
         });
     }
@@ -150,14 +149,14 @@ fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {
         decisions.push(Decision {
             verdict: Verdict::LeftOut,
             subject: format!("perception of `{}`", whisker.name),
-            saves: Some("its filter, its contact estimator and its contour, in every tick".to_owned()),
+            saves: Some("its filter, contact estimator and contour in every tick".to_owned()),
             why: "the policy does not bind it".to_owned(),
         });
         decisions.push(Decision {
             verdict: Verdict::Kept,
             subject: format!("the whisker `{}`", whisker.name),
             saves: None,
-            why: "the policy does not bind it, but what it touches pushes the platform, and a contact that is too deep ends the run"
+            why: "the policy does not bind it, but its contact forces act on the platform, and its penetration depth is limited"
                 .to_owned(),
         });
     }

@@ -52,7 +52,7 @@ fn fault(model: &Model<'_>, path: &[Step<'_>], witness: &str) -> Diagnostic {
     let name = |state: usize| model.states[state].name.text.as_str();
     let (start, first) = path[0];
     let names: Vec<String> = path.iter().map(|&(state, _)| format!("`{}`", name(state))).collect();
-    let message = format!("one tick can cycle from {} to `{}` without end", names.join(" to "), name(start));
+    let message = format!("one tick can cycle endlessly from {} to `{}`", names.join(" to "), name(start));
     let fault = Diagnostic::error("P0405", message, first.span(), format!("leaves `{}`", name(start)));
     path[1..]
         .iter()

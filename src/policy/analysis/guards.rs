@@ -38,9 +38,9 @@ fn guard(search: &mut Search<'_>, edge: &Edge<'_>, warnings: &mut Vec<Diagnostic
     {
         let (message, hint) = match edge.guard {
             machine::Guard::After { .. } => {
-                ("this time has passed at once", "write `when true` to go on at once, or a longer time")
+                ("this time is never positive", "write `when true` for an immediate transition, or a longer time")
             }
-            machine::Guard::When { .. } => ("this duration does nothing", "leave it out, or write a longer one"),
+            machine::Guard::When { .. } => ("this duration has no effect", "leave it out, or write a longer one"),
         };
         warnings.push(Diagnostic::warning("P0510", message, span, "never more than 0 s").hint(hint));
     }

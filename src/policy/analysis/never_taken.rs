@@ -40,7 +40,7 @@ pub(super) fn report_never_taken(
             immediate.push(before);
         }
         if comes_before(search, (other, before), (index, edge), time) {
-            warnings.push(never_taken(edge).note(before.span(), "comes before it whenever it could be due"));
+            warnings.push(never_taken(edge).note(before.span(), "is taken before it whenever both are due"));
             return true;
         }
     }
@@ -52,7 +52,8 @@ pub(super) fn report_never_taken(
         return false;
     }
     let notes = immediate.iter().map(|before| before.span());
-    warnings.push(notes.fold(never_taken(edge), |warning, span| warning.note(span, "this or another comes before it")));
+    warnings
+        .push(notes.fold(never_taken(edge), |warning, span| warning.note(span, "this or another is taken before it")));
     true
 }
 
@@ -110,5 +111,5 @@ fn register_of_time(model: &Model<'_>, edge: &Edge<'_>) -> Option<Register> {
 
 fn never_taken(edge: &Edge<'_>) -> Diagnostic {
     Diagnostic::warning("P0511", "this transition is never taken", edge.span(), "never taken")
-        .hint("transitions are tried in the order written: put it first, or restrict the guard of the other")
+        .hint("transitions are tried in order: move this one up, or restrict the guard of the other")
 }

@@ -43,8 +43,8 @@ pub(super) fn overlap(
         }
         let witness = search.describe(&goals, point);
         warnings.push(
-            Diagnostic::warning("P0512", "two guards can hold at once", edge.span(), "then this is not taken")
-                .note(before.span(), "this comes first and is taken")
+            Diagnostic::warning("P0512", "two guards can hold at once", edge.span(), "not taken in this case")
+                .note(before.span(), "this comes first, and is taken")
                 .hint(format!("both hold at {witness}"))
                 .hint("if this order is intended, make it explicit: `when \u{2026} and not \u{2026}`; otherwise change the order"),
         );

@@ -40,11 +40,11 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
             let begins_here = program.states[other].initial.as_ref().is_some_and(|&(inner, _)| inner == index);
             begins_here || node.exits().flatten().any(|target| program.contains(index, target))
         });
-        let label = if is_target { "only states that cannot be reached lead here" } else { "no transition leads here" };
+        let label = if is_target { "only unreachable states lead here" } else { "no transition leads here" };
         let message = format!("the state `{}` cannot be reached", state.name.text);
         warnings.push(
             Diagnostic::warning("P0501", message, state.name.span, label)
-                .hint("let a transition lead here, or leave the state out"),
+                .hint("add a transition to it, or remove the state"),
         );
     }
 }
@@ -97,7 +97,7 @@ pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
         if !is_left[index] {
             reported[index] = true;
             let message = format!("the state `{name}` cannot be left");
-            warnings.push(Diagnostic::warning("P0502", message, state.name.span, "nothing leads out of it").hint(
+            warnings.push(Diagnostic::warning("P0502", message, state.name.span, "no transition leaves it").hint(
                 "write a transition, such as `after 60 s -> Failure(\"nothing more to do\")`, or an `always` rule",
             ));
         } else if has_failure && !fallible[index] && !reported[index] {

@@ -14,7 +14,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let mut part = |names: &mut Names<'f>, arguments: &'f [Argument], of: &str| {
         names.give(arguments.iter().map(|argument| &argument.name));
         for argument in arguments.iter().filter(|argument| !names.has(&argument.name.text)) {
-            let hint = format!("use it, or leave it out here and wherever `{of}` is given its values");
+            let hint = format!("use it, or remove it here and wherever `{of}` is used");
             warnings.push(never_used("P0507", "argument", &argument.name, hint));
         }
     };
@@ -76,9 +76,9 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
             }
             None if own.any(|name| used.has(&name.text)) => {}
             None => {
-                let message = format!("nothing of the library `{}` is used", library.name.text);
+                let message = format!("the library `{}` is never used", library.name.text);
                 let warning = Diagnostic::warning("P0506", message, import.span, "never used");
-                warnings.push(warning.hint("use something of it, or leave this out"));
+                warnings.push(warning.hint("use it, or remove this line"));
             }
         }
     }

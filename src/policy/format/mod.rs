@@ -43,11 +43,11 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
         return Err(vec![
             Diagnostic::error(
                 "P0102",
-                "laid out, the policy would be too long",
+                "the formatted policy is too long",
                 everything,
-                "indented, this has more bytes than a policy may have",
+                "formatted, this exceeds the size of a policy",
             )
-            .hint("nest less, so that lines begin farther to the left"),
+            .hint("use less nesting, which shortens the indentation"),
         ]);
     }
     Ok(text)

@@ -14,25 +14,27 @@ use super::symbol::{Meaning, Symbol, SymbolKind};
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RenameError {
     /// There is no name at the position.
-    #[error("there is no name here; point at the name of a state, a law, a value or a whisker")]
+    #[error("there is no name here; select the name of a state, a law, a value or a whisker")]
     NoName,
     /// The text has syntax errors.
     #[error("the policy has a syntax error, so not every use of the name is known; correct the error first")]
     Unreadable,
     /// The name belongs to the language.
-    #[error("`{0}` belongs to the language and keeps its name")]
+    #[error("`{0}` is a name of the language and cannot be renamed")]
     BuiltIn(String),
     /// The name is not declared.
-    #[error("nothing is called `{0}`; mend that first")]
+    #[error("there is no name `{0}`; correct that first")]
     Unknown(String),
     /// The new name is not a valid name.
     #[error("`{0}` cannot be a name; a name has letters from a to z, digits and `_`, and does not begin with a digit")]
     Malformed(String),
     /// The new name is a keyword or a built-in function.
-    #[error("`{0}` has a meaning of its own in the language; choose another name")]
+    #[error("`{0}` is reserved; choose another name")]
     Reserved(String),
     /// The standard library declares the name.
-    #[error("`{name}` belongs to the standard library (`{module}`), which is part of the program; it keeps its name")]
+    #[error(
+        "`{name}` belongs to the standard library (`{module}`), which is part of the program, and cannot be renamed"
+    )]
     Standard {
         /// The name.
         name: String,
@@ -40,7 +42,7 @@ pub enum RenameError {
         module: String,
     },
     /// The new name is imported from a file.
-    #[error("the name `{name}` is brought from `{file}`; choose another name")]
+    #[error("the name `{name}` is imported from `{file}`; choose another name")]
     Imported {
         /// The new name.
         name: String,
@@ -48,7 +50,7 @@ pub enum RenameError {
         file: String,
     },
     /// The new name is already declared.
-    #[error("the name `{name}` is given in line {line} already; choose another name")]
+    #[error("the name `{name}` is already declared in line {line}; choose another name")]
     Taken {
         /// The new name.
         name: String,

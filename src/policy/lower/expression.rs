@@ -102,7 +102,7 @@ impl<'f> Compiler<'f> {
                     self.report(match unit.text.find(['/', '*']) {
                         Some(at) if at < range.start => {
                             let sign = &unit.text[at..=at];
-                            diagnostic.hint(format!("to calculate with a value, put a blank before `{sign}`"))
+                            diagnostic.hint(format!("to calculate with a value, put a space before `{sign}`"))
                         }
                         _ => diagnostic,
                     });
@@ -112,7 +112,7 @@ impl<'f> Compiler<'f> {
         };
         if !value.is_finite() {
             let diagnostic = Diagnostic::error("P0303", "the number is too large", quantity.span, "not finite");
-            self.report(diagnostic.hint("write a number that a 64-bit float can hold"));
+            self.report(diagnostic.hint("write a number within the range of 64-bit floating point"));
             return None;
         }
         Some((value, dimension))
@@ -303,7 +303,7 @@ impl<'f> Compiler<'f> {
                 Some(Value { r#type, register: self.code.vector(|to| Op::DivideVector { to, a, b }) })
             }
             (_, left_type, right_type) => {
-                let message = format!("`{}` does not go with {left_type} and {right_type}", operator.symbol());
+                let message = format!("`{}` does not apply to {left_type} and {right_type}", operator.symbol());
                 let mut diagnostic = Diagnostic::error("P0301", message, right_span, format!("is {right_type}"))
                     .note(left_span, format!("is {left_type}"));
                 if let Some(hint) = binary_hint(operator, left_type, right_type) {
@@ -319,7 +319,7 @@ impl<'f> Compiler<'f> {
     pub(super) fn dimension(&mut self, dimension: Option<Dimension>, span: Span) -> Option<Dimension> {
         if dimension.is_none() {
             let diagnostic = Diagnostic::error("P0305", "the dimension has too large an exponent", span, "of this");
-            self.report(diagnostic.hint("no physical quantity needs such a power; divide first"));
+            self.report(diagnostic.hint("divide before you multiply further"));
         }
         dimension
     }

@@ -214,10 +214,9 @@ impl<'f> Compiler<'f> {
         if self.inlining.iter().any(|inlined| inlined.span == name.span) {
             let chain = self.inlining.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join("` uses `");
             let message = format!("`{}` uses itself (`{chain}` uses `{}`)", name.text, name.text);
-            self.report(
-                Diagnostic::error("P0401", message, span, "used within itself")
-                    .hint("a tick does a bounded amount of work: there is no recursion; keep memory in states instead"),
-            );
+            self.report(Diagnostic::error("P0401", message, span, "used within itself").hint(
+                "recursion is not possible, because the work of a tick is bounded; use memory and states instead",
+            ));
             return None;
         }
         if values.len() != arguments.len() {

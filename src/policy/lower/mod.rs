@@ -193,9 +193,9 @@ impl<'f> Compiler<'f> {
             return None;
         }
         if self.depth >= DEPTH_LIMIT {
-            let message = format!("expressions, laws and derived values nest more than {DEPTH_LIMIT} deep");
+            let message = format!("expressions, laws and derived values are nested more than {DEPTH_LIMIT} deep");
             let diagnostic = Diagnostic::error("P0104", message, span, "too deep");
-            self.report(diagnostic.hint("laws and derived values are inlined at every use; nest fewer of them"));
+            self.report(diagnostic.hint("laws and derived values are inlined at every use; reduce their nesting"));
             self.erroneous.extend(self.inlining.iter().map(|name| name.span));
             return None;
         }
@@ -248,7 +248,7 @@ fn unknown_type(name: &TypeName) -> Diagnostic {
     let first = name.of.as_ref().unwrap_or(&name.base);
     match &name.of {
         Some(of) if name.base.text != "vector" => {
-            let message = format!("`{}` is of nothing", name.base.text);
+            let message = format!("the type `{}` takes no dimension", name.base.text);
             Diagnostic::error("P0204", message, name.base.span.to(of.span), "only a vector is `of` a dimension")
                 .hint(format!("write `{}` alone, or `vector of {}`", name.base.text, of.text))
         }
@@ -268,7 +268,7 @@ fn unknown_type(name: &TypeName) -> Diagnostic {
                 did_you_mean(diagnostic, &part.text, dimensions).hint(format!("dimensions are {list}"))
             }
             None => Diagnostic::error("P0305", "the dimension has too large an exponent", name.span(), "of this")
-                .hint("no physical quantity needs such a power"),
+                .hint("use exponents that physical quantities have"),
         },
     }
 }

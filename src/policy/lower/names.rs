@@ -97,15 +97,13 @@ impl<'f> Compiler<'f> {
         for (name, span) in chosen {
             match self.names().items.get(name.text.as_str()) {
                 Some(&before) if before != name.span => {
-                    let message = format!("the name `{}` is given twice", name.text);
+                    let message = format!("the name `{}` is declared twice", name.text);
                     let fault = Diagnostic::error("P0202", message, span, format!("imports `{}`", name.text))
                         .note(before, "given here")
                         .note(name.span, "and here");
                     let hint = match &used.names {
-                        None => {
-                            "write behind it, in parentheses, the names that are needed: `use \u{2026} (name, name)`"
-                        }
-                        Some(_) => "leave it out of the list, or call the other by another name",
+                        None => "list the needed names in parentheses after it: `use \u{2026} (name, name)`",
+                        Some(_) => "remove it from the list, or rename the other",
                     };
                     self.report(fault.hint(hint));
                 }

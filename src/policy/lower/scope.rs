@@ -80,7 +80,7 @@ impl<'f> Compiler<'f> {
 
     /// Reports an unknown name.
     pub(super) fn unknown_name(&mut self, scope: &Scope<'f>, name: &Name) {
-        let message = format!("nothing is called `{}`", name.text);
+        let message = format!("there is no name `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
         let text = &name.text;
         if let Some(advice) = advice_for(text) {
@@ -90,20 +90,20 @@ impl<'f> Compiler<'f> {
         let diagnostic = if self.names().laws.contains_key(text.as_str()) {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
         } else if text == "run" {
-            diagnostic.hint("only the expectations of a `test` know the run")
+            diagnostic.hint("`run` can only be used in the expectations of a `test`")
         } else if let Some(memory) = self.declaring.iter().find(|(known, _)| known.text == *text) {
             diagnostic.note(memory.0.span, "given here").hint(
-                "a `var` of a state knows only those above it; a name that the state gives hides that of a state around it in the whole state",
+                "a `var` can read only those above it; a name of the state hides the same name of an outer state in the whole state",
             )
         } else if self.variables.iter().any(|known| known.text == *text) {
             // Code that may access memory at all knows the state's memory where it is declared, and that of the
             // machine.
             diagnostic.hint(if self.inlining.is_empty() && self.figures.is_none() {
-                format!("`{text}` is memory of the machine: a `var` of the machine knows only those above it")
+                format!("`{text}` is memory of the machine; a `var` of the machine can read only those above it")
             } else {
                 format!(
-                    "`{text}` is memory of the machine: states and `always` rules know it, and a law or a derived value if it is given \
-                     it as an argument"
+                    "`{text}` is memory of the machine, which states and global transitions can read; pass it to a law or a derived value \
+                     as an argument"
                 )
             })
         } else if self.names().items.contains_key(text.as_str()) {
@@ -112,11 +112,10 @@ impl<'f> Compiler<'f> {
         } else if self.state_body.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text))
         {
             diagnostic.hint(format!(
-                "transitions are tried before the state does anything: write `let {text} = \u{2026}` outside of the state"
+                "transitions are tried before the statements of the state: write `let {text} = \u{2026}` outside of the state"
             ))
         } else if parse_unit(text).is_ok() {
-            diagnostic
-                .hint(format!("`{text}` is a unit: a unit stands behind a number and has no blanks in it: `5 mm/s`"))
+            diagnostic.hint(format!("`{text}` is a unit: a unit follows a number and has no spaces: `5 mm/s`"))
         } else {
             let known = scope.names.iter().map(|(known, _)| known.text.as_str());
             let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
@@ -129,8 +128,9 @@ impl<'f> Compiler<'f> {
             whiskers.sort_unstable();
             match suggest(text, whiskers) {
                 Some(whisker) if whisker.to_lowercase() == text.to_lowercase() => diagnostic,
-                Some(whisker) => diagnostic
-                    .hint(format!("to use another whisker of the rig, bind it too: `whisker {whisker}, {text}`")),
+                Some(whisker) => {
+                    diagnostic.hint(format!("to use another whisker of the rig, bind it: `whisker {whisker}, {text}`"))
+                }
                 None => diagnostic,
             }
         };
@@ -155,14 +155,14 @@ pub(in crate::policy) fn is_reserved(name: &str) -> bool {
 
 /// The diagnostic for a reserved name.
 pub(super) fn reserved(name: &Name) -> Diagnostic {
-    let message = format!("the name `{}` belongs to the language", name.text);
-    Diagnostic::error("P0202", message, name.span, "cannot be given").hint("choose another name")
+    let message = format!("the name `{}` is reserved", name.text);
+    Diagnostic::error("P0202", message, name.span, "declared here").hint("choose another name")
 }
 
 /// The diagnostic for a name that is already declared.
 pub(super) fn taken(name: &Name, before: Span) -> Diagnostic {
-    let message = format!("the name `{}` is given twice", name.text);
-    Diagnostic::error("P0202", message, name.span, "given again here")
-        .note(before, "first given here")
-        .hint("choose another name; only arguments and `var` of a state may have a name of a state around it, or of the machine's memory")
+    let message = format!("the name `{}` is declared twice", name.text);
+    Diagnostic::error("P0202", message, name.span, "declared again here")
+        .note(before, "first declared here")
+        .hint("choose another name; only arguments and `var` of a state may repeat a name of an outer state, or of the machine's memory")
 }

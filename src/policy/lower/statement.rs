@@ -79,7 +79,7 @@ impl<'f> Compiler<'f> {
     /// Emits a command, unless commands are not allowed here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
         if let Some(Commandless { construct, hint }) = self.commandless {
-            let message = format!("{construct} gives no command");
+            let message = format!("{construct} cannot give a command");
             let diagnostic = match (self.outer_use, self.inlining.first()) {
                 // Other uses of the law may be valid, so the error is reported at this use.
                 (Some(used), Some(law)) => {
@@ -106,12 +106,12 @@ impl<'f> Compiler<'f> {
                 // A hidden name has the same spelling, so it must not be suggested.
                 let others = self.variables.iter().map(|known| known.text.as_str()).filter(|known| *known != name.text);
                 did_you_mean(diagnostic, &name.text, others).hint(format!(
-                    "only what `var {} = \u{2026}` declares can be set: in its state and those in it, or by the machine and all states if \
-                     it stands outside of them",
+                    "only a `var` can be set: declare `var {} = \u{2026}` in a state for it and its inner states, or outside of states for \
+                     the whole machine",
                     name.text
                 ))
             } else {
-                Diagnostic::error("P0406", message, name.span, "a law sets no memory")
+                Diagnostic::error("P0406", message, name.span, "a law cannot set memory")
                     .hint("compute the value with a `let` outside of the law, and `set` it where the law is used")
             });
             return None;

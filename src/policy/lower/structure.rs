@@ -18,7 +18,7 @@ use super::{Commandless, Compiler, StateEntry};
 pub(super) const FAILURE: &str = "Failure";
 /// Advice for a command in `entry` or `exit`, which cannot give commands.
 const COMMAND_ADVICE: &str =
-    "put it among the statements of the state; the tick that enters the state executes them, too";
+    "move it to the statements of the state, which the tick that enters the state also executes";
 
 /// Checks the items of a policy and its libraries, and all laws and derived values separately. Returns the parameters
 /// of the policy.
@@ -103,8 +103,8 @@ impl<'f> Compiler<'f> {
         let arguments =
             file.states.iter().flat_map(|state| state.arguments.iter().map(move |argument| (state, argument)));
         for (state, argument) in arguments.filter(|(_, argument)| argument.type_name.base.text == "whisker") {
-            let message = format!("the state `{}` is for a whisker, and the policy binds none", state.name.text);
-            let diagnostic = Diagnostic::error("P0412", message, argument.name.span, "which whisker could it be?");
+            let message = format!("the state `{}` takes a whisker, but the policy binds none", state.name.text);
+            let diagnostic = Diagnostic::error("P0412", message, argument.name.span, "no whisker to pass");
             self.report(diagnostic.hint("bind a whisker of the rig: `whisker r0`"));
         }
     }
@@ -128,7 +128,7 @@ impl<'f> Compiler<'f> {
         if let Some(extra) = file.whiskers.get(MAX_WHISKERS) {
             let message = format!("a policy can bind {MAX_WHISKERS} whiskers at most");
             let diagnostic = Diagnostic::error("P0403", message, extra.span, "one too many");
-            self.report(diagnostic.hint("bind those that the policy reads; the rig may have others"));
+            self.report(diagnostic.hint("bind only the whiskers that the policy reads"));
         }
         for (index, whisker) in file.whiskers.iter().enumerate() {
             let register = self.code.constant(index as f64);
@@ -202,7 +202,7 @@ impl<'f> Compiler<'f> {
     /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
         self.commandless =
-            Some(Commandless { construct: "the machine itself", hint: "put it among the statements of a state" });
+            Some(Commandless { construct: "the machine itself", hint: "move it to the statements of a state" });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
@@ -357,8 +357,8 @@ impl<'f> Compiler<'f> {
         let (first, failsafe) = written.next()?;
         let others: Vec<Span> = written.map(|(span, _)| span).collect();
         for second in others {
-            let message = "a state, or a machine, has one failsafe";
-            let diagnostic = Diagnostic::error("P0411", message, second, "a second failsafe");
+            let message = "a state or a machine has at most one `failsafe`";
+            let diagnostic = Diagnostic::error("P0411", message, second, "a second `failsafe`");
             self.report(diagnostic.note(first, "the first").hint("keep one of them"));
         }
         failsafe

@@ -28,7 +28,7 @@ impl<'f> Compiler<'f> {
         if target.name.text == FAILURE && target.outer.is_empty() && target.resume.is_none() {
             let Some(reason) = &target.text else {
                 self.report(
-                    Diagnostic::error("P0304", "`Failure` needs a reason", target.span, "why?")
+                    Diagnostic::error("P0304", "`Failure` needs a reason", target.span, "without a reason")
                         .hint("write `Failure(\"what went wrong\")`"),
                 );
                 return None;
@@ -44,8 +44,8 @@ impl<'f> Compiler<'f> {
             return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
         }
         if target.name.text == FAILURE {
-            let message = "`Failure` ends a run wherever it is";
-            let diagnostic = Diagnostic::error("P0408", message, target.span, "lies in no state and cannot be resumed");
+            let message = "`Failure` is not in a state and has no history";
+            let diagnostic = Diagnostic::error("P0408", message, target.span, "ends the run in any state");
             self.report(diagnostic.hint("write `Failure(\"what went wrong\")` alone"));
             return None;
         }
@@ -58,8 +58,8 @@ impl<'f> Compiler<'f> {
             return None;
         };
         if let Some(text) = &target.text {
-            let message = format!("the state `{}` takes no text", target.name.text);
-            let diagnostic = Diagnostic::error("P0304", message, text.span, "a reason is for a failure");
+            let message = format!("the state `{}` takes no reason", target.name.text);
+            let diagnostic = Diagnostic::error("P0304", message, text.span, "only `Failure` takes a reason");
             self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
             return None;
         }
@@ -68,7 +68,7 @@ impl<'f> Compiler<'f> {
         {
             let message = format!("the state `{}` has no inner states to resume", target.name.text);
             self.report(
-                Diagnostic::error("P0409", message, resume, "resumes nothing")
+                Diagnostic::error("P0409", message, resume, "cannot be resumed")
                     .hint(format!("write `-> {}` to enter it", target.name.text)),
             );
             return None;
@@ -99,16 +99,17 @@ impl<'f> Compiler<'f> {
                 let is_outer = self.hierarchy.contains(index, state) && index != state && !outer.contains(&index);
                 self.report(if is_outer {
                     let message = format!("`{name}` is already active when a transition enters `{inner}`");
-                    Diagnostic::error("P0408", message, step.span, "is not entered")
+                    Diagnostic::error("P0408", message, step.span, "already active")
                         .hint(format!("write `{path}`, without the states that stay active"))
                 } else {
                     let message = match steps.last() {
                         Some((_, before)) if outer.contains(&index) => {
-                            format!("the state `{name}` does not lie in `{}`", before.name.text)
+                            format!("the state `{name}` is not in `{}`", before.name.text)
                         }
-                        _ => format!("the state `{inner}` does not lie in `{name}`"),
+                        _ => format!("the state `{inner}` is not in `{name}`"),
                     };
-                    Diagnostic::error("P0408", message, step.span, "leads nowhere").hint(format!("write `{path}`"))
+                    Diagnostic::error("P0408", message, step.span, "not a path to the state")
+                        .hint(format!("write `{path}`"))
                 });
                 return None;
             };
@@ -123,7 +124,8 @@ impl<'f> Compiler<'f> {
                 self.check_count(&step.name, step.span, &step.values, &arguments, entered)?;
                 given.push((step.values.as_slice(), arguments));
             } else if !arguments.is_empty() {
-                let message = format!("`{}` is entered with `{}`, and takes values", outer.text, target.name.text);
+                let message =
+                    format!("`{}` takes values, and is entered together with `{}`", outer.text, target.name.text);
                 let label = format!("the values of `{}` are missing", outer.text);
                 self.report(
                     Diagnostic::error("P0307", message, target.span, label)
@@ -172,7 +174,7 @@ impl<'f> Compiler<'f> {
         let message = format!("the state `{}` takes {takes}, not {given}", name.text);
         let mut diagnostic = Diagnostic::error("P0304", message, span, "entered here");
         if let Some(&made) = self.names().items.get(name.text.as_str()) {
-            diagnostic = diagnostic.note(made, "made here");
+            diagnostic = diagnostic.note(made, "declared here");
         }
         self.report(diagnostic.hint(format!("write `{}`", self.path(entered))));
         None
@@ -208,14 +210,9 @@ impl<'f> Compiler<'f> {
     pub(super) fn initial(&mut self, file: &'f File) -> Option<usize> {
         let [name] = file.initial.as_slice() else {
             let diagnostic = match file.initial.as_slice() {
-                [first, second, ..] => second_initial("a machine starts in one state", first.span, second.span),
-                _ => Diagnostic::error(
-                    "P0404",
-                    "the machine has no initial state",
-                    file.name.span,
-                    "where does it start?",
-                )
-                .hint("write `initial` and the name of a state"),
+                [first, second, ..] => second_initial("a machine has one initial state", first.span, second.span),
+                _ => Diagnostic::error("P0404", "the machine has no initial state", file.name.span, "has no `initial`")
+                    .hint("write `initial` and the name of a state"),
             };
             self.report(diagnostic);
             return None;
@@ -229,12 +226,12 @@ impl<'f> Compiler<'f> {
         let index = entry.index;
         let fault = if let Some(outer) = self.hierarchy.states[index].parent {
             let outer = &self.hierarchy.states[outer].name.text;
-            let hint = format!("start in an outermost state; `{outer}` begins in its own initial state");
-            Some((format!("a run cannot start within the state `{outer}`"), hint))
+            let hint = format!("start in an outermost state; the `initial` of `{outer}` selects its inner state");
+            Some((format!("a run cannot start in an inner state of `{outer}`"), hint))
         } else if entry.arguments.is_empty() {
             None
         } else {
-            let hint = format!("start in a state without arguments, and let it lead to `{}`", name.text);
+            let hint = format!("start in a state without arguments that has a transition to `{}`", name.text);
             Some(("the initial state cannot have arguments".to_owned(), hint))
         };
         let Some((message, hint)) = fault else { return Some(index) };
@@ -255,16 +252,16 @@ impl<'f> Compiler<'f> {
         let step = match state.initial.as_slice() {
             [] if names.is_empty() => return None,
             [] => {
-                let message = format!("the state `{name}` has states in it, but no initial one");
+                let message = format!("the state `{name}` has inner states, but no initial one");
                 self.report(
-                    Diagnostic::error("P0404", message, state.name.span, "where does it begin?")
+                    Diagnostic::error("P0404", message, state.name.span, "has no `initial`")
                         .hint(format!("write `initial` and the name of {}", names.join(" or "))),
                 );
                 return None;
             }
             [step] => step,
             [first, second, ..] => {
-                self.report(second_initial("a state begins in one of the states in it", first.span, second.span));
+                self.report(second_initial("a state has one initial inner state", first.span, second.span));
                 return None;
             }
         };
@@ -277,10 +274,10 @@ impl<'f> Compiler<'f> {
             return None;
         };
         if !self.hierarchy.inner(index).contains(&child) {
-            let message = format!("the state `{}` does not lie directly in `{name}`", begin.text);
-            let diagnostic = Diagnostic::error("P0404", message, begin.span, "cannot begin here");
+            let message = format!("the state `{}` is not an inner state of `{name}`", begin.text);
+            let diagnostic = Diagnostic::error("P0404", message, begin.span, "cannot be initial");
             self.report(if names.is_empty() {
-                diagnostic.hint(format!("no state lies in `{name}`: leave `initial` out"))
+                diagnostic.hint(format!("`{name}` has no inner state: remove `initial`"))
             } else {
                 diagnostic.hint(format!("write `initial` and the name of {}", names.join(" or ")))
             });

@@ -15,9 +15,9 @@ impl<'f> Compiler<'f> {
     pub(super) fn tests(&mut self, file: &'f File, parameters: &[Parameter]) {
         for (index, test) in file.tests.iter().enumerate() {
             if let Some(first) = file.tests[..index].iter().find(|first| first.title.text == test.title.text) {
-                let message = format!("two tests are called \"{}\"", test.title.text);
+                let message = format!("two tests have the title \"{}\"", test.title.text);
                 let diagnostic = Diagnostic::error("P0202", message, test.title.span, "again here");
-                self.report(diagnostic.note(first.title.span, "first here").hint("give each a title of its own"));
+                self.report(diagnostic.note(first.title.span, "first here").hint("give each test its own title"));
             }
             let test = self.test(test, parameters);
             self.tests.push(test);
@@ -26,15 +26,15 @@ impl<'f> Compiler<'f> {
 
     fn test(&mut self, test: &'f Test, parameters: &[Parameter]) -> PolicyTest {
         if test.expectations.is_empty() {
-            let diagnostic = Diagnostic::error("P0703", "the test expects nothing", test.title.span, "cannot fail");
-            self.report(diagnostic.hint("write `expect run.completed`, or what else must be true of the run"));
+            let diagnostic = Diagnostic::error("P0703", "the test has no expectation", test.title.span, "cannot fail");
+            self.report(diagnostic.hint("write `expect run.completed`, or another condition on the run"));
         }
         for text in [&test.title, &test.scenario] {
             if text.text.chars().any(char::is_control) {
-                let message = "the text has a character that cannot be shown";
+                let message = "the text has a control character";
                 let diagnostic =
-                    Diagnostic::error("P0703", message, text.span, "a tab or another control character is in it");
-                self.report(diagnostic.hint("write it in letters, digits, signs and blanks"));
+                    Diagnostic::error("P0703", message, text.span, "has a tab or another control character");
+                self.report(diagnostic.hint("use only letters, digits, signs and spaces"));
             }
         }
         PolicyTest {
@@ -113,7 +113,7 @@ impl<'f> Compiler<'f> {
     ) -> Option<Register> {
         let Some([Expression { kind: Kind::Root { name: state, values: None }, span, .. }]) = values else {
             let message = format!("`{}` needs the name of one state", name.text);
-            let diagnostic = Diagnostic::error("P0304", message, name.span, "of which state?");
+            let diagnostic = Diagnostic::error("P0304", message, name.span, "no state is named");
             self.report(diagnostic.hint(format!("write `run.{}(Name)`", name.text)));
             return None;
         };

@@ -106,7 +106,7 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
 /// A remark about omitted parts, or about the numbers, if there are any.
 fn remark(chart: &Chart) -> &'static str {
     if chart.is_overview {
-        return "inner states are left out, and details of transitions: --state NAME shows those of one state";
+        return "inner states and details of transitions are left out; --state NAME shows those of one state";
     }
     let is_numbered = chart.transitions.iter().any(|transition| transition.number.is_some());
     if is_numbered { "numbers: the order in which transitions of one state are tried" } else { "" }

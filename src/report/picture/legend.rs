@@ -91,7 +91,7 @@ impl Legend {
     fn platform(&mut self, trace: &Trace) {
         self.y += GAP;
         self.heading("Platform");
-        for (index, meaning) in ["at the start", "at times between", "at the end"].into_iter().enumerate() {
+        for (index, meaning) in ["at the start", "at intermediate times", "at the end"].into_iter().enumerate() {
             let [(from, y), (to, _)] = self.mark();
             let mut body = Outline::default();
             body.polyline([(from + 3.0, y - 6.0), (to - 3.0, y - 2.0), (to - 3.0, y + 2.0), (from + 3.0, y + 6.0)]);
@@ -105,7 +105,7 @@ impl Legend {
             let mut cross = Outline::default();
             let [(from, y), (to, _)] = self.mark();
             cross.cross((0.5 * (from + to), y), 4.0);
-            self.entry(cross.stroked(style::ALARM, 1.5), "its body touches something");
+            self.entry(cross.stroked(style::ALARM, 1.5), "contact of its body");
         }
     }
 

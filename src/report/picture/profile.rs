@@ -20,7 +20,7 @@ const CELLS: usize = 120;
 
 /// A picture of the sets of a calibration and of the fits to them. All sets are shown as bends to the left. Positions
 /// of the tip in the frame of the base are coloured by base angle. Lines of equal base angle are those of the fit `z =
-/// f(x, y)`, and a curve is that of one channel. The thesis has such a picture in figure 3.5. A self-contained SVG.
+/// f(x, y)`, and a curve is that of one channel. Figure 3.5 of the baseline's report is of this kind. A self-contained SVG.
 #[must_use]
 pub(crate) fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
     let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();

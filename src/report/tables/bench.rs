@@ -76,7 +76,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
         });
         [(found, verdict), plain(reported)]
     });
-    let [[error, thesis_error], [radius, thesis_radius], [axis, thesis_axis]] = [error, radius, axis];
+    let [[error, baseline_error], [radius, baseline_radius], [axis, baseline_axis]] = [error, radius, axis];
     let corners = result.corners.as_ref();
     [
         plain(Some(row.scene())),
@@ -84,13 +84,13 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
         plain(Some(result.outcome.to_string())),
         plain(against_baseline(row)),
         error,
-        thesis_error,
+        baseline_error,
         plain(result.error_mm.outliers.map(|share| percent(share, 2))),
         plain(Some(percent(result.coverage, 1))),
         radius,
-        thesis_radius,
+        baseline_radius,
         axis,
-        thesis_axis,
+        baseline_axis,
         plain(Some(result.collisions.count.to_string())),
         plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
         plain(result.error_mm.within_band.map(|share| percent(share, 1))),

@@ -24,7 +24,7 @@ const HEADINGS: [&str; 10] = [
 pub fn pareto_table(pareto: &Pareto) -> Table {
     let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));
     Table::new(3, HEADINGS, pareto.settings.iter().map(cells))
-        .under(format!("A fine run whose start is 1 mm behind differs from the fine run by {floor}."))
+        .under(format!("A fine run that starts 1 mm farther back differs from the fine run by {floor}."))
 }
 
 fn cells(row: &ParetoRow) -> Vec<String> {

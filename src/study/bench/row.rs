@@ -6,8 +6,8 @@ use serde::Serialize;
 use crate::results::{MeanStd, RunResult};
 use crate::scene::Outcome;
 
+use super::baseline::{BaselineFigures, Reported, baseline_figures};
 use super::conditions::Conditions;
-use super::thesis::{Reported, ThesisFigures, thesis_figures};
 
 /// The comparison of the mean of a figure with the baseline's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -43,7 +43,7 @@ pub struct BenchRow {
     /// The conditions of the run.
     pub conditions: Conditions,
     /// The baseline's figures. `None` for a scene that the baseline does not have.
-    pub thesis: Option<ThesisFigures>,
+    pub baseline: Option<BaselineFigures>,
     /// The verdicts.
     pub verdicts: Verdicts,
     /// True if the run completed, no figure is worse than the baseline's, and all expectations hold. With friction or
@@ -53,25 +53,28 @@ pub struct BenchRow {
 
 impl Document for BenchRow {
     const FORMAT: &'static str = "bench";
+    // The key of the baseline's figures was `thesis`.
+    const VERSION: u32 = 2;
 }
 
 impl BenchRow {
     /// The row of a run. `holds` is true if all expectations of its scenario hold.
     #[must_use]
     pub fn new(result: RunResult, holds: bool) -> Self {
-        let thesis = thesis_figures(&result.scenario).copied();
+        let baseline = baseline_figures(&result.scenario).copied();
         let completed = result.outcome == Outcome::Completed;
         let verdict = |reported, found| verdict(reported, found).filter(|_| completed);
         let radius = result.retrieval.and_then(|retrieval| retrieval.radius_mm.mean);
         let axis = result.axis_mm.and_then(|axis| axis.mean);
         let verdicts = Verdicts {
-            error_mm: verdict(thesis.map(|thesis| thesis.error_mm), result.error_mm.mean),
-            radius_mm: radius.and_then(|radius| verdict(thesis.and_then(|thesis| thesis.radius_mm), Some(radius))),
-            axis_mm: verdict(thesis.and_then(|thesis| thesis.axis_mm), axis),
+            error_mm: verdict(baseline.map(|baseline| baseline.error_mm), result.error_mm.mean),
+            radius_mm: radius
+                .and_then(|radius| verdict(baseline.and_then(|baseline| baseline.radius_mm), Some(radius))),
+            axis_mm: verdict(baseline.and_then(|baseline| baseline.axis_mm), axis),
         };
         let all = [verdicts.error_mm, verdicts.radius_mm, verdicts.axis_mm];
         let passed = completed && holds && !all.contains(&Some(Verdict::Worse));
-        Self { result, conditions: Conditions::default(), thesis, verdicts, passed }
+        Self { result, conditions: Conditions::default(), baseline, verdicts, passed }
     }
 
     /// The same row for a run under `conditions`.
@@ -92,11 +95,11 @@ impl BenchRow {
         let error = MeanStd { mean: self.result.error_mm.mean, std: self.result.error_mm.std };
         let radius = self.result.retrieval.map(|retrieval| retrieval.radius_mm).unwrap_or_default();
         let axis = self.result.axis_mm.unwrap_or_default();
-        let thesis = self.thesis.as_ref();
+        let baseline = self.baseline.as_ref();
         [
-            (error, thesis.map(|thesis| thesis.error_mm), self.verdicts.error_mm),
-            (radius, thesis.and_then(|thesis| thesis.radius_mm), self.verdicts.radius_mm),
-            (axis, thesis.and_then(|thesis| thesis.axis_mm), self.verdicts.axis_mm),
+            (error, baseline.map(|baseline| baseline.error_mm), self.verdicts.error_mm),
+            (radius, baseline.and_then(|baseline| baseline.radius_mm), self.verdicts.radius_mm),
+            (axis, baseline.and_then(|baseline| baseline.axis_mm), self.verdicts.axis_mm),
         ]
     }
 }

@@ -82,7 +82,7 @@ fn what_cannot_be_calibrated_says_why() {
     let wrong = write("wrong.csv", "x_mm,y_mm\n82,51\n");
     for (arguments, reason) in [
         (&["calibrate", &wrong][..], "line 1: the column `base_angle_urad` is missing"),
-        (&["calibrate", &few], "1 tip contacts are too few, or at too few positions: give 50 positions or more"),
+        (&["calibrate", &few], "1 tip contacts are too few, or at too few positions; give at least 50 positions"),
         (&["calibrate", "none.csv"], "cannot read none.csv"),
         (&["calibrate", &few, "--whisker", "r7"], "the rig has no whisker `r7`; it has"),
     ] {

@@ -82,7 +82,7 @@ fn a_damaged_library_or_plugin_is_told_with_what_to_do() {
     symlink(libraries.join(&name), lib.join(&name)).unwrap();
     assert!(told_by("cable.yaml").contains("MuJoCo's plugin for cables is not there"));
     std::fs::write(lib.join("libelasticity.so"), "no plugin").unwrap();
-    assert!(told_by("cable.yaml").contains("MuJoCo's plugin for cables cannot be loaded"));
+    assert!(told_by("cable.yaml").contains("MuJoCo's cable plugin cannot be loaded"));
     let output = run(&directory, &["run", "scene.yaml"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -10,6 +10,8 @@ mod drive;
 mod files;
 mod fmt;
 mod graph;
+#[cfg(unix)]
+mod inputs;
 #[cfg(target_os = "linux")]
 mod interrupt;
 #[cfg(all(target_os = "linux", feature = "sim"))]

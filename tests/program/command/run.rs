@@ -212,7 +212,7 @@ mod with_simulation {
         assert!(rows.len() >= 20 && rows.iter().all(|row| row["outcome"] == "completed" && row["passed"] == true));
         let disk = rows.iter().find(|row| row["scenario"] == "disk").unwrap();
         assert_eq!(
-            (&disk["thesis"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),
+            (&disk["baseline"]["error_mm"]["mean"], &disk["verdicts"]["error_mm"]),
             (&0.8.into(), &"better".into())
         );
         let mut files: Vec<_> =

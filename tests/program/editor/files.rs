@@ -168,7 +168,7 @@ fn a_name_that_another_file_needs_as_it_is_keeps_it_and_says_which() {
     };
     refused("lost(r0", "x", &["`lost` belongs to the standard library (`std.guards`)"]);
     refused("lost)", "x", &["belongs to the standard library"]);
-    refused("wait(r0", "taken", &["other.fsm", "`taken` is given in line 6"]);
+    refused("wait(r0", "taken", &["other.fsm", "`taken` is already declared in line 6"]);
     refused("wait(r0", "twice", &["`twice`", "choose another name"]);
     refused("wait(r0", "state", &["`state` has a meaning of its own"]);
     // A file with a fault may have more places than can be found.

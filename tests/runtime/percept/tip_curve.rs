@@ -10,7 +10,7 @@ use vibrissa_runtime::rig::{Rig, Whisker};
 
 /// Direction (rad) of the contact force on the reference whisker.
 const FORCE: f64 = 165.0 * PI / 180.0;
-/// The base angle (rad) at which the thesis keeps a whisker.
+/// The target base angle (rad) of the baseline.
 const TARGET: f64 = 3e-4;
 
 fn left() -> Whisker {

@@ -1,4 +1,4 @@
-//! The geometry of the thesis's scenes, against figures worked out on their own.
+//! The geometry of the baseline's scenes, compared with independent calculations.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 use std::path::Path;

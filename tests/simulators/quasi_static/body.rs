@@ -83,6 +83,23 @@ proptest! {
     }
 }
 
+proptest! {
+    /// No point of a blade is as deep as the limit. The base is 1.2 mm beside the body, which does not touch the blade first.
+    #[test]
+    fn a_base_that_passes_through_a_blade_ends_the_run(
+        thickness in 5e-5..1.9e-3_f64, end in 2e-4..1e-3_f64, speed in 0.01..0.2_f64,
+    ) {
+        let rig = one_whisker();
+        let base = START.point_to_world(rig.whiskers[0].base_body);
+        let (left, near) = (base.x - end, base.y + 0.02);
+        let far = near + thickness;
+        let blade = polygon(&points(&[(left, near), (0.3, near), (0.3, far), (left, far)])).unwrap();
+        let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([blade]), START, 0).unwrap();
+        let fault = drive(&mut world, &command(0.0, speed, 0.0), 150).unwrap_err();
+        prop_assert!(matches!(fault, Fault::Crash { .. }), "{fault}");
+    }
+}
+
 /// A command along x and y (m/s) with a yaw rate (rad/s), and for how many ticks.
 type Way = (f64, f64, f64, usize);
 

@@ -1,4 +1,4 @@
-//! The bench against the thesis, and its page.
+//! The comparison of the bench with the baseline, and its page.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use vibrissa::results::{Hashes, Identity, MeanStd, Retrieval, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
-use vibrissa::study::bench::{BenchRow, Conditions, THESIS, Verdict};
+use vibrissa::study::bench::{BASELINE, BenchRow, Conditions, Verdict};
 use vibrissa_runtime::rig::Rig;
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
@@ -32,8 +32,8 @@ fn retrieval(radius: MeanStd) -> Retrieval {
 }
 
 #[test]
-fn a_figure_is_better_up_to_the_thesis_s_and_worse_beyond() {
-    for figures in THESIS {
+fn a_figure_is_better_up_to_the_baselines_and_worse_beyond() {
+    for figures in BASELINE {
         for (factor, verdict) in [(0.99, Verdict::Better), (1.01, Verdict::Worse)] {
             let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3), true);
             assert_eq!(row.verdicts.error_mm, Some(verdict), "{}", figures.scenario);
@@ -83,7 +83,7 @@ fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_comp
     let row = BenchRow::new(result("octagon", 1e-4), true);
     assert_eq!((row.verdicts.radius_mm, row.passed), (None, true));
     let foreign = BenchRow::new(result("star", 0.1), true);
-    assert_eq!((foreign.thesis, foreign.passed), (None, true));
+    assert_eq!((foreign.baseline, foreign.passed), (None, true));
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_ch
 }
 
 #[test]
-fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
+fn the_table_marks_figures_that_are_better_than_the_baselines() {
     let rows = ["disk", "smooth-tunnel"].into_iter().zip([2e-4, 2e-3]);
     let table = bench_table(&rows.map(|(scene, off)| BenchRow::new(result(scene, off), true)).collect::<Vec<_>>());
     let column = |heading: &str| table.headings().iter().position(|found| found == heading).unwrap();
@@ -126,7 +126,7 @@ fn the_table_says_which_figure_is_better_beside_the_thesis_s() {
         let found = ["against the baseline", "error mm", "baseline: error mm"].map(|heading| &row[column(heading)]);
         assert_eq!(found, wanted);
     }
-    // An axis that is not known is worse than the thesis's.
+    // An axis that is not known is worse than the baseline's.
     assert_eq!(["axis mm", "baseline: axis mm"].map(|heading| &table.rows()[1][column(heading)]), ["–", "4 ± 4"]);
 }
 

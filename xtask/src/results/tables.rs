@@ -23,7 +23,7 @@ const ERRORS: [Column; 9] = [
     Column("contacts of the body", "collisions.count", Plain),
     Column("duration, s", "sim_s", Fixed(0)),
 ];
-const BASELINE: Column = Column("baseline's mean error, mm", "thesis.error_mm.mean", Fixed(1));
+const BASELINE: Column = Column("baseline's mean error, mm", "baseline.error_mm.mean", Fixed(1));
 
 /// Beside the scene and the policy.
 const RETRIEVAL: [Column; 7] = [
@@ -32,14 +32,14 @@ const RETRIEVAL: [Column; 7] = [
     Column("retrievals", "retrieval.count", Plain),
     Column("radius, mm", "retrieval.radius_mm.mean", Fixed(1)),
     Column("standard deviation, mm", "retrieval.radius_mm.std", Fixed(1)),
-    Column("baseline's radius, mm", "thesis.radius_mm.mean", Fixed(1)),
+    Column("baseline's radius, mm", "baseline.radius_mm.mean", Fixed(1)),
     Column("mean time, s", "retrieval.time_s.mean", Fixed(1)),
 ];
 const TUNNELS: [Column; 6] = [
     SCENE,
     POLICY,
     Column("distance from the axis, mm", "axis_mm.mean", Fixed(3)),
-    Column("baseline's distance, mm", "thesis.axis_mm.mean", Fixed(1)),
+    Column("baseline's distance, mm", "baseline.axis_mm.mean", Fixed(1)),
     Column("passage, %", "passage.share", Percent(1)),
     Column("coverage of the walls, %", "passage.wall_coverage", Percent(1)),
 ];
@@ -74,7 +74,7 @@ fn corners(rows: &[Json]) -> Result<String, NoKey> {
 pub(super) fn bench(outputs: &[Json]) -> Result<String, NoKey> {
     let (runs, quasi_static) = (outputs[0].items(), outputs[1].items());
     let has_tunnel = |run: &Json| has(run, "passage");
-    let has_edges = |run: &Json| has(run, "thesis.radius_mm");
+    let has_edges = |run: &Json| has(run, "baseline.radius_mm");
     let errors = [&RUN[..], &[BASELINE], &ERRORS].concat();
     let groups = [
         ("Contour following", those(runs, |run| Ok(!has_tunnel(run)? && !has_edges(run)?))?),

@@ -162,7 +162,7 @@ impl Config {
         let is_topic =
             !self.name.is_empty() && self.name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
         if !is_topic {
-            return fault(format!("`{}` is no name for a robot; use letters, digits, `_` and `-`", self.name));
+            return fault(format!("`{}` is not a name for a robot; use letters, digits, `_` and `-`", self.name));
         }
         if self.rig.whiskers.is_empty() || self.rig.whiskers.len() > MAX_WHISKERS {
             let count = self.rig.whiskers.len();
@@ -185,7 +185,10 @@ impl Config {
         }
         for board in self.buses.iter().flat_map(|bus| &bus.boards) {
             if !self.rig.whiskers.iter().any(|whisker| whisker.name == board.whisker) {
-                return fault(format!("a board names the whisker `{}`, which the rig does not have", board.whisker));
+                return fault(format!(
+                    "a board is assigned to the whisker `{}`, which the rig does not have",
+                    board.whisker
+                ));
             }
         }
         for whisker in &self.rig.whiskers {
@@ -198,7 +201,7 @@ impl Config {
         let rounds = sensing.sample_rate / sensing.control_rate;
         if !(1.0..=f64::from(MAX_ROUNDS)).contains(&rounds) || (rounds - rounds.round()).abs() > 1e-6 {
             return fault(format!(
-                "a control period has {rounds} samples; choose rates with a whole ratio from 1 to {MAX_ROUNDS}"
+                "a control period has {rounds} samples; choose a sample rate that is 1 to {MAX_ROUNDS} times the control rate, as a whole number"
             ));
         }
         let needs_broker =

@@ -1,20 +1,22 @@
 //! The scheduler of emulated time.
 
+mod inject;
+
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 use vibrissa_mlx90393::InvalidAddress;
-use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::machine::Tick;
 use vibrissa_runtime::signal::Command;
 
+use inject::Switches;
+
 use super::bus_thread::BusThread;
-use super::injection::{Injection, InjectionKind};
+use super::injection::Injection;
 use super::pending_injection::PendingInjection;
 use super::plant::{Plant, PlantFault};
 use super::timeline::Timeline;
@@ -82,17 +84,6 @@ pub struct Emulation<P> {
 struct ControlThread {
     next_tick: u64,
     is_gone: bool,
-}
-
-/// Faults outside the buses that are present now.
-#[derive(Debug, Default)]
-#[expect(clippy::struct_excessive_bools, reason = "independent switches")]
-struct Switches {
-    has_no_pose: bool,
-    is_pose_invalid: bool,
-    is_actuator_silent: bool,
-    does_control_stall: bool,
-    does_control_panic: bool,
 }
 
 /// A robot that cannot be emulated.
@@ -354,68 +345,6 @@ impl<P: Plant> Emulation<P> {
         let observe =
             |(command, tick)| observe(self.control.control(), command, &tick, &mut self.timeline.borrow_mut().plant);
         Ok(ticked.is_none_or(observe))
-    }
-
-    /// Injects and clears the faults that are due.
-    fn inject(&mut self) {
-        let Some(begun_ns) = self.begun_ns else { return };
-        let due: Vec<usize> = (0..self.injections.len())
-            .filter(|&index| self.injections[index].due_ns(begun_ns).is_some_and(|due_ns| due_ns <= self.now_ns))
-            .collect();
-        for index in due {
-            let Some(pending) = self.injections.get_mut(index) else { continue };
-            let injection = pending.injection;
-            let begins = !pending.is_injected;
-            if begins {
-                pending.is_injected = true;
-            } else {
-                pending.is_cleared = true;
-            }
-            self.switch(injection, begins);
-        }
-    }
-
-    fn switch(&mut self, injection: Injection, begins: bool) {
-        let part = injection.part;
-        match injection.kind {
-            InjectionKind::StaleSensor => self.sensor_fault(part, begins, SensorFault::ClockStopped),
-            InjectionKind::BrownOut if begins => self.sensor_fault(part, true, SensorFault::BrownOut),
-            InjectionKind::BrownOut => {}
-            InjectionKind::NoAcknowledge => {
-                self.sensor_fault(part, begins, SensorFault::NoAcknowledge { transactions: None });
-            }
-            InjectionKind::GarbledBytes => {
-                self.sensor_fault(part, begins, SensorFault::BitFlip { byte: 0, mask: 0x0C, answers: u32::MAX });
-            }
-            InjectionKind::SaturatedField => {
-                self.sensor_fault(part, begins, SensorFault::Saturated { negative: false });
-            }
-            InjectionKind::OverbentWhisker => {
-                if let Some(bent) = self.timeline.borrow_mut().bent.get_mut(usize::from(part)) {
-                    *bent = begins.then_some(self.overbent_moment);
-                }
-            }
-            InjectionKind::StuckBus => {
-                let count = self.buses.len();
-                if let Some(thread) = self.buses.get_mut(usize::from(part) % count.max(1)) {
-                    thread.switch_bus_fault(begins, BusFault::STUCK);
-                }
-            }
-            InjectionKind::NoPose => self.switches.has_no_pose = begins,
-            InjectionKind::PoseNotANumber => self.switches.is_pose_invalid = begins,
-            InjectionKind::SilentActuator => self.switches.is_actuator_silent = begins,
-            InjectionKind::NoBroker => self.vitals.is_broker_gone.store(begins, Ordering::Release),
-            InjectionKind::ControlStalls => self.switches.does_control_stall = begins,
-            InjectionKind::ControlPanics => self.switches.does_control_panic = true,
-            InjectionKind::MachineFails => self.vitals.has_machine_failed.store(true, Ordering::Release),
-            InjectionKind::Terminate => self.vitals.is_terminated.store(true, Ordering::Release),
-        }
-    }
-
-    fn sensor_fault(&mut self, whisker: u8, begins: bool, fault: SensorFault) {
-        for thread in &mut self.buses {
-            thread.switch_sensor_fault(whisker, begins, fault);
-        }
     }
 }
 

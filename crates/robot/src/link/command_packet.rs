@@ -32,7 +32,7 @@ pub struct CommandPacket {
 
 /// Bytes that are no packet of this kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("these bytes are no packet of Vibrissa; check the sender's version and the port")]
+#[error("these bytes are not a packet of Vibrissa; check the sender's version and the port")]
 pub struct PacketError;
 
 const MAGIC: [u8; 4] = *b"VBC1";

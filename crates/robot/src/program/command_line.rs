@@ -19,8 +19,8 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_STATUS: &str = "Exit status: 0 done; 1 the robot was stopped by a fault; 2 unusable input or device; \
-                           3 the store has no machine.";
+const EXIT_STATUS: &str = "Exit status: 0 done, or a signal ended `drive`; 1 the machine or the program failed; 2 unusable input or device; \
+                           3 the store has no machine; 130 `sensors` interrupted.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

@@ -20,7 +20,7 @@ pub struct SystemBus {
 #[derive(Debug, thiserror::Error)]
 pub enum SystemBusError {
     /// The path is not that of an I²C bus.
-    #[error("{} is no I²C bus; give a path such as /dev/i2c-1", path.display())]
+    #[error("{} is not an I²C bus; give a path such as /dev/i2c-1", path.display())]
     Path {
         /// The path.
         path: PathBuf,
@@ -40,7 +40,7 @@ pub enum SystemBusError {
     #[error("{0}")]
     Transfer(#[from] RppalError),
     /// A sequence of operations that this bus does not have.
-    #[error("the bus does not join these operations to one transfer; write, read, or write and then read")]
+    #[error("the bus does not support this sequence of operations; write, read, or write and then read")]
     Unsupported,
 }
 

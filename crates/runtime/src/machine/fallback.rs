@@ -21,7 +21,7 @@ pub enum Cause {
     #[error("its command was not finite: {0}")]
     NotFinite(NonFinite),
     /// A transition was enabled after [`MICROSTEP_LIMIT`](super::MICROSTEP_LIMIT) transitions in one tick.
-    #[error("it wanted more transitions than a tick takes")]
+    #[error("it exceeded the microstep limit")]
     MicrostepLimit,
 }
 

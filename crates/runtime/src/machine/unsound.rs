@@ -43,7 +43,7 @@ pub enum Unsound {
         target: u32,
     },
     /// A tick in a state would execute the same code more than once.
-    #[error("its state {state} does {operations} operations a tick, more than there are")]
+    #[error("its state {state} has {operations} operations a tick, more than its code has")]
     Work {
         /// Index of the state.
         state: usize,
@@ -51,11 +51,11 @@ pub enum Unsound {
         operations: usize,
     },
     /// An outer state does not come before its inner state, or the nesting is too deep.
-    #[error("its state {0} lies in no state before it, or more than {NESTING_LIMIT} deep")]
+    #[error("its state {0} has an invalid outer state, or is nested more than {NESTING_LIMIT} deep")]
     Nesting(usize),
     /// The initial state of a state is missing or is not one of its inner states, or a state without inner states is
     /// resumed.
-    #[error("its state {0} cannot begin where it does")]
+    #[error("its state {0} has an invalid initial state")]
     InitialState(usize),
     /// A timer of a global transition is used by a state, or the reverse.
     #[error("its timer {0} belongs to another guard")]
@@ -76,16 +76,16 @@ pub enum Unsound {
     #[error("its parameter `{0}` is outside of its range")]
     OutOfRange(String),
     /// The description of a parameter is too long or not one line of plain text.
-    #[error("the description of its parameter `{0}` is longer than {DESCRIPTION_LIMIT} bytes or no single line")]
+    #[error("the description of its parameter `{0}` is longer than {DESCRIPTION_LIMIT} bytes, or has several lines")]
     Description(String),
     /// The needs that it states are not positive, not in order, or without a whole ratio of the rates.
     #[error("its needs are not positive, not in order, or have no whole ratio of the rates")]
     Needs,
     /// A name is not an identifier of the language.
-    #[error("{0:?} is no name")]
+    #[error("{0:?} is not a name")]
     Name(String),
     /// Two things have the same name.
-    #[error("the name `{0}` is given twice")]
+    #[error("the name `{0}` occurs twice")]
     SameName(String),
     /// The reason of a failure is not one line of plain text.
     #[error("the reason {0:?} has characters that cannot be shown; reword it")]

@@ -41,8 +41,8 @@ pub enum PerceptionError {
     ContactEstimator(#[from] TipCurveError),
     /// A contact estimator needs forces that the rig does not measure.
     #[error(
-        "the policy perceives the whisker `{whisker}` by moment_and_shear, and the rig measures no forces; give it \
-         `sensing: {{forces: true}}`, or perceive the whisker by sliding"
+        "the policy uses the contact estimator moment_and_shear for whisker `{whisker}`, but the rig measures no forces; \
+         set `sensing: {{forces: true}}`, or use sliding"
     )]
     NoForces {
         /// The whisker.
@@ -50,7 +50,7 @@ pub enum PerceptionError {
     },
     /// The mechanics of a whisker give too few positions for the polynomial of `recursive`.
     #[error(
-        "whisker {whisker}: its mechanics give too few contact positions for recursive; calibrate it, or perceive it by sliding"
+        "whisker {whisker}: its mechanics give too few contact positions for the contact estimator recursive; calibrate it, or use sliding"
     )]
     NoSurface {
         /// The whisker.

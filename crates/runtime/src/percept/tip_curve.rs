@@ -44,8 +44,8 @@ struct Knot {
 pub enum TipCurveError {
     /// The whisker is too nearly perpendicular to the heading.
     #[error(
-        "whisker {whisker} meets the force of a surface beside it {:.0} deg from head-on, and might buckle either way; sweep it by \
-         {:.0} deg or more, and back if there is friction",
+        "whisker {whisker}: the force of a surface beside it is {:.0} deg from axial, so the shaft may buckle; \
+         sweep it by {:.0} deg or more, and backwards if there is friction",
         sweep.to_degrees(), LEAST_SWEEP.to_degrees().ceil()
     )]
     HeadOn {

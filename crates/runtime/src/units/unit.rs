@@ -143,7 +143,7 @@ pub enum UnitError {
         range: Range<usize>,
     },
     /// A product follows a slash, which is ambiguous.
-    #[error("it is unclear whether this factor is divided by or multiplied with")]
+    #[error("this factor may be in the numerator or the denominator")]
     Ambiguous {
         /// The ambiguous factor.
         range: Range<usize>,
@@ -180,7 +180,7 @@ impl UnitError {
             }
             Self::Exponent { .. } => "write it like m^2 or s^-1".to_owned(),
             Self::Ambiguous { .. } => {
-                "put products first and each divisor behind a slash of its own: N m/rad, kg/m/s".to_owned()
+                "write products first, and a slash before each divisor: N m/rad, kg/m/s".to_owned()
             }
             Self::TooLarge { .. } => "use fewer factors or smaller exponents".to_owned(),
         }

@@ -62,7 +62,7 @@ pub(crate) fn everything() -> Artifact {
     artifact("everything.fsm", EVERYTHING)
 }
 
-/// The thesis's artifact.
+/// The artifact of `thesis.fsm`.
 pub(crate) fn thesis() -> Artifact {
     static THESIS: LazyLock<Artifact> =
         LazyLock::new(|| artifact("policies/thesis.fsm", include_str!("../../../../policies/thesis.fsm")));

@@ -180,7 +180,7 @@ fn states_lie_in_those_before_them_and_begin_directly_in_themselves() {
             program.states.push(State { name: format!("S{level}").into(), parent: Some(outer), ..template.clone() });
         }
     });
-    assert!(deep.contains("its state 15 lies in no state before it, or more than 8 deep"), "{deep}");
+    assert!(deep.contains("its state 15 has an invalid outer state, or is nested more than 8 deep"), "{deep}");
 }
 
 #[test]
@@ -273,12 +273,12 @@ fn the_image_is_finite() {
 #[test]
 fn names_and_reasons_are_plain() {
     for name in ["", "9", "a b", "a\n", "\u{1b}[2J", "\u{fc}ber"] {
-        assert!(refusal(|program| program.name = name.to_owned()).contains("is no name"), "{name:?}");
-        assert!(refusal(|program| program.whiskers[1] = name.to_owned()).contains("is no name"), "{name:?}");
-        assert!(refusal(|program| program.states[1].name = name.into()).contains("is no name"), "{name:?}");
-        assert!(refusal(|program| program.parameters[1].name = name.to_owned()).contains("is no name"), "{name:?}");
+        assert!(refusal(|program| program.name = name.to_owned()).contains("is not a name"), "{name:?}");
+        assert!(refusal(|program| program.whiskers[1] = name.to_owned()).contains("is not a name"), "{name:?}");
+        assert!(refusal(|program| program.states[1].name = name.into()).contains("is not a name"), "{name:?}");
+        assert!(refusal(|program| program.parameters[1].name = name.to_owned()).contains("is not a name"), "{name:?}");
     }
-    assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` is given twice"));
+    assert!(refusal(|program| program.whiskers[1] = "a".to_owned()).contains("`a` occurs twice"));
     let told = refusal(|program| program.always[0].target = Target::Failure("\u{1b}[2J".into()));
     assert!(told.contains(r"\u{1b}"), "{told}");
     let told = refusal(|program| program.states[0].fallback = Some(Target::Failure("\n".into())));

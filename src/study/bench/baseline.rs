@@ -12,10 +12,10 @@ pub struct Reported {
     pub std: Option<f64>,
 }
 
-/// The baseline's results in one scene (sections 5.1 to 5.3 of the thesis).
+/// The baseline's results in one scene (sections 5.1 to 5.3 of its report).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct ThesisFigures {
+pub struct BaselineFigures {
     /// Name of the scenario.
     #[serde(skip)]
     pub scenario: &'static str,
@@ -28,11 +28,11 @@ pub struct ThesisFigures {
 }
 
 /// The ten scenes in the baseline's order.
-pub const THESIS: [ThesisFigures; 10] = [
+pub const BASELINE: [BaselineFigures; 10] = [
     swiped("disk", (0.8, 0.5)),
     swiped("rounded-rectangle", (0.8, 0.6)),
     // "About 0.8", with no deviation.
-    ThesisFigures { error_mm: Reported { mean: 0.8, std: None }, ..swiped("complex", (0.8, 0.0)) },
+    BaselineFigures { error_mm: Reported { mean: 0.8, std: None }, ..swiped("complex", (0.8, 0.0)) },
     retrieved("octagon", (1.1, 0.8), (20.9, 1.7)),
     retrieved("box", (0.7, 0.4), (11.2, 1.9)),
     retrieved("prism", (0.8, 0.6), (8.8, 0.6)),
@@ -44,20 +44,20 @@ pub const THESIS: [ThesisFigures; 10] = [
 
 /// The baseline's results in the scene with this name. `None` for a scene that the baseline does not have.
 #[must_use]
-pub(super) fn thesis_figures(scenario: &str) -> Option<&'static ThesisFigures> {
-    THESIS.iter().find(|figures| figures.scenario == scenario)
+pub(super) fn baseline_figures(scenario: &str) -> Option<&'static BaselineFigures> {
+    BASELINE.iter().find(|figures| figures.scenario == scenario)
 }
 
-const fn swiped(scenario: &'static str, error: (f64, f64)) -> ThesisFigures {
-    ThesisFigures { scenario, error_mm: reported(error), radius_mm: None, axis_mm: None }
+const fn swiped(scenario: &'static str, error: (f64, f64)) -> BaselineFigures {
+    BaselineFigures { scenario, error_mm: reported(error), radius_mm: None, axis_mm: None }
 }
 
-const fn retrieved(scenario: &'static str, error: (f64, f64), radius: (f64, f64)) -> ThesisFigures {
-    ThesisFigures { radius_mm: Some(reported(radius)), ..swiped(scenario, error) }
+const fn retrieved(scenario: &'static str, error: (f64, f64), radius: (f64, f64)) -> BaselineFigures {
+    BaselineFigures { radius_mm: Some(reported(radius)), ..swiped(scenario, error) }
 }
 
-const fn tunnelled(scenario: &'static str, error: (f64, f64), axis: (f64, f64)) -> ThesisFigures {
-    ThesisFigures { axis_mm: Some(reported(axis)), ..swiped(scenario, error) }
+const fn tunnelled(scenario: &'static str, error: (f64, f64), axis: (f64, f64)) -> BaselineFigures {
+    BaselineFigures { axis_mm: Some(reported(axis)), ..swiped(scenario, error) }
 }
 
 const fn reported((mean, std): (f64, f64)) -> Reported {
@@ -89,9 +89,9 @@ mod tests {
         for file in SCENARIOS {
             let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
             assert_eq!(format!("scenarios/{}.yaml", scene.name), file.path);
-            assert!(thesis_figures(&scene.name).is_some(), "{} is no scene of the thesis", scene.name);
+            assert!(baseline_figures(&scene.name).is_some(), "{} is not a scene of the baseline", scene.name);
         }
-        let order: Vec<_> = THESIS.iter().map(|figures| format!("scenarios/{}.yaml", figures.scenario)).collect();
+        let order: Vec<_> = BASELINE.iter().map(|figures| format!("scenarios/{}.yaml", figures.scenario)).collect();
         let index = |file: &TextFile| order.iter().position(|path| path == file.path);
         assert!(SCENARIOS.iter().map(index).is_sorted());
     }
