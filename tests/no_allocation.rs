@@ -48,7 +48,7 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
             assert!(control.perception().recorded_tip(0).is_some());
         }
     }
-    assert_eq!(seen, ["Exploring", "Attaching", "Springing", "Attaching", "Swiping", "Failure"]);
+    assert_eq!(seen, ["Searching", "Attaching", "Slipping", "Attaching", "Following", "Failure"]);
     assert!(allocations() > 0, "the count counts");
 }
 

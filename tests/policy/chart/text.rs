@@ -33,7 +33,7 @@ fn every_rendering_shows_every_state_guard_value_and_reason() {
         for wanted in ["Exploring", "Swiping", "any state", "Failure"] {
             assert!(shown.contains(wanted), "no {wanted:?} in {shown}");
         }
-        for wanted in ["1 when r0.touching", "/ w = l0", "3 after ringing", "a whisker at its limit"] {
+        for wanted in ["1 when r0.touching", "/ w = l0", "3 after 5 m / speed", "a whisker at its limit"] {
             assert!(shown.contains(wanted), "no {wanted:?} in {shown}");
         }
     }

@@ -184,7 +184,7 @@ fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
     assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
     assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
     assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);
-    let laws = ["strongest", "swipe", "swipe_tilted", "follow", "keep_bent", "keenness", "nimble"];
+    let laws = ["strongest", "swipe", "swipe_tilted", "follow", "keep_bent", "slow_turn", "keenness", "nimble"];
     for list in ["(\u{a7}", "(\u{a7})", "(swipe, \u{a7})\nwhisker r0\n", "(sw\u{a7}"] {
         assert_eq!(labels(&format!("machine m\nuse std.swipe {list}")), laws, "{list}");
         assert_eq!(labels(&format!("machine m\nuse \"laws/corner.fsm\" {list}")), ["sharp", "wait"], "{list}");

@@ -28,7 +28,7 @@ proptest! {
 
     #[test]
     fn in_a_mirror_every_law_commands_the_mirrored(
-        felt in felt(), whisker in 0_usize..2, px in -1.0..1.0_f64, py in -1.0..1.0_f64, direction in -PI..PI, law in 0_usize..10,
+        felt in felt(), whisker in 0_usize..2, px in -1.0..1.0_f64, py in -1.0..1.0_f64, direction in -PI..PI, law in 0_usize..11,
     ) {
         let (point, along) = (Point2::new(px, py), unit(direction));
         let does = |point: Point2, along: Vector2| {
@@ -37,6 +37,7 @@ proptest! {
                 "do swipe(w, 300 urad, 50 mm/s)".to_owned(),
                 "do swipe_tilted(w, 300 urad, 50 mm/s, 10 deg)".to_owned(),
                 "do keep_centre(w, v, 300 urad, 50 mm/s)".to_owned(),
+                "do go_around_edge(w, 300 urad, 50 mm/s)".to_owned(),
                 format!("do detach(w, {along}, 50 mm/s)"),
                 format!("do return_to_edge(w, {point}, {along}, 20 mm, 50 mm/s)"),
                 format!("do reach_around(w, {point}, {along}, 10 mm, 40 deg, 20 deg, 50 mm/s)"),

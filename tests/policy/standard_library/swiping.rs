@@ -1,7 +1,9 @@
 //! The laws for going along surfaces.
 
-use vibrissa::geometry::{Pose, Vector2, unit};
-use vibrissa_runtime::machine::{Action, Mover, Turn};
+use std::f64::consts::FRAC_PI_2;
+
+use vibrissa::geometry::{Pose, Vector2, rotate, unit};
+use vibrissa_runtime::machine::{Action, Mover, Senses, Turn, WhiskerVector};
 
 use super::felt::{Felt, Whisker, swiping};
 use super::law::{commanded, is_near, machine};
@@ -68,7 +70,7 @@ fn between_two_walls_the_platform_goes_to_the_side_that_bends_less() {
     felt.whiskers[1] = swiping(1, 1.0).whiskers[1];
     let law = "do keep_centre(w, v, 300 urad, 50 mm/s)";
     let (mover, along, speed, turn) = commanded(0, law, &felt);
-    assert_eq!((mover, speed, turn), (Mover::Body, 0.05, Turn::Facing(0.0)));
+    assert_eq!((mover, speed, turn), (Mover::Body, 0.05, Turn::Rate(0.0)));
     assert!(is_near(along, Vector2::new(1.0, 0.0)));
     // The right whisker is bent by half a target more than the left: to the left, by a quarter.
     felt.whiskers[0].deflection *= 1.5;
@@ -79,8 +81,32 @@ fn between_two_walls_the_platform_goes_to_the_side_that_bends_less() {
     felt.whiskers[0] = Whisker { tangent: unit(0.2), ..swiping(0, 1.0).whiskers[0] };
     felt.whiskers[1].tangent = unit(0.4);
     let (_, along, _, turn) = commanded(0, law, &felt);
-    let Turn::Facing(heading) = turn else { panic!() };
-    assert!(is_near(along, unit(0.3)) && (heading - 0.3).abs() < 1e-12);
+    // As slowly as `swipe`, with a gain of 2 Hz.
+    let Turn::Rate(rate) = turn else { panic!() };
+    assert!(is_near(along, unit(0.3)) && (rate - 0.6).abs() < 1e-9, "{rate}");
     felt.whiskers[0].ready = false;
     assert_eq!(machine(0, law).tick(&mut felt).action, Action::Hold);
+}
+
+#[test]
+fn around_an_edge_the_tip_of_a_whisker_that_is_bent_to_the_target_stays_in_place() {
+    for whisker in [0, 1] {
+        let felt = swiping(whisker, 1.0);
+        let (mover, along, speed, turn) = commanded(whisker, "do go_around_edge(w, 300 urad, 50 mm/s)", &felt);
+        let Turn::Rate(rate) = turn else { panic!() };
+        assert_eq!((mover, speed), (Mover::Body, 0.05));
+        assert!(rate * Felt::side(whisker) > 0.0, "towards the wall that turns away");
+        let arm = felt.whisker_vector(whisker, WhiskerVector::Tip) - felt.body.position.coords;
+        assert!((speed * along.normalize() + rate * rotate(arm, FRAC_PI_2)).norm() < 1e-9);
+    }
+}
+
+#[test]
+fn a_whisker_that_the_next_wall_bends_the_wrong_way_is_freed_straight_on() {
+    for whisker in [0, 1] {
+        let (mover, along, speed, turn) =
+            commanded(whisker, "do go_around_edge(w, 300 urad, 50 mm/s)", &swiping(whisker, -0.3));
+        assert_eq!((mover, speed, turn), (Mover::Body, 0.05, Turn::Rate(0.0)));
+        assert!(is_near(along.normalize(), Vector2::new(1.0, 0.0)));
+    }
 }
