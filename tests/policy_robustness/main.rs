@@ -27,7 +27,7 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 97] = [
+const TOKENS: [&str; 101] = [
     "var",
     "set",
     "entry",

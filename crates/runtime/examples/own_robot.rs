@@ -7,6 +7,7 @@ use std::sync::Arc;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::{Pose, unit};
 use vibrissa_runtime::machine::{Artifact, Status};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 
@@ -19,7 +20,7 @@ fn read_sensors(rig: &Rig, body: Pose, time: f64) -> Sample {
     let mut whiskers = [Reading::default(); MAX_WHISKERS];
     for (reading, whisker) in whiskers.iter_mut().zip(&rig.whiskers) {
         let shaft = whisker.shaft.length * unit(body.heading + whisker.direction_body);
-        let beyond = (WALL - (body.point_to_world(whisker.base_body) + shaft).y).max(0.0);
+        let beyond = math::max(WALL - (body.point_to_world(whisker.base_body) + shaft).y, 0.0);
         let is_silent = whisker.name == "r0" && (6.0..6.5).contains(&time);
         let moment = if is_silent { f64::NAN } else { whisker.side() * MOMENT_PER_LENGTH * beyond };
         reading.base_angle = moment / whisker.hinge.stiffness;

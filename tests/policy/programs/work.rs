@@ -36,11 +36,11 @@ fn probed(program: &machine::Program) -> machine::Program {
         double(code);
         target(&mut one.target);
     };
-    [&mut probed.start, &mut probed.entry, &mut probed.body].map(double);
+    [&mut probed.start, &mut probed.entry, &mut probed.body].into_iter().for_each(double);
     probed.always.iter_mut().for_each(transition);
     probed.fallback.iter_mut().for_each(target);
     for state in &mut probed.states {
-        [&mut state.entry, &mut state.body, &mut state.exit].map(double);
+        [&mut state.entry, &mut state.body, &mut state.exit].into_iter().for_each(double);
         state.initial.iter_mut().for_each(|(_, values)| double(values));
         state.transitions.iter_mut().for_each(transition);
         state.fallback.iter_mut().for_each(target);
@@ -67,7 +67,9 @@ proptest! {
         let mut plain = Machine::new(Arc::new(compiled));
         let mut scripts = [script.clone(), script];
         for now in 0..scripts[0].ticks.len() {
-            scripts.iter_mut().for_each(|script| script.now = now);
+            for script in &mut scripts {
+                script.now = now;
+            }
             let (operations, tick) = count(&mut counted, &mut scripts[0]);
             prop_assert!(operations <= most, "{} of {} operations in tick {} of\n{}", operations, most, now, text);
             // The probes change nothing.
@@ -81,12 +83,11 @@ proptest! {
 
 #[test]
 fn a_first_tick_with_all_transitions_and_the_fallback_transition_lacks_only_the_second_bodies() {
-    let states: String = (0..10)
-        .map(|index| {
-            let next = if index < 9 { format!("when true -> S{}", index + 1) } else { String::new() };
-            format!("state S{index} {{ entry {{ set n = n + time / 1 s }} {next} }}\n")
-        })
-        .collect();
+    let state = |index| {
+        let next = if index < 9 { format!("when true -> S{}", index + 1) } else { String::new() };
+        format!("state S{index} {{ entry {{ set n = n + time / 1 s }} {next} }}")
+    };
+    let states = (0..10).map(state).collect::<Vec<_>>().join("\n");
     let rest = "state Rest { entry { set n = n + time / 1 s }  stop }  failsafe -> Rest";
     let program = program(&format!("machine m  var n = 0  initial S0  {states} {rest}"));
     let mut machine = Machine::new(Arc::new(probed(&program)));

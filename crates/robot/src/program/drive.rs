@@ -26,7 +26,6 @@ use crate::config::{ActuatorConfig, CONFIG_LIMIT, Config, MqttConfig, PoseSource
 use crate::drive::RecordSink;
 use crate::histogram::Histogram;
 use crate::link::{Actuator, DryRun, MqttActuator, MqttPoses, UdpActuator, UdpPoses};
-use crate::recording::Recorder;
 use crate::store::DEFAULT_STORE;
 use crate::telemetry::{Publisher, TelemetrySink};
 use crate::vitals::{Phase, Vitals};

@@ -1,11 +1,22 @@
 //! The loop of an admitted machine.
 
-use vibrissa_robot::emulation::{Injection, InjectionKind, Settings, Stopped};
+use vibrissa_robot::emulation::{Emulation, Injection, InjectionKind, Settings, Stopped, SwayingPlant};
 use vibrissa_robot::fault::{FaultChange, FaultKind};
 use vibrissa_robot::vitals::Phase;
-use vibrissa_runtime::machine::{Needs, RateRange};
+use vibrissa_runtime::machine::{Artifact, Needs, RateRange};
 
-use super::robot::{MS, admitted_robot};
+use super::robot::{MACHINE, MS, admitted};
+
+/// The robot with other needs of its machine, on a device with this longest tick (s) for a number of rounds.
+fn admitted_robot(
+    settings: &Settings,
+    needs: Needs,
+    tick: impl FnMut(u32) -> f64 + 'static,
+) -> Emulation<SwayingPlant> {
+    let mut artifact = Artifact::from_bytes(MACHINE).unwrap();
+    artifact.program.needs = needs;
+    admitted(artifact, settings, tick)
+}
 
 #[test]
 fn a_loop_that_is_slower_than_configured_misses_no_period_and_has_a_value_in_every_sample() {
@@ -16,7 +27,7 @@ fn a_loop_that_is_slower_than_configured_misses_no_period_and_has_a_value_in_eve
         (range(18.0, 24.0), range(60.0, 110.0), 0.0, (24.0, 96.0)),
     ] {
         let needs = Needs { control_rate, sample_rate, sample_age: None };
-        let mut robot = admitted_robot(&Settings::default(), needs, |_| tick);
+        let mut robot = admitted_robot(&Settings::default(), needs, move |_| tick);
         let (mut ticks, mut unknown) = (0_u32, 0);
         let stopped = robot.run(10_000 * MS, |control, _, _, _| {
             ticks += 1;

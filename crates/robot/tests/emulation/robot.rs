@@ -6,7 +6,7 @@ use vibrissa_robot::admission::{Device, admit};
 use vibrissa_robot::config::Config;
 use vibrissa_robot::emulation::{Emulation, Settings, SwayingPlant};
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::{Artifact, Needs};
+use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::rig::Rig;
 
 /// The artifact of the policy `bang`.
@@ -27,18 +27,8 @@ pub(crate) fn robot_under(machine: &[u8], settings: &Settings) -> Emulation<Sway
     admitted(Artifact::from_bytes(machine).unwrap(), settings, |_| 0.0)
 }
 
-/// The robot with other needs of its machine, on a device with this longest tick (s) for a number of rounds.
-pub(crate) fn admitted_robot(
-    settings: &Settings,
-    needs: Needs,
-    tick: impl FnMut(u32) -> f64 + 'static,
-) -> Emulation<SwayingPlant> {
-    let mut artifact = Artifact::from_bytes(MACHINE).unwrap();
-    artifact.program.needs = needs;
-    admitted(artifact, settings, tick)
-}
-
-fn admitted(
+/// The robot with a machine that a device admits, which has this longest tick (s) for a number of rounds.
+pub(crate) fn admitted(
     artifact: Artifact,
     settings: &Settings,
     tick: impl FnMut(u32) -> f64 + 'static,

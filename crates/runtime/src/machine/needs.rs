@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::math;
 use crate::units::{Dimension, format_si};
 
 /// The needs that a policy states. They concern the loop that runs it.
@@ -45,7 +46,7 @@ impl RateRange {
     /// True if a rate of this range can be a whole multiple of a rate of `slower`.
     #[must_use]
     pub fn has_multiple_of(&self, slower: &Self) -> bool {
-        let least = (self.low / slower.high * (1.0 - TOLERANCE)).ceil().max(1.0);
+        let least = math::max((self.low / slower.high * (1.0 - TOLERANCE)).ceil(), 1.0);
         least * slower.low <= self.high * (1.0 + TOLERANCE)
     }
 

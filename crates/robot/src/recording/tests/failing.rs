@@ -7,8 +7,8 @@ use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::rig::Rig;
 
 use crate::config::Config;
-use crate::link::CommandPacket;
 use crate::drive::LoopRecord;
+use crate::link::CommandPacket;
 use crate::recording::{Origin, RecordingWriter, Setup, WriteError};
 use vibrissa_runtime::signal::Command;
 
@@ -34,7 +34,8 @@ impl Write for Full {
 #[test]
 fn a_disk_that_is_full_at_any_byte_is_an_error_and_no_panic() {
     let machine = include_bytes!("../../../../runtime/fixtures/bang.machine");
-    let setup = Setup::new(Config::emulated(Rig::default(), 1.5), None, Artifact::from_bytes(machine).unwrap()).unwrap();
+    let setup =
+        Setup::new(Config::emulated(Rig::default(), 1.5), None, Artifact::from_bytes(machine).unwrap()).unwrap();
     let origin = Origin { program: "test".to_owned(), program_sha256: None, details: BTreeMap::new() };
     let write = |room: usize| {
         let mut writer = RecordingWriter::new(Full(room), &setup, &origin)?;
