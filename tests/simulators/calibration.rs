@@ -224,11 +224,11 @@ fn what_is_no_calibration_is_refused_and_the_error_says_why() {
     let start = |key: &str| good.find(key).unwrap();
     let line = |key: &str| good[start(key)..].lines().next().unwrap().to_owned();
     let bad = [
-        (String::new(), "no calibration"),
-        ("a text".to_owned(), "no calibration"),
+        (String::new(), "not a calibration"),
+        ("a text".to_owned(), "not a calibration"),
         (good.replace("vibrissa_calibration: 2", "vibrissa_calibration: 1"), "format 1"),
         (good.replace("vibrissa_calibration: 2", "vibrissa_calibration: 3\nwhat_is_new: 7"), "format 3"),
-        (good.replace("hinge_stiffness", "stiffness"), "no calibration"),
+        (good.replace("hinge_stiffness", "stiffness"), "not a calibration"),
         (good.replace(&line("hinge_stiffness"), "hinge_stiffness: .nan"), "`hinge_stiffness`"),
         (good.replace(&line("  range"), "  range: [5e-4, 1e-4]"), "`one_channel`"),
         (good.replace(&line("  covariance"), "  covariance: [1e-6, 1e-5, 1e-6]"), "`one_channel`"),
@@ -360,7 +360,7 @@ fn a_rig_loads_the_calibration_of_a_whisker_and_says_what_is_wrong_with_it() {
     assert_eq!((&whiskers[0].calibration, &whiskers[1].calibration), (&None, &Some(calibration)));
     for (bytes, reason) in [
         (Err("there is none".to_owned()), "there is none"),
-        (Ok(b"vibrissa_calibration: 2\nabout: \xb5m\n".to_vec()), "in line 2, column 8 the byte 0xB5"),
+        (Ok(b"vibrissa_calibration: 2\nabout: \xb5m\n".to_vec()), "the byte 0xB5 in line 2, column 8"),
         (Ok(b"vibrissa_calibration: 7\nabout: x\n".to_vec()), "format 7"),
     ] {
         let faults = scenario::read_with(&source, &mut |_| bytes.clone()).unwrap_err();

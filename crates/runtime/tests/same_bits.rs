@@ -17,7 +17,7 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 /// The compiled policies, and the numbers of their commands.
 const POLICIES: [(&str, &[u8], &str); 3] = [
     ("bang", include_bytes!("../fixtures/bang.machine"), "23daaacac727e554"),
-    ("thesis", include_bytes!("../fixtures/thesis.machine"), "a06783ee8f6292f3"),
+    ("thesis", include_bytes!("../fixtures/thesis.machine"), "75f0c6f89469f1ec"),
     ("vibrissa", include_bytes!("../fixtures/vibrissa.machine"), "2d692ec67219dba1"),
 ];
 /// The contact estimators, and the numbers of their contacts.

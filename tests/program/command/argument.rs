@@ -67,11 +67,14 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, "--set", "speed=2 m/s"], "must lie between"),
         (vec!["run", disk, "--set", "speed"], "NAME=VALUE"),
         (vec!["run", disk, "--set", "speed=20 mn/s"], "mn"),
-        (vec!["run", disk, disk], "both called `disk`"),
+        (vec!["run", disk, disk], "have the same name `disk`"),
         (vec!["run"], "SCENARIO"),
         (vec!["fly"], "fly"),
         (vec!["bench", "--policy", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
-        (vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"], "both called `thesis`"),
+        (
+            vec!["bench", "--policy", "policies/thesis.fsm", "--policy", "policies/thesis.fsm"],
+            "have the same name `thesis`",
+        ),
         (vec!["bench", "--set", "trust=1"], "policies/thesis.fsm: the policy has no parameter `trust`"),
         (vec!["families", "--set", "speed=20 mm/s"], "families sample the speed"),
         (vec!["sweep", "a.yaml", "-j", "100000000"], "32 for each processor"),
@@ -141,9 +144,10 @@ fn every_command_that_writes_takes_the_place_alike() {
 
 #[test]
 fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_status_2() {
-    for (file, expected) in
-        [("/dev/zero", "it is a device"), ("tests/fixtures/latin1.txt", "in line 1, column 20 the byte 0xB5")]
-    {
+    for (file, expected) in [
+        ("/dev/zero", "it is a device"),
+        ("tests/fixtures/latin1.txt", "the byte 0xB5 in line 1, column 20 is invalid"),
+    ] {
         for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
             let output = vibrissa(&arguments);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -166,7 +170,7 @@ fn another_name_is_suggested_only_where_there_is_no_file() {
     assert!(absent.contains("did you mean `laws.fsm`?"), "{absent}");
     std::fs::write(directory.join("lews.fsm"), b"library lews\n# \xb5m\n").unwrap();
     let present = policy("lews.fsm");
-    assert!(present.contains("in line 2, column 3 the byte 0xB5") && !present.contains("did you mean"), "{present}");
+    assert!(present.contains("the byte 0xB5 in line 2, column 3") && !present.contains("did you mean"), "{present}");
 }
 
 #[cfg(not(feature = "lsp"))]

@@ -116,7 +116,7 @@ fn no_command_writes_to_what_it_reads_under_any_name_or_link() {
         for (way, refused) in refused {
             let told = stderr(&refused);
             assert_eq!(refused.status.code(), Some(2), "{line}, {input} by {way}: {told}");
-            for wanted in ["this command reads it as", input, &format!("another place with {argument}")] {
+            for wanted in ["this command reads it as", input, &format!("another path with {argument}")] {
                 assert!(told.contains(wanted), "{line}, {input} by {way}: {wanted}: {told}");
             }
         }
@@ -195,7 +195,7 @@ fn two_outputs_are_two_files_also_where_there_is_none_yet() {
         let refused = in_folder(&folder, line);
         let told = stderr(&refused);
         assert_eq!(refused.status.code(), Some(2), "{line}: {told}");
-        assert!(told.contains("--out writes it as") && told.contains("another place with --ticks"), "{line}: {told}");
+        assert!(told.contains("--out writes it as") && told.contains("another path with --ticks"), "{line}: {told}");
         assert!(!folder.join("new/scene.json").exists() && !folder.join("new.json").exists());
     }
 }
@@ -288,7 +288,7 @@ fn what_is_no_file_is_written_to_directly() {
     assert_eq!(stdout(&reader.wait_with_output().unwrap()), wanted);
     let refused = in_folder(&folder, "graph @/quick.fsm -o @");
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("another place with --out"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("another path with --out"), "{}", stderr(&refused));
 }
 
 /// Nothing waits: a pipe that nobody reads would never be opened.
@@ -311,7 +311,7 @@ fn a_pipe_that_nobody_reads_is_refused_before_the_first_run() {
         let refused = in_folder(&folder, line);
         let told = stderr(&refused);
         assert_eq!(refused.status.code(), Some(2), "{line}: {told}");
-        let wanted = [name, "a pipe that nobody reads", "remove it", "another place with --"];
+        let wanted = [name, "a pipe without a reader", "remove it", "another path with --"];
         assert!(wanted.iter().all(|wanted| told.contains(wanted)), "{line}: {told}");
         assert_eq!(stdout(&refused), "", "{line}");
         fs::remove_file(&pipe).unwrap();

@@ -80,7 +80,7 @@ fn a_damaged_library_or_plugin_is_told_with_what_to_do() {
     assert!(told_by("scene.yaml").contains("MuJoCo's library cannot be loaded"));
     std::fs::remove_file(lib.join(&name)).unwrap();
     symlink(libraries.join(&name), lib.join(&name)).unwrap();
-    assert!(told_by("cable.yaml").contains("MuJoCo's plugin for cables is not there"));
+    assert!(told_by("cable.yaml").contains("MuJoCo's cable plugin is missing"));
     std::fs::write(lib.join("libelasticity.so"), "no plugin").unwrap();
     assert!(told_by("cable.yaml").contains("MuJoCo's cable plugin cannot be loaded"));
     let output = run(&directory, &["run", "scene.yaml"]);

@@ -247,7 +247,7 @@ mod with_simulation {
         let output =
             vibrissa(&["compare", "policies/thesis.fsm", "policies/thesis.fsm", "scenarios/disk.yaml", "--seeds", "9"]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stderr(&output).contains("all seeds are the same run"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("all seeds give the same run"), "{}", stderr(&output));
         assert!(stdout(&output).contains("the same"), "{}", stdout(&output));
     }
 

@@ -42,7 +42,7 @@ fn an_editor_without_snippets_or_related_places_is_served_in_plain_text() {
     let fault = &editor.diagnostics["diagnostics"][0];
     assert!(fault.get("relatedInformation").is_none());
     let line = position(&text, "state Swiping", 0)["line"].as_u64().unwrap() + 1;
-    assert!(fault["message"].as_str().unwrap().contains(&format!("line {line}: made here")), "{fault}");
+    assert!(fault["message"].as_str().unwrap().contains(&format!("line {line}: declared here")), "{fault}");
     let targets = editor.ask_at("completion", &position(&text, "Swiping\n", 0), json!({}));
     assert_eq!(labels(&targets), ["Exploring", "Swiping", "Failure"]);
     for item in targets["result"].as_array().unwrap() {

@@ -170,7 +170,7 @@ fn a_name_that_another_file_needs_as_it_is_keeps_it_and_says_which() {
     refused("lost)", "x", &["belongs to the standard library"]);
     refused("wait(r0", "taken", &["other.fsm", "`taken` is already declared in line 6"]);
     refused("wait(r0", "twice", &["`twice`", "choose another name"]);
-    refused("wait(r0", "state", &["`state` has a meaning of its own"]);
+    refused("wait(r0", "state", &["`state` is reserved"]);
     // A file with a fault may have more places than can be found.
     let uri = format!("{root}/other.fsm");
     let broken = text_of("other.fsm").replace("do wait(r0)", "do wait(r0");

@@ -45,7 +45,7 @@ fn a_session_from_the_first_word_to_the_last() {
 
     // `lost` is the name of a parameter, and a word of comments and of the reasons of failures.
     let rename = editor.ask_at("rename", &position(THESIS, "for lost", 0), json!({"newName": "gone"}));
-    assert!(rename["error"]["message"].as_str().unwrap().contains("belongs to the language"), "{rename}");
+    assert!(rename["error"]["message"].as_str().unwrap().contains("a name of the language"), "{rename}");
     let at = position(THESIS, "lost ", 0);
     let prepared = editor.ask_at("prepareRename", &at, json!({}));
     assert_eq!(prepared["result"]["placeholder"], "lost");

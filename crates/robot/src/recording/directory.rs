@@ -40,7 +40,7 @@ impl Directory {
         Ok(self.parts()?.last().map_or(1, |(name, _)| name.run.saturating_add(1)))
     }
 
-    /// Deletes the oldest recordings until there is room for `bytes`.
+    /// Deletes the oldest recordings until `bytes` more fit into the limit.
     pub(super) fn make_room(&self, bytes: u64) -> Result<()> {
         let parts = self.parts()?;
         let mut total: u64 = parts.iter().map(|(_, size)| size).sum();

@@ -14,11 +14,11 @@ use crate::config::RecordConfig;
 use crate::drive::{LoopRecord, RecordSink};
 use crate::vitals::Vitals;
 
-/// Parts that the limit has room for. The oldest part is deleted when the next one begins.
+/// Parts that fit into the limit. The oldest part is deleted when the next one begins.
 const PARTS: u64 = 8;
 /// Chunks of a small part.
 const CHUNKS: u64 = 8;
-/// Room (bytes) that a part needs beside the setup, for schemas and some messages.
+/// Size (bytes) of a part beside the setup, for schemas and some messages.
 const LEAST_BYTES: u64 = 64 << 10;
 /// Time (ns) after a failure until the disk is tried again.
 const RETRY_NS: u64 = 10_000_000_000;
@@ -58,7 +58,7 @@ impl Recorder {
     /// A recorder of a run, which begins with the first record.
     ///
     /// # Errors
-    /// [`WriteError::Setup`] if the setup cannot be written, and [`WriteError::Limit`] if a file has no room for it.
+    /// [`WriteError::Setup`] if the setup cannot be written, and [`WriteError::Limit`] if it does not fit into a file.
     pub fn new(record: &RecordConfig, setup: Setup, origin: &Origin, warn: Warn) -> Result<Self, WriteError> {
         let limit_bytes = record.limit_mb.saturating_mul(1_000_000);
         let setup_bytes: usize = setup.attachments().map(|(_, content)| content.len()).sum();

@@ -24,14 +24,14 @@ impl<R: Read> Recording<R> {
     /// # Errors
     /// [`ReadError`] if there is no file, or if the files belong to different runs.
     pub fn join(mut parts: Vec<Part<R>>) -> Result<Self, ReadError> {
-        parts.sort_by_key(number);
-        if let Some(part) = parts.windows(2).find_map(|pair| same_number(pair)) {
-            return Err(ReadError::Twice { part });
-        }
         let first = parts.first().ok_or(ReadError::Empty)?;
         let (setup, identity) = (first.setup().clone(), of_run(first.identity()));
         if parts.iter().any(|part| of_run(part.identity()) != identity) {
             return Err(ReadError::OtherRun);
+        }
+        parts.sort_by_key(number);
+        if let Some(part) = parts.windows(2).find_map(|pair| same_number(pair)) {
+            return Err(ReadError::Twice { part });
         }
         Ok(Self { setup, identity, parts: parts.into(), is_cut: false, sequences: [0; Channel::ALL.len()] })
     }

@@ -67,7 +67,7 @@ impl ReplayTask {
         Ok(Self { task, rounds, poses, commands, records, vitals, settings, program })
     }
 
-    /// Repeats a step with its recorded inputs. The result is a difference if the driver decodes an input in another way.
+    /// Repeats a step with its recorded inputs. The result is a difference if the driver decodes an input differently.
     pub(super) fn step(&mut self, step: &StepMessage) -> Result<Stepped, FieldDifference> {
         for (index, message) in step.rounds.iter().enumerate() {
             self.take_round(index, message)?;

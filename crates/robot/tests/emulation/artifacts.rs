@@ -13,7 +13,7 @@ use super::robot::{MS, robot_under};
 /// The compiled policies, and the least number of states that each visits among swaying grass.
 const ARTIFACTS: [(&str, &[u8], usize); 3] = [
     ("bang", include_bytes!("../../../runtime/fixtures/bang.machine"), 2),
-    ("thesis", include_bytes!("../../../runtime/fixtures/thesis.machine"), 8),
+    ("thesis", include_bytes!("../../../runtime/fixtures/thesis.machine"), 4),
     ("vibrissa", include_bytes!("../../../runtime/fixtures/vibrissa.machine"), 8),
 ];
 

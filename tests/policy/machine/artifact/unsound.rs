@@ -155,13 +155,13 @@ fn states_lie_in_those_before_them_and_begin_directly_in_themselves() {
     // Exploring, Following { Touching { Swiping, Pressing }, Searching, Retreating }, Tunnelling
     for (state, parent) in [(1, 1), (1, 2), (2, 2), (2, usize::MAX), (0, 7)] {
         let told = told(&|program| program.states[state].parent = Some(parent));
-        assert!(told.contains(&format!("its state {state} lies in no state before it")), "{told}");
+        assert!(told.contains(&format!("its state {state} has an invalid outer state")), "{told}");
     }
     for (state, initial) in [(1, 0), (1, 1), (1, 3), (1, 99), (0, 1), (3, 4), (7, 0)] {
         let told = told(&|program| program.states[state].initial = Some((initial, 0..0)));
-        assert!(told.contains(&format!("its state {state} cannot begin")), "{told}");
+        assert!(told.contains(&format!("its state {state} has an invalid initial state")), "{told}");
     }
-    assert!(told(&|program| program.states[2].initial = None).contains("its state 2 cannot begin"));
+    assert!(told(&|program| program.states[2].initial = None).contains("its state 2 has an invalid initial state"));
     assert!(told(&|program| program.states[5].parent = Some(0)).contains("its state 0 cannot begin"));
     let told_of_resume = told(&|program| {
         program.states[6].transitions[0].target = Target::State { state: 5, arguments: 0..0, resume: true };

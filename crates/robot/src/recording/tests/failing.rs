@@ -12,7 +12,7 @@ use crate::link::CommandPacket;
 use crate::recording::{Origin, RecordingWriter, Setup, WriteError};
 use vibrissa_runtime::signal::Command;
 
-/// An output with room for some bytes.
+/// An output that takes a limited number of bytes.
 struct Full(usize);
 
 impl Write for Full {
