@@ -162,11 +162,11 @@ fn states_lie_in_those_before_them_and_begin_directly_in_themselves() {
         assert!(told.contains(&format!("its state {state} has an invalid initial state")), "{told}");
     }
     assert!(told(&|program| program.states[2].initial = None).contains("its state 2 has an invalid initial state"));
-    assert!(told(&|program| program.states[5].parent = Some(0)).contains("its state 0 cannot begin"));
+    assert!(told(&|program| program.states[5].parent = Some(0)).contains("its state 0 has an invalid initial state"));
     let told_of_resume = told(&|program| {
         program.states[6].transitions[0].target = Target::State { state: 5, arguments: 0..0, resume: true };
     });
-    assert!(told_of_resume.contains("its state 5 cannot begin"), "{told_of_resume}");
+    assert!(told_of_resume.contains("its state 5 has an invalid initial state"), "{told_of_resume}");
     let told_of_block = told(&|program| {
         let Some((_, arguments)) = &mut program.states[2].initial else { panic!("an initial state") };
         arguments.end = u32::MAX;
