@@ -18,6 +18,8 @@ pub(super) const GRID: &str = "#e4e7eb";
 pub(super) const SOLID: &str = "#f1f3f5";
 /// The platform and its path.
 pub(super) const PLATFORM: &str = "#52606d";
+/// The inside of the platform.
+pub(super) const PLATFORM_FILL: &str = "#cbd2d9";
 /// The untraced parts of the object.
 pub(super) const UNTRACED: &str = "#f8c4ae";
 /// The state of failure.

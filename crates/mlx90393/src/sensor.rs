@@ -9,13 +9,9 @@ use crate::read_error::ReadError;
 use crate::register::Register;
 use crate::start::{StartError, StartReport};
 use crate::status::Status;
+use crate::timing::{EXIT_MS, RESET_MS};
 use embedded_hal::delay::DelayNs;
 use embedded_hal::i2c::I2c;
-
-/// Time for the end of the current mode (ms).
-const EXIT_MS: u32 = 1;
-/// Time for the reset (ms). The data sheet's longest time is 1.5 ms.
-const RESET_MS: u32 = 2;
 
 /// A sensor at an address. It does not own the bus, so several sensors can share one.
 #[derive(Debug, Clone, PartialEq, Eq)]

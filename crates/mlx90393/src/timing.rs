@@ -1,4 +1,4 @@
-//! Times of conversions.
+//! Times of conversions and of the bring-up.
 
 use crate::checked_settings::CheckedSettings;
 
@@ -17,6 +17,10 @@ const STANDBY: Interval = Interval { nominal_us: 220, worst_us: 264 };
 const ACTIVE: Interval = Interval { nominal_us: 360, worst_us: 432 };
 /// End of a conversion (`TCONV_END`), typical and longest (µs).
 const END: Interval = Interval { nominal_us: 100, worst_us: 120 };
+/// Time for the end of the current mode (ms).
+pub(crate) const EXIT_MS: u32 = 1;
+/// Time for the reset (ms). The data sheet's longest time is 1.5 ms.
+pub(crate) const RESET_MS: u32 = 2;
 /// The data sheet's table of output rates is slower than its own formulas by this time per set (µs).
 ///
 /// The text does not explain the difference. Worst cases contain it, so that they agree with the slower statement.

@@ -1,5 +1,7 @@
 //! The faults that stop a robot.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::config::FaultResponse;
@@ -105,6 +107,36 @@ pub struct Fault {
     pub kind: FaultKind,
     /// Index of the bus or whisker that has it. 0 for other kinds.
     pub part: u8,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let part = self.part;
+        match self.kind {
+            FaultKind::SensorStale => write!(formatter, "the sensor of whisker {part} has no new value"),
+            FaultKind::SensorLost => {
+                write!(formatter, "the sensor of whisker {part} does not answer, or has lost its mode")
+            }
+            FaultKind::InvalidReading => {
+                write!(
+                    formatter,
+                    "a reading of whisker {part} or a pose is not a number, or a status byte is impossible"
+                )
+            }
+            FaultKind::Saturated => {
+                write!(formatter, "the field at whisker {part} is at the end of the sensor's range")
+            }
+            FaultKind::AngleLimit => write!(formatter, "the base angle of whisker {part} exceeds its limit"),
+            FaultKind::BusBlocked => write!(formatter, "bus {part} completes no round"),
+            FaultKind::PoseOld => formatter.write_str("the last pose is too old"),
+            FaultKind::LinkLost => formatter.write_str("the actuator acknowledges no command"),
+            FaultKind::BrokerGone => formatter.write_str("the MQTT broker does not answer"),
+            FaultKind::ControlLate => formatter.write_str("the control loop has not completed a tick in time"),
+            FaultKind::MachineFailed => formatter.write_str("the machine has failed"),
+            FaultKind::Panic => formatter.write_str("a thread has panicked"),
+            FaultKind::Terminated => formatter.write_str("the system has asked the program to end"),
+        }
+    }
 }
 
 /// A change of a fault.

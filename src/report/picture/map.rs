@@ -225,7 +225,7 @@ impl Map {
 /// The outline of the platform at one of `count` poses: filled at the first, bold at the last.
 pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node::element::Path {
     if index == 0 {
-        body.stroked(style::PLATFORM, 1.2).set("fill", "#cbd2d9")
+        body.stroked(style::PLATFORM, 1.2).set("fill", style::PLATFORM_FILL)
     } else if index + 1 == count {
         body.stroked(style::INK, 2.0)
     } else {

@@ -19,13 +19,8 @@ impl RecordSink for EventLog {
 fn line(event: &FaultEvent) -> String {
     let change = match event.change {
         FaultChange::Detected => "detected",
-        FaultChange::Reacted => "stopped the robot",
-        FaultChange::Recovered => "is over",
+        FaultChange::Reacted => "the robot is stopped",
+        FaultChange::Recovered => "over",
     };
-    format!(
-        "{:.3} s: fault {} of part {} {change}",
-        event.time_ns as f64 * 1e-9,
-        event.fault.kind.name(),
-        event.fault.part
-    )
+    format!("{:.3} s: {}: {}: {change}", event.time_ns as f64 * 1e-9, event.fault.kind.name(), event.fault)
 }

@@ -151,10 +151,13 @@ mod tests {
             let (contact, unit) = (share * shaft.length, shaft.tip_stiffness() / math::square(share * shaft.length));
             let shape = Elastica::new(&whisker).under(contact, side * MAX_BENDING_ANGLE, force * unit).unwrap();
             let pivot = Pivot::new(&whisker);
-            // For a tapered shaft the closed form is exact only to the first order of the bend.
-            let tolerance = 1e-3 + 0.25 * (1.0 - taper);
+            // For a tapered shaft the closed form is exact only to the first order of the bend. These bounds are close to
+            // the largest errors on a grid of 20,000 contacts for each of six tapers.
+            let narrowing = 1.0 - taper;
+            let angle_tolerance = 1e-3 + narrowing * (0.22 + 0.24 * narrowing);
+            let tolerance = 1e-3 + 0.11 * narrowing;
             let angle = pivot.base_angle(shape.contact_base).unwrap();
-            prop_assert!((angle / shape.base_angle - 1.0).abs() < tolerance, "{angle} {}", shape.base_angle);
+            prop_assert!((angle / shape.base_angle - 1.0).abs() < angle_tolerance, "{angle} {}", shape.base_angle);
             let contact_base = pivot.contact_base(shape.base_angle, contact).unwrap();
             prop_assert!((contact_base - shape.contact_base).norm() < tolerance * contact, "{contact_base} {}", shape.contact_base);
         }
