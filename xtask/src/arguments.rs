@@ -18,6 +18,7 @@ Commands:
             --wheel FILE   take them from this wheel, on a machine without network
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
+            --from K       begin with check number K, after the cause of a failure is corrected
   imports check that modules import only what ARCHITECTURE.md allows
   prose   measure the sentences and terms of the documentation
   links   follow the links between the pages of the documentation
@@ -36,12 +37,17 @@ pub(crate) enum Command {
     Help,
     Setup(Options),
     Demo,
-    Test,
+    /// All checks from this one, counted from 1.
+    Test {
+        from: usize,
+    },
     Imports,
     Prose,
     Links,
     Book,
-    Bench { save: bool },
+    Bench {
+        save: bool,
+    },
     Results(Selection),
     Pi,
     Fuzz(u64),
@@ -58,6 +64,8 @@ pub(crate) enum ArgumentError {
     NoWheelFile,
     #[error("`--program` needs the file that it is to run")]
     NoProgram,
+    #[error("`--from` needs the number of a check, such as `cargo x test --from 12`")]
+    NoCheck,
     #[error("`fuzz` needs how many policies to try, such as `cargo x fuzz 100000`")]
     NoCount,
 }
@@ -71,7 +79,7 @@ impl Command {
             "help" | "--help" | "-h" => Self::Help,
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
-            "test" => Self::Test,
+            "test" => return parse_test(arguments),
             "imports" => Self::Imports,
             "prose" => Self::Prose,
             "links" => Self::Links,
@@ -114,6 +122,16 @@ fn parse_setup(mut arguments: impl Iterator<Item = OsString>) -> Result<Command,
         }
     }
     Ok(Command::Setup(options))
+}
+
+fn parse_test(arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut arguments = arguments.peekable();
+    let mut from = 1;
+    if arguments.next_if(|argument| argument == "--from").is_some() {
+        let number = arguments.next().and_then(|number| number.to_str()?.parse().ok());
+        from = number.filter(|&number| number > 0).ok_or(ArgumentError::NoCheck)?;
+    }
+    end("test", arguments, Command::Test { from })
 }
 
 fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
@@ -180,5 +198,14 @@ mod tests {
         );
         assert_eq!(parse(&["setup", "--wheel"]), Err(ArgumentError::NoWheelFile));
         assert_eq!(parse(&["fuzz", "many"]), Err(ArgumentError::NoCount));
+    }
+
+    #[test]
+    fn the_checks_begin_with_the_first_or_with_the_given_one() {
+        assert_eq!(parse(&["test"]), Ok(Command::Test { from: 1 }));
+        assert_eq!(parse(&["test", "--from", "7"]), Ok(Command::Test { from: 7 }));
+        for arguments in [&["test", "--from"][..], &["test", "--from", "0"], &["test", "--from", "lints"]] {
+            assert_eq!(parse(arguments), Err(ArgumentError::NoCheck));
+        }
     }
 }

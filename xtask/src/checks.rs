@@ -53,6 +53,8 @@ pub(crate) enum CheckError {
          cargo tree --no-default-features --invert mujoco-rs"
     )]
     CoreNeedsMujoco,
+    #[error("there is no check {number}; their numbers are 1 to {count}", count = CHECKS.len())]
+    NoSuchCheck { number: usize },
     #[error("the tests changed the checkout; let them write to a temporary directory only:\n  {0}")]
     LeftBehind(String),
     #[error("cannot list or start the examples: {0}")]
@@ -155,13 +157,16 @@ const fn check_in(
     Check { title, work: Work::Cargo(CargoRun { environment, arguments }) }
 }
 
-/// Runs every check in the checkout at `root` until one fails, and sums up.
-pub(crate) fn run(root: &Path) -> Result<(), CheckError> {
+/// Runs the checks in the checkout at `root` until one fails, and sums up. The first one has the number `from`, counted
+/// from 1.
+pub(crate) fn run(root: &Path, from: usize) -> Result<(), CheckError> {
+    let checks = CHECKS.get(from.saturating_sub(1)..).filter(|checks| !checks.is_empty());
+    let checks = checks.ok_or(CheckError::NoSuchCheck { number: from })?;
     let before = Checkout::look(root);
     let start = Instant::now();
-    let mut times = Vec::with_capacity(CHECKS.len());
+    let mut times = Vec::with_capacity(checks.len());
     let mut result = Ok(());
-    for (number, check) in (1..).zip(&CHECKS) {
+    for (number, check) in (from..).zip(checks) {
         println!("\n[{number}/{}] {}", CHECKS.len(), check.title);
         let check_start = Instant::now();
         result = check.run(root, before.as_ref());
@@ -170,7 +175,7 @@ pub(crate) fn run(root: &Path) -> Result<(), CheckError> {
             break;
         }
     }
-    println!("\n{}", summary(&times, result.is_ok(), start.elapsed()));
+    println!("\n{}", summary(checks, &times, result.is_ok(), start.elapsed()));
     result
 }
 
@@ -279,9 +284,9 @@ fn checkout_is_untouched(root: &Path, before: Option<&Checkout>) -> Result<(), C
 }
 
 /// A line for each check that ran, and one for all.
-fn summary(times: &[Duration], passed: bool, total: Duration) -> String {
+fn summary(checks: &[Check], times: &[Duration], passed: bool, total: Duration) -> String {
     let last = times.len().saturating_sub(1);
-    let mut lines: Vec<_> = CHECKS
+    let mut lines: Vec<_> = checks
         .iter()
         .zip(times)
         .enumerate()
@@ -290,7 +295,7 @@ fn summary(times: &[Duration], passed: bool, total: Duration) -> String {
             format!("{word:>6} {:>7.1} s  {}", time.as_secs_f64(), check.title)
         })
         .collect();
-    let left = CHECKS.len() - times.len();
+    let left = checks.len() - times.len();
     let outcome = if passed { "all checks passed".to_owned() } else { format!("stopped, {left} checks left") };
     lines.push(format!("       {:>7.1} s  {outcome}", total.as_secs_f64()));
     lines.join("\n")
@@ -320,7 +325,7 @@ mod tests {
     #[test]
     fn the_summary_says_which_check_failed_and_how_many_did_not_run() {
         let second = Duration::from_secs(1);
-        let text = summary(&[second, second], false, second * 2);
+        let text = summary(&CHECKS, &[second, second], false, second * 2);
         let lines: Vec<_> = text.lines().map(str::trim).collect();
         assert_eq!(lines.len(), 3);
         assert!(lines[0].starts_with("ok") && lines[1].starts_with("FAILED"), "{text}");

@@ -53,7 +53,7 @@ fn main() -> ExitCode {
         }
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
-        Command::Test => status(checks::run(&root)),
+        Command::Test { from } => status(checks::run(&root, from)),
         Command::Prose => prose(&root),
         Command::Imports => status(imports::check(&root)),
         Command::Links => status(links::check(&root)),
