@@ -12,7 +12,7 @@ use vibrissa_runtime::rig::{Platform, Rig, YawController};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 const TAIL_WIDTH: Key = Key::new("tail_width", Dimension::LENGTH, (1e-3, 2.0), "120 mm");
-const NOSE_WIDTH: Key = Key::new("nose_width", Dimension::LENGTH, (1e-3, 2.0), "30 mm");
+const NOSE_WIDTH: Key = Key::new("nose_width", Dimension::LENGTH, (0.0, 2.0), "30 mm");
 const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 2.0), "180 mm");
 const CENTRE_OF_MASS: Key = Key::new("centre_of_mass", Dimension::LENGTH, (0.0, 2.0), "72 mm");
 const MASS: Key = Key::new("mass", Dimension::MASS, (1e-3, 100.0), "0.51 kg");

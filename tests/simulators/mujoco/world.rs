@@ -136,6 +136,20 @@ fn a_body_that_runs_into_the_object_is_seen_and_one_that_passes_is_not() {
 }
 
 #[test]
+fn a_nose_that_is_a_point_stops_at_the_object_where_a_wide_one_does() {
+    let stop = |nose_width: f64| {
+        let mut rig = Rig::default();
+        rig.platform.nose_width = nose_width;
+        let mut world = MujocoWorld::new(&rig, &Physics::default(), &wall_ahead(), START, 0).unwrap();
+        let last = samples(&mut world, &command(0.0, 0.02, 0.0), 90).unwrap().pop().unwrap();
+        assert!(world.body_touches());
+        last.body.position.y + 0.108
+    };
+    let (point, wide) = (stop(0.0), stop(0.03));
+    assert!((point - 0.2).abs() < 0.2e-3 && (point - wide).abs() < 0.1e-3, "{point} m, {wide} m");
+}
+
+#[test]
 fn a_body_that_is_forced_into_the_object_crashes() {
     let mut rig = Rig::default();
     rig.platform.servo = 1e-3;

@@ -5,7 +5,7 @@ use vibrissa::geometry::{Contour, Point2, Segment, polygon};
 use vibrissa::physics::Physics;
 use vibrissa::quasi_static::QuasiStaticWorld;
 use vibrissa::world::{Fault, World};
-use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::rig::{Platform, Rig};
 
 use super::scene::{START, command, drive, one_whisker, outlines, points, solids};
 
@@ -15,8 +15,15 @@ fn wall_ahead() -> Vec<vibrissa::solid::Solid> {
 }
 
 /// A rig without whiskers.
-fn bare() -> Rig {
-    Rig { whiskers: Vec::new(), ..Rig::default() }
+fn bare(nose_width: f64) -> Rig {
+    Rig { whiskers: Vec::new(), platform: Platform { nose_width, ..Platform::default() }, ..Rig::default() }
+}
+
+#[test]
+fn a_nose_that_is_a_point_stays_at_the_wall_that_it_runs_into() {
+    let mut world = QuasiStaticWorld::new(&bare(0.0), &Physics::default(), &wall_ahead(), START, 0).unwrap();
+    let body = drive(&mut world, &command(0.0, 0.02, 0.0), 90).unwrap().body;
+    assert!(world.body_touches() && (body.position.y + 0.108 - 0.2).abs() < 1e-6, "{body:?}");
 }
 
 #[test]
@@ -55,9 +62,9 @@ proptest! {
     #[test]
     fn a_body_never_enters_what_it_touches(
         commands in proptest::collection::vec((-0.1..0.1_f64, -0.1..0.1_f64, -1.0..1.0_f64, 5..50_usize), 2..8),
-        which in 0..11_usize,
+        which in 0..11_usize, nose_width in prop_oneof![Just(0.0), Just(0.03)],
     ) {
-        let rig = bare();
+        let rig = bare(nose_width);
         let (name, outline) = outlines().swap_remove(which);
         let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids([outline.clone()]), START, 0).unwrap();
         for (x, y, yaw, ticks) in commands {

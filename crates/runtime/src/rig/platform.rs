@@ -3,13 +3,19 @@
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
+use crate::math;
+
+/// Least width of the nose in the outline (m), because a side without length has no normal. The simulators' own
+/// tolerances for contacts are larger.
+const NARROWEST: f64 = 1e-5;
+
 /// The body that carries the whiskers. Its footprint is a trapezoid that is symmetric about its axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Platform {
     /// Width at the tail (m).
     pub tail_width: f64,
-    /// Width at the nose (m).
+    /// Width at the nose (m). 0 for a point.
     pub nose_width: f64,
     /// Length from tail to nose (m).
     pub length: f64,
@@ -30,11 +36,12 @@ pub struct Platform {
 }
 
 impl Platform {
-    /// The corners in the body frame (m), counter-clockwise from the right end of the tail.
+    /// The corners in the body frame (m), counter-clockwise from the right end of the tail. They are distinct, also if
+    /// the nose is a point.
     #[must_use]
     pub fn outline_body(&self) -> [Point2<f64>; 4] {
         let (tail, nose) = (-self.centre_of_mass, self.length - self.centre_of_mass);
-        let (tail_side, nose_side) = (0.5 * self.tail_width, 0.5 * self.nose_width);
+        let (tail_side, nose_side) = (0.5 * self.tail_width, 0.5 * math::max(self.nose_width, NARROWEST));
         [
             Point2::new(tail, -tail_side),
             Point2::new(nose, -nose_side),
