@@ -62,7 +62,7 @@ pub enum CalibrationRigError {
 
 /// Moves the base of a rig's whisker (by its index) over a grid of 3 mm steps in front of a rod. Each position in
 /// contact gives a set. In each row the tip is dragged around the rod, and the rows approach the rod. The whisker bends
-/// as on a surface beside the platform. A set is the mean of a tenth of a second. `seed` is the seed of the sensor
+/// as on a surface that a policy follows. A set is the mean of a tenth of a second. `seed` is the seed of the sensor
 /// noise.
 ///
 /// # Errors
@@ -76,7 +76,7 @@ pub fn simulated_sets(
     whisker: usize,
     seed: u64,
 ) -> Result<Vec<ContactSet>, CalibrationRigError> {
-    let (bend, length) = (rig.whiskers[whisker].usual_bend_sign(), rig.whiskers[whisker].shaft.length);
+    let (bend, length) = (rig.whiskers[whisker].side(), rig.whiskers[whisker].shaft.length);
     let scale = length / LENGTH;
     let mut calibration_rig = CalibrationRig::new(rig, physics, whisker, scale, seed)?;
     let mut sets = Vec::new();

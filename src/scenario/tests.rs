@@ -99,6 +99,16 @@ fn what_a_rig_with_a_preset_leaves_out_is_as_in_that() {
 }
 
 #[test]
+fn the_preset_of_the_thesis_has_three_whiskers_a_side_that_a_scenario_can_change() {
+    let scene = with_rig("{preset: thesis_array}");
+    assert_eq!((scene.rig, scene.physics), Preset::ThesisArray.rig());
+    let rig = with_rig("{preset: thesis_array, platform: {nose_width: 0 mm}, whiskers: {r1: {length: 80 mm}}}").rig;
+    assert_eq!(rig.platform.nose_width.to_bits(), 0.0_f64.to_bits());
+    let [whisker] = rig.whiskers.as_slice() else { panic!("one whisker, found {:?}", rig.whiskers) };
+    assert_eq!((whisker.name.as_str(), whisker.base_body), ("r1", Rig::thesis_array().whiskers[1].base_body));
+}
+
+#[test]
 fn every_key_of_a_rig_can_be_set() {
     let text = "
   preset: peer_cable

@@ -129,7 +129,7 @@ fn clear_width(axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> f6
 fn whisker_span(rig: &Rig) -> Option<f64> {
     // A contact is detected above the contact threshold.
     let contact_body = |whisker: &Whisker| {
-        let bend = whisker.usual_bend_sign() * rig.sensing.contact_threshold;
+        let bend = whisker.side() * rig.sensing.contact_threshold;
         let contact = TipCurve::new(whisker).ok()?.contact_base(bend);
         Some(whisker.base_body + rotate(contact, whisker.direction_body))
     };

@@ -45,13 +45,13 @@ pub enum TipCurveError {
     /// The whisker is too nearly perpendicular to the heading.
     #[error(
         "whisker {whisker}: the force of a surface beside it is {:.0} deg from axial, so the shaft may buckle; \
-         sweep it by {:.0} deg or more, and backwards if there is friction",
+         sweep it back or forward by {:.0} deg or more",
         sweep.to_degrees(), LEAST_SWEEP.to_degrees().ceil()
     )]
     HeadOn {
         /// The whisker.
         whisker: String,
-        /// Sweep back, or forward if negative (rad), including the friction angle.
+        /// Angle (rad) by which it trails, including the friction angle.
         sweep: f64,
     },
     /// The chain has no equilibrium in the range of the curve.
@@ -150,16 +150,15 @@ impl TipCurve {
     }
 
     /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise, and of the
-    /// surface normal, during contour following along a surface parallel to the heading. Such a surface bends a whisker
-    /// swept forward to the front and one swept back to the back, which are mirror images in the frame of the base.
-    /// Friction rotates the force to the back, like a larger sweep back.
+    /// surface normal, along a surface with the [usual normal](Whisker::usual_normal). Friction rotates the force to the
+    /// back, like a larger sweep back.
     fn directions(whisker: &Whisker, friction: f64) -> Result<(f64, f64), TipCurveError> {
         let turn = math::atan(friction);
-        let sweep = whisker.direction_body.abs() - FRAC_PI_2 + turn;
-        if sweep.abs() < LEAST_SWEEP {
+        let sweep = (whisker.direction_body.abs() - FRAC_PI_2).abs() + turn;
+        if sweep < LEAST_SWEEP {
             return Err(TipCurveError::HeadOn { whisker: whisker.name.clone(), sweep });
         }
-        Ok((PI - sweep.abs(), PI - sweep.abs() + turn * sweep.signum()))
+        Ok((PI - sweep, PI - sweep + turn))
     }
 
     /// The contact position (m, frame of the base) at `base_angle` (rad). Beyond the range it is the position at the

@@ -6,6 +6,7 @@ mod hinge;
 mod platform;
 mod sensing;
 mod shaft;
+mod thesis_array;
 mod whisker;
 
 use serde::{Deserialize, Serialize};

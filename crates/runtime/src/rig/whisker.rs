@@ -58,18 +58,13 @@ impl Whisker {
         whisker
     }
 
-    /// Direction (rad, frame of the base) of the normal of a surface parallel to the heading, for a bend to the left.
-    /// Such a surface bends a whisker swept forward to the front and one swept back to the back, which are mirror
-    /// images in the frame of the base.
+    /// Direction (rad, frame of the base) of the normal of a surface that a policy follows, for a bend to the left. The
+    /// whisker trails along it. One that is swept back does so with the body parallel to the surface. One that points
+    /// forward does so with the body turned towards the surface by twice that angle. Equal angles forward and back are
+    /// then equal angles to the surface.
     #[must_use]
     pub fn usual_normal(&self) -> f64 {
         PI - (self.direction_body.abs() - FRAC_PI_2).abs()
-    }
-
-    /// Sign of the base angle at such a surface: +1 counter-clockwise, −1 clockwise.
-    #[must_use]
-    pub fn usual_bend_sign(&self) -> f64 {
-        if self.direction_body.abs() < FRAC_PI_2 { -self.side() } else { self.side() }
     }
 
     /// Side of the platform to which the whisker points: −1 for right, +1 for left.
