@@ -4,9 +4,10 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 5] = [
+pub(super) const MODULES: [(&str, &str); 6] = [
     ("feelers", include_str!("../../policies/std/feelers.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
+    ("mounting", include_str!("../../policies/std/mounting.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
     ("swipe", include_str!("../../policies/std/swipe.fsm")),
     ("tunnel", include_str!("../../policies/std/tunnel.fsm")),

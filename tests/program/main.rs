@@ -13,6 +13,8 @@ mod editor;
 mod faults;
 #[cfg(feature = "sim")]
 mod policies;
+#[cfg(feature = "sim")]
+mod thesis_array;
 mod tutorial;
 #[cfg(feature = "sim")]
 mod worlds;

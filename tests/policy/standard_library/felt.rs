@@ -1,6 +1,6 @@
 //! What is felt, as a test says.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use vibrissa::geometry::{Point2, Pose, Vector2, rotate, unit};
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
@@ -18,14 +18,17 @@ pub(crate) struct Whisker {
 pub(crate) struct Felt {
     pub(crate) body: Pose,
     pub(crate) whiskers: [Whisker; 2],
+    /// The direction (rad, body frame) of the left whisker.
+    pub(crate) mounting: f64,
 }
 
+pub(crate) const SWEPT_BACK: f64 = 105.0 * PI / 180.0;
 pub(crate) const LENGTH: f64 = 0.1;
 pub(crate) const FREE: Whisker = Whisker { deflection: 0.0, tangent: Vector2::new(1.0, 0.0), ready: false };
 
 impl Felt {
     pub(crate) fn at(body: Pose) -> Self {
-        Self { body, whiskers: [FREE; 2] }
+        Self { body, whiskers: [FREE; 2], mounting: SWEPT_BACK }
     }
 
     /// The same in a mirror that lies along x; left and right change places.
@@ -35,9 +38,9 @@ impl Felt {
             tangent: flipped(whisker.tangent),
             ..whisker
         };
-        let Self { body, whiskers: [right, left] } = *self;
+        let Self { body, whiskers: [right, left], mounting } = *self;
         let body = Pose { position: flipped(body.position.coords).into(), heading: -body.heading };
-        Self { body, whiskers: [whisker(left), whisker(right)] }
+        Self { body, whiskers: [whisker(left), whisker(right)], mounting }
     }
 
     pub(crate) fn side(whisker: usize) -> f64 {
@@ -49,7 +52,7 @@ impl Felt {
     }
 
     pub(crate) fn yaw(&self, whisker: usize) -> f64 {
-        self.body.heading + 105_f64.to_radians() * Self::side(whisker)
+        self.body.heading + self.mounting * Self::side(whisker)
     }
 
     pub(crate) fn tip_at_rest(&self, whisker: usize) -> Point2 {

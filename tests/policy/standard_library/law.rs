@@ -13,7 +13,7 @@ use super::felt::Felt;
 pub(crate) fn machine(whisker: usize, does: &str) -> Machine {
     let (right, left) = if whisker == 0 { ("w", "v") } else { ("v", "w") };
     let text = format!(
-        "machine m use std.guards use std.retrieval use std.swipe use std.tunnel whisker {right}, {left}
+        "machine m use std.guards use std.mounting use std.retrieval use std.swipe use std.tunnel whisker {right}, {left}
         initial Doing state Doing {{ {does} }}"
     );
     let source = Source::new("m.fsm", text);

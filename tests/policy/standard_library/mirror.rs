@@ -14,12 +14,13 @@ prop_compose! {
     fn felt()(
         (x, y, heading) in (-1.0..1.0_f64, -1.0..1.0_f64, -PI..PI),
         bends in [3e-5..6e-4_f64, 3e-5..6e-4_f64], senses in any::<[bool; 2]>(), direction in -PI..PI, between in -2.5..2.5_f64,
+        mounting in 0.5..2.5_f64,
     ) -> Felt {
         let whisker = |index: usize| {
             let deflection = if senses[index] { bends[index] } else { -bends[index] };
             Whisker { deflection, tangent: unit(direction + between * index as f64), ready: true }
         };
-        Felt { body: Pose { position: Point2::new(x, y), heading }, whiskers: [whisker(0), whisker(1)] }
+        Felt { body: Pose { position: Point2::new(x, y), heading }, whiskers: [whisker(0), whisker(1)], mounting }
     }
 }
 

@@ -4,5 +4,6 @@ mod felt;
 mod guard;
 mod law;
 mod mirror;
+mod mounting;
 mod retrieval;
 mod swiping;

@@ -21,8 +21,23 @@ pub(super) struct Page {
     pub(super) body: fn(&[Json]) -> Result<String, NoKey>,
 }
 
+/// The arguments of the runs with the array of the thesis under a policy in a simulator.
+macro_rules! thesis_array {
+    ($policy:literal, $world:literal) => {
+        concat!(
+            "run scenarios/more/thesis-array-disk.yaml scenarios/more/thesis-array-octagon.yaml ",
+            "scenarios/more/thesis-array-box.yaml scenarios/more/thesis-array-wall.yaml ",
+            "scenarios/more/thesis-array-smooth-tunnel.yaml --policy policies/",
+            $policy,
+            ".fsm --world ",
+            $world,
+            " --json"
+        )
+    };
+}
+
 /// All pages.
-pub(super) const PAGES: [Page; 11] = [
+pub(super) const PAGES: [Page; 12] = [
     Page {
         name: "bench",
         title: "Results of the bench",
@@ -76,6 +91,22 @@ pub(super) const PAGES: [Page; 11] = [
         has_times: false,
         is_slow: false,
         body: tables::policies,
+    },
+    Page {
+        name: "thesis-array",
+        title: "Results of the array of the thesis",
+        about: "Scenes with the [array of the thesis](../rig.md#the-array-of-the-thesis), whose whiskers point forward, in both [simulators](../worlds.md).",
+        commands: &[
+            thesis_array!("thesis", "mujoco"),
+            thesis_array!("vibrissa", "mujoco"),
+            thesis_array!("array", "mujoco"),
+            thesis_array!("thesis", "quasistatic"),
+            thesis_array!("vibrissa", "quasistatic"),
+            thesis_array!("array", "quasistatic"),
+        ],
+        has_times: false,
+        is_slow: false,
+        body: tables::thesis_array,
     },
     Page {
         name: "worlds",

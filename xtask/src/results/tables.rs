@@ -193,6 +193,15 @@ pub(super) fn policies(outputs: &[Json]) -> Result<String, NoKey> {
     Ok(page + &format!("\n## Comparison from displaced starts\n\n{about}\n\n{}", table(&figures, &columns)?))
 }
 
+pub(super) fn thesis_array(outputs: &[Json]) -> Result<String, NoKey> {
+    let runs: Vec<Json> = outputs.iter().flat_map(Json::items).cloned().collect();
+    let world = [Column("simulator", "world", Plain)];
+    let errors = [&RUN[..2], &world, &RUN[2..], &ERRORS].concat();
+    let corners = [&CORNERS[..2], &world, &CORNERS[2..]].concat();
+    let cornered = those(&runs, |run| Ok(number(run, "corners.traced")? > 0.0))?;
+    Ok(format!("\n{}\n## Corners\n\n{}", table(&runs, &errors)?, table(cornered, &corners)?))
+}
+
 /// A figure of a comparison, with the ends of its interval as keys.
 fn with_ends(figure: &Json) -> Result<Json, NoKey> {
     let interval = value(figure, "difference.interval")?.items();
