@@ -105,6 +105,7 @@ extern crate alloc;
 
 pub mod built_in;
 pub mod calibration;
+pub mod catalogue;
 mod command;
 pub mod diagnostic;
 #[cfg(feature = "lsp")]
@@ -118,6 +119,7 @@ pub mod mujoco;
 pub mod outline;
 pub mod physics;
 pub mod policy;
+mod property;
 pub mod quasi_static;
 pub mod report;
 pub mod results;

@@ -10,6 +10,7 @@ use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
 use crate::load::LoadError;
 use crate::policy::chart::UnknownState;
+use crate::property::RegressionsError;
 use crate::report::ChartTooLarge;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
@@ -38,6 +39,14 @@ pub(super) enum Failure {
     #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
     NoSuchTest { filter: String },
     #[error(transparent)]
+    Regressions(#[from] RegressionsError),
+    #[error(
+        "the property \"{title}\" has no scene: in every case the rig touches an object at its start, or objects overlap; choose other ranges"
+    )]
+    NoScenes { title: String },
+    #[error("no case could be drawn: {0}; this is a fault of the program, please report it")]
+    NoCase(String),
+    #[error(transparent)]
     NoWhisker(UnknownWhisker),
     #[error(
         "{count} tip contacts are too few, or at too few positions; give at least {MIN_POSITIONS} positions, distributed over the plane"
@@ -65,10 +74,10 @@ pub(super) enum Failure {
     NoSuchFamily { name: String },
     #[error("scenes of families set the policy's parameters: {0}")]
     FamilySetting(SetError),
-    #[error(
-        "--set: families sample the speed of every scene; for another speed print a scene with --print, and run it: vibrissa run FILE --set \"speed=...\""
-    )]
+    #[error("--set: families set the speed of every scene; for one speed, give --with \"speed=5 cm/s\"")]
     DrawnSpeed,
+    #[error("--with: `{name}` of `{family}`: {cause}")]
+    FamilyValue { family: &'static str, name: String, cause: String },
     #[error(transparent)]
     NoDraw(#[from] NoDraw),
     #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
@@ -157,7 +166,7 @@ impl Failure {
 
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Json(_) | Self::NoDraw(_) | Self::Answer(_) => Exit::Internal,
+            Self::Json(_) | Self::NoDraw(NoDraw::Random { .. }) | Self::NoCase(_) | Self::Answer(_) => Exit::Internal,
             _ => Exit::Unusable,
         }
     }

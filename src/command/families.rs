@@ -9,7 +9,7 @@ use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, Settings, WorldOptions};
+use super::options::{FamilyValues, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
 use super::values::{parse_runs, parse_seed};
@@ -35,6 +35,8 @@ pub(super) struct FamiliesArguments {
     policy: Option<PathBuf>,
     #[command(flatten)]
     settings: Settings,
+    #[command(flatten)]
+    values: FamilyValues,
     /// Number of scenes of each family, from 1 to 100000
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = parse_runs)]
     count: u64,
@@ -102,7 +104,7 @@ fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
     let numbers: Vec<u64> = arguments.trial.map_or_else(|| (0..arguments.count).collect(), |trial| vec![trial]);
     let keys: Vec<_> = families.iter().flat_map(|family| numbers.iter().map(move |&trial| (family, trial))).collect();
     let draw = |&(family, trial): &(&Family, u64)| {
-        let draw = family.draw(arguments.seed, trial)?;
+        let draw = family.draw_with(arguments.seed, trial, &arguments.values.of(family)?)?;
         Ok(Drawn { family: family.name, number: trial, draw })
     };
     in_parallel(&keys, arguments.jobs.threads(), draw, |_| ()).into_iter().collect()

@@ -32,6 +32,7 @@ mod schema;
 mod stress;
 mod sweep;
 mod test;
+mod test_property;
 mod timing;
 mod trials;
 mod values;

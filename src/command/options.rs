@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::output;
 use super::values::{parse_friction, parse_jobs};
 use crate::built_in::{POLICIES, TextFile};
+use crate::family::{Family, Values};
 use crate::file::CommandFiles;
 use crate::load::{self, Loaded, Policy, with_settings};
 use crate::scene::{Scene, WorldKind, WorldSetup};
@@ -147,6 +148,43 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
     let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
     Ok(Setting { name: name.trim().to_owned(), value })
+}
+
+/// Values of parameters of families.
+#[derive(Debug, Args)]
+pub(super) struct FamilyValues {
+    /// Set a parameter of the families, with its unit: --with "angle=40 deg". The others are sampled
+    #[arg(long = "with", value_name = "NAME=VALUE", value_parser = parse_setting)]
+    values: Vec<Setting>,
+}
+
+impl FamilyValues {
+    /// The values for a family.
+    ///
+    /// # Errors
+    /// [`Failure`] if the family does not have such a parameter, or not such a value.
+    pub(super) fn of(&self, family: &Family) -> Result<Values, Failure> {
+        let value = |Setting { name, value }: &Setting| {
+            let fault = |cause| Failure::FamilyValue { family: family.name, name: name.clone(), cause };
+            let parameter = family.parameters.iter().find(|parameter| parameter.name == name);
+            let Some(parameter) = parameter else {
+                let names: Vec<_> = family.parameters.iter().map(|parameter| parameter.name).collect();
+                return Err(fault(format!("there is no such parameter; there are {}", names.join(", "))));
+            };
+            if value.dimension != parameter.dimension {
+                return Err(fault(format!(
+                    "write {}, such as \"{}\"",
+                    parameter.dimension.phrase(),
+                    parameter.text(parameter.simplest)
+                )));
+            }
+            match parameter.fault(value.value_si) {
+                Some(cause) => Err(fault(cause)),
+                None => Ok((parameter.name, value.value_si)),
+            }
+        };
+        self.values.iter().map(value).collect()
+    }
 }
 
 /// Several policies, by default those of the bench.

@@ -1,4 +1,4 @@
-//! `vibrissa test`
+//! `vibrissa test`: tests and properties of policies
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,17 +10,20 @@ use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::WorldOption;
+use super::options::{Jobs, WorldOption};
 use super::output;
+use super::progress::Progress;
+use super::test_property::{self, CasesTried, Property, SearchOptions, Tried};
 use super::trials::{self, ReportFiles, inputs, make_directory, run_with_bar};
-use crate::diagnostic::{Diagnostic, Record, Source, records};
-use crate::file::CommandFiles;
+use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, LoadError, Loaded, Policy, PolicyText, with_settings};
-use crate::policy::PolicyTest;
+use crate::policy::{PolicyTest, TestScenes};
+use crate::property::Regressions;
 use crate::results::{Document, RunResult};
 use crate::trial::{Trial, violations};
 
-const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --world quasistatic --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa test`.
 #[derive(Debug, Args)]
@@ -29,20 +32,24 @@ pub(super) struct TestArguments {
     /// Policy files
     #[arg(value_name = "POLICY", required = true)]
     policies: Vec<PathBuf>,
-    /// Run only tests with this text in their title
+    /// Run only tests and properties with this text in their title
     #[arg(long, value_name = "TEXT")]
     filter: Option<String>,
     #[command(flatten)]
     world: WorldOption,
-    /// Write a picture and the result of every test's run into this directory
+    #[command(flatten)]
+    search: SearchOptions,
+    /// Write a picture and the result of every test's run into this directory, and of a property that fails also the scenario
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    jobs: Jobs,
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// The result of one test.
+/// The result of one test or property.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Tested {
@@ -51,61 +58,72 @@ pub(super) struct Tested {
     passed: bool,
     /// The expectations that do not hold.
     diagnostics: Vec<Record>,
-    result: RunResult,
+    /// The cases of a property. `null` for a test.
+    property: Option<CasesTried>,
+    /// The run of a test, or the simplest run that violates a property. `null` for a property that holds.
+    result: Option<RunResult>,
 }
 
 impl Document for Tested {
     const FORMAT: &'static str = "test";
 }
 
+/// The tests of one policy.
+struct Prepared<'a> {
+    source: Source,
+    tests: Vec<Runs<'a>>,
+    regressions: Regressions,
+}
+
+/// The runs of a test or a property.
+enum Runs<'a> {
+    Test(PolicyTest, Box<Trial>),
+    Property(Box<Property<'a>>),
+}
+
+impl Runs<'_> {
+    fn title(&self) -> &str {
+        match self {
+            Self::Test(test, _) => &test.title,
+            Self::Property(property) => property.title(),
+        }
+    }
+}
+
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     // An error in the last policy or scenario is reported before the first run.
-    let (mut prepared, mut files) = (Vec::new(), CommandFiles::new());
-    for path in &arguments.policies {
-        let Loaded { value: Policy { artifact, text }, hash } = load::policy(path, &mut files)?;
-        let text = text.ok_or_else(|| Failure::NoText { policy: path.clone() })?;
-        output::diagnostics(&text.source, &text.warnings);
-        let wanted =
-            |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
-        let trials = text.tests.iter().filter(wanted).map(|test| {
-            let trial = trial_of(path, &text, test, artifact.program.clone(), hash.clone(), arguments, &mut files)?;
-            Ok((test.clone(), trial))
-        });
-        let trials = trials.collect::<Result<Vec<_>, Failure>>()?;
-        prepared.push((text.source, trials));
-    }
-    let count: usize = prepared.iter().map(|(_, trials)| trials.len()).sum();
+    let mut files = CommandFiles::new();
+    let prepared = arguments.policies.iter().map(|path| prepare(path, arguments, &mut files));
+    let mut prepared = prepared.collect::<Result<Vec<_>, Failure>>()?;
+    let tests = || prepared.iter().flat_map(|policy| &policy.tests);
+    let count = tests().count();
     if let (0, Some(filter)) = (count, &arguments.filter) {
         return Err(Failure::NoSuchTest { filter: filter.clone() });
     }
     make_directory(arguments.out.as_deref())?;
-    let tests = prepared.iter().flat_map(|(_, trials)| trials);
-    let reports = (1..).zip(tests).map(|(number, (test, _))| {
-        let stem = arguments.out.as_ref().map(|directory| directory.join(file_name(number, &test.title)));
-        stem.map(|stem| ReportFiles::new(&stem, &mut files)).transpose()
+    let reports = (1..).zip(tests()).map(|(number, runs)| {
+        let stem = arguments.out.as_ref().map(|directory| directory.join(file_name(number, runs.title())));
+        stem.map(|stem| Report::new(&stem, runs, &mut files)).transpose()
     });
     let mut reports = reports.collect::<Result<Vec<_>, _>>()?.into_iter();
+    let properties = tests().filter(|runs| matches!(runs, Runs::Property(_))).count();
 
+    let mut progress = None;
     let mut tested = Vec::with_capacity(count);
-    for (source, trials) in &prepared {
-        for (test, trial) in trials {
-            let finished = run_with_bar(trial)?;
-            let result = trial.document(&finished);
-            let faults = violations(test, &trial.program, &finished);
-            if let Some(report) = reports.next().flatten() {
-                report.write(trial, &finished, &result)?;
-            }
-            if !arguments.json {
-                print_verdict(source, test, &result, &faults)?;
-            }
-            tested.push(Tested {
-                file: source.name.clone(),
-                title: test.title.clone(),
-                passed: faults.is_empty(),
-                diagnostics: records(source, &faults),
-                result,
+    for Prepared { source, tests, regressions } in &mut prepared {
+        for runs in tests {
+            let report = reports.next().flatten();
+            tested.push(match runs {
+                Runs::Test(test, trial) => run_test(source, test, trial, report, arguments.json)?,
+                Runs::Property(property) => {
+                    let progress = progress.get_or_insert_with(|| Progress::new(properties * arguments.search.cases));
+                    run_property(source, property, regressions, report, arguments, progress)?
+                }
             });
         }
+    }
+    if let Some(progress) = progress {
+        progress.finish();
     }
     let failed = tested.iter().filter(|tested| !tested.passed).count();
     if arguments.json {
@@ -116,21 +134,124 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     Ok(if failed > 0 { Exit::Unexpected } else { Exit::Done })
 }
 
+/// Reads a policy and prepares its tests.
+fn prepare<'a>(path: &Path, arguments: &'a TestArguments, files: &mut CommandFiles) -> Result<Prepared<'a>, Failure> {
+    let Loaded { value: Policy { artifact, text }, hash } = load::policy(path, files)?;
+    let text = text.ok_or_else(|| Failure::NoText { policy: path.to_owned() })?;
+    output::diagnostics(&text.source, &text.warnings);
+    let wanted =
+        |test: &&PolicyTest| arguments.filter.as_ref().is_none_or(|filter| test.title.contains(filter.as_str()));
+    let mut tests = Vec::new();
+    for test in text.tests.iter().filter(wanted).cloned() {
+        let program = artifact.program.clone();
+        tests.push(match &test.scenes {
+            TestScenes::Scenario { file, span } => {
+                let file = (file.as_str(), *span);
+                let trial = trial_of(path, &text, file, &test, program, hash.clone(), arguments, files)?;
+                Runs::Test(test, Box::new(trial))
+            }
+            TestScenes::Family { entry, ranges } => {
+                let scenes = (*entry, ranges.clone());
+                Runs::Property(Box::new(Property::new(test, scenes, program, hash.clone(), &arguments.world)?))
+            }
+        });
+    }
+    Ok(Prepared { source: text.source, tests, regressions: Regressions::read(path, files)? })
+}
+
+/// The files for the report of a test, and the scenario of a property.
+struct Report {
+    files: ReportFiles,
+    scenario: Option<Output>,
+}
+
+impl Report {
+    fn new(stem: &Path, runs: &Runs<'_>, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let scenario = match runs {
+            Runs::Test(..) => None,
+            Runs::Property(_) => Some(files.output("--out", &trials::extended(stem, "yaml"))?),
+        };
+        Ok(Self { files: ReportFiles::new(stem, files)?, scenario })
+    }
+}
+
+/// Runs a test and prints its verdict.
+fn run_test(
+    source: &Source,
+    test: &PolicyTest,
+    trial: &Trial,
+    report: Option<Report>,
+    json: bool,
+) -> Result<Tested, Failure> {
+    let finished = run_with_bar(trial)?;
+    let result = trial.document(&finished);
+    let faults = violations(test, &trial.program, &finished);
+    if let Some(report) = report {
+        report.files.write(trial, &finished, &result)?;
+    }
+    if !json {
+        print_verdict(source, test, &result, &faults)?;
+    }
+    Ok(Tested {
+        file: source.name.clone(),
+        title: test.title.clone(),
+        passed: faults.is_empty(),
+        diagnostics: records(source, &faults),
+        property: None,
+        result: Some(result),
+    })
+}
+
+/// Tries the cases of a property, prints its verdict, and keeps a case that failed for the first time.
+fn run_property(
+    source: &Source,
+    property: &Property<'_>,
+    regressions: &mut Regressions,
+    report: Option<Report>,
+    arguments: &TestArguments,
+    progress: &mut Progress,
+) -> Result<Tested, Failure> {
+    let TestArguments { search, jobs, json, .. } = arguments;
+    let Tried { cases, failing } = property.run(regressions, *search, *jobs, progress)?;
+    if !json {
+        test_property::print_verdict(source, property, &cases, failing.as_ref())?;
+    }
+    if let (Some(failing), Some(Report { files, scenario })) = (&failing, report) {
+        files.write(&failing.trial, &failing.finished, &failing.result)?;
+        scenario.map(|file| file.write(failing.scenario.as_str())).transpose()?;
+    }
+    if let Some(failing) = failing.as_ref().filter(|failing| failing.is_new && !search.no_keep) {
+        regressions.keep(property.title(), property.family(), &failing.case)?;
+        output::message(format_args!("this case is kept in {}", regressions.path().display()));
+    }
+    let faults = failing.as_ref().map(|failing| failing.faults.as_slice()).unwrap_or_default();
+    Ok(Tested {
+        file: source.name.clone(),
+        title: property.title().to_owned(),
+        passed: failing.is_none(),
+        diagnostics: records(source, faults),
+        property: Some(cases),
+        result: failing.map(|failing| failing.result),
+    })
+}
+
 /// Prepares the run of a test.
+#[expect(clippy::too_many_arguments, reason = "it has one caller")]
 fn trial_of(
     policy: &Path,
     text: &PolicyText,
+    (file, span): (&str, Span),
     test: &PolicyTest,
     mut program: Program,
     policy_hash: Sha256,
     arguments: &TestArguments,
     files: &mut CommandFiles,
 ) -> Result<Trial, Failure> {
-    let path = policy.parent().unwrap_or(Path::new("")).join(&test.scenario);
+    let path = policy.parent().unwrap_or(Path::new("")).join(file);
     let Loaded { value: scene, hash } = load::scenario(&path, files).map_err(|failure| match failure {
         LoadError::Read { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
-            let fault = Diagnostic::error("P0702", message, test.scenario_span, "this scenario")
+            let fault = Diagnostic::error("P0702", message, span, "this scenario")
                 .hint("a path starts from the folder of the policy");
             LoadError::at(&text.source, fault)
         }

@@ -16,6 +16,8 @@ const JOBS_PER_PROCESSOR: usize = 32;
 const MAX_REPEATS: usize = 1000;
 /// Largest number of scenes of a family, and of runs of a scenario.
 const MAX_RUNS: u64 = 100_000;
+/// Largest number of cases of a property.
+const MAX_CASES: usize = 100_000;
 /// Largest deviation of starts (m), larger than any scene.
 const MAX_JITTER: f64 = 10.0;
 
@@ -38,6 +40,11 @@ pub(super) fn parse_repeats(text: &str) -> Result<usize, String> {
 /// Number of scenes of a family, or of runs of a scenario.
 pub(super) fn parse_runs(text: &str) -> Result<u64, String> {
     parse_whole(text, 1..=MAX_RUNS)
+}
+
+/// Number of cases of a property.
+pub(super) fn parse_cases(text: &str) -> Result<usize, String> {
+    parse_whole(text, 1..=MAX_CASES)
 }
 
 /// Number of levels of states.

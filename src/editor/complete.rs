@@ -42,7 +42,7 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
         CandidateKind::Function => CompletionItemKind::Function,
         CandidateKind::Member => CompletionItemKind::Field,
         CandidateKind::Type => CompletionItemKind::Struct,
-        CandidateKind::Module => CompletionItemKind::Module,
+        CandidateKind::Module | CandidateKind::Family => CompletionItemKind::Module,
         CandidateKind::Unit => CompletionItemKind::Unit,
         CandidateKind::Symbol(SymbolKind::State) => CompletionItemKind::Class,
         CandidateKind::Symbol(SymbolKind::Law) => CompletionItemKind::Method,

@@ -1,46 +1,32 @@
 //! A concave corner.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
-use super::Family;
-use super::layout::{Aim, FORWARD_FACING, Layout, polygon};
+use super::layout::{self, Aim, FORWARD_FACING, Layout};
 use super::position::{along, beside};
 use super::sampler::Sampler;
-use crate::geometry::{Vector2, perpendicular, unit};
+use crate::catalogue::common::{SIDE, TILT};
+use crate::catalogue::concave_corner::{ANGLE, FIRST, SECOND, THICKNESS};
+use crate::geometry::{concave_corner, rotate};
 
-pub(super) const FAMILY: Family =
-    Family { name: "concave-corner", about: "an L-shaped bar with an inner corner of 15° to 75°", lay };
-
-fn lay(sampler: &mut Sampler) -> Layout {
-    let turn = sampler.between(15.0, 75.0) / 180.0 * PI;
-    let hand = sampler.side();
-    let tilt = sampler.between(-0.17, 0.17);
-    let (first, second) = (sampler.between(0.4, 0.55), sampler.between(0.25, 0.4));
-    let thickness = sampler.between(0.15, 0.25);
+/// Lays out a scene.
+pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
+    let turn = sampler.number(&ANGLE);
+    let hand = sampler.side(&SIDE);
+    let tilt = sampler.number(&TILT);
+    let (first, second) = (sampler.number(&FIRST), sampler.number(&SECOND));
+    let thickness = sampler.number(&THICKNESS);
     // Along the first side to the corner, and from there towards the platform.
-    let (into, out) = (unit(FRAC_PI_2 + tilt), unit(FRAC_PI_2 + tilt + turn));
-    let right = |along: Vector2| -thickness * perpendicular(along);
-    let corners = [
-        Vector2::zeros(),
-        second * out,
-        second * out + right(out),
-        thickness * displaced_corner(into, out),
-        right(into) - first * into,
-        -first * into,
-    ];
-    let flank = [Vector2::zeros(), -first * into];
+    let corners = concave_corner(turn, first, second, thickness).map(|corner| rotate(corner, FRAC_PI_2 + tilt));
+    let flank = [corners[0], corners[5]];
+    let corner = along(sampler, hand, &corners, &flank)[0];
+    let object = layout::concave_corner(corner, FRAC_PI_2 + hand * tilt, hand * turn, [first, second, thickness]);
     Layout {
         about: format!("an inner corner that turns by {:.1}°", turn.to_degrees()),
-        objects: vec![polygon(&along(sampler, hand, &corners, &flank))],
+        objects: vec![object],
         start: beside(hand),
         aim: Aim::Loop,
         path_length: 2.0 * (first + second + thickness),
         rig: FORWARD_FACING,
     }
-}
-
-/// The vector from the corner between two directions to the corner of their lines displaced by a metre to the right.
-fn displaced_corner(into: Vector2, out: Vector2) -> Vector2 {
-    let (before, after) = (-perpendicular(into), -perpendicular(out));
-    (before + after) / (1.0 + before.dot(&after))
 }

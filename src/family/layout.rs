@@ -107,6 +107,30 @@ pub(super) fn polygon(corners: &[Point2]) -> String {
     format!("polygon: {{vertices: [{}]}}", corners.join(", "))
 }
 
+/// A convex corner at this position (m) as an object. It points along `heading` (rad).
+pub(super) fn convex_corner(corner: Point2, heading: f64, angle: f64, side: f64, back: f64) -> String {
+    format!(
+        "convex_corner: {{corner: {}, heading: {}, angle: {}, side: {}, back: {}}}",
+        point(corner),
+        degrees(heading),
+        degrees(angle),
+        metres(side),
+        metres(back)
+    )
+}
+
+/// A concave corner at this position (m) as an object. Its first side has this `heading` (rad). `sizes` are the lengths
+/// of both sides and the thickness (m).
+pub(super) fn concave_corner(corner: Point2, heading: f64, angle: f64, sizes: [f64; 3]) -> String {
+    let [first, second, thickness] = sizes.map(metres);
+    format!(
+        "concave_corner: {{corner: {}, heading: {}, angle: {}, first: {first}, second: {second}, thickness: {thickness}}}",
+        point(corner),
+        degrees(heading),
+        degrees(angle)
+    )
+}
+
 /// A circle as an object.
 pub(super) fn circle(centre: Point2, radius: f64) -> String {
     format!("circle: {{centre: {}, radius: {}}}", point(centre), metres(radius))

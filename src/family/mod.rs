@@ -1,7 +1,7 @@
 //! Families of random scenes, with geometry that no policy was tuned for.
 //!
 //! A scene is the text of a scenario and is read as any other. Thus it is checked, can be printed and can be run by
-//! itself. It depends only on the family's name, the seed and its number.
+//! itself. It depends only on the family's name, the seed, its number, and explicit values of parameters.
 
 mod concave_corner;
 mod convex_corner;
@@ -17,12 +17,15 @@ mod tally;
 mod thin_wall;
 mod tunnel_mouth;
 mod two_objects;
+mod values;
 mod zigzag_tunnel;
 
 pub use draw::{Draw, NoDraw, SPEEDS};
 pub(crate) use run::FamilyRun;
 pub(crate) use tally::FamilyTally;
+pub use values::Values;
 
+use crate::catalogue::{self, Entry, Parameter};
 use layout::Layout;
 use sampler::Sampler;
 
@@ -33,17 +36,31 @@ pub struct Family {
     pub name: &'static str,
     /// Description of its scenes.
     pub about: &'static str,
-    lay: fn(&mut Sampler) -> Layout,
+    /// Its parameters. Together they determine a scene.
+    pub parameters: &'static [Parameter],
+    lay: fn(&mut Sampler<'_>) -> Layout,
+}
+
+impl Family {
+    const fn new(entry: &Entry, lay: fn(&mut Sampler<'_>) -> Layout) -> Self {
+        Self { name: entry.name, about: entry.about, parameters: entry.parameters, lay }
+    }
+
+    /// The family with this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        FAMILIES.into_iter().find(|family| family.name == name)
+    }
 }
 
 /// All families.
 pub const FAMILIES: [Family; 8] = [
-    convex_corner::FAMILY,
-    concave_corner::FAMILY,
-    smooth_curve::FAMILY,
-    polygon::FAMILY,
-    thin_wall::FAMILY,
-    two_objects::FAMILY,
-    zigzag_tunnel::FAMILY,
-    tunnel_mouth::FAMILY,
+    Family::new(&catalogue::convex_corner::ENTRY, convex_corner::lay),
+    Family::new(&catalogue::concave_corner::ENTRY, concave_corner::lay),
+    Family::new(&catalogue::smooth_curve::ENTRY, smooth_curve::lay),
+    Family::new(&catalogue::polygon::ENTRY, polygon::lay),
+    Family::new(&catalogue::thin_wall::ENTRY, thin_wall::lay),
+    Family::new(&catalogue::two_objects::ENTRY, two_objects::lay),
+    Family::new(&catalogue::zigzag_tunnel::ENTRY, zigzag_tunnel::lay),
+    Family::new(&catalogue::tunnel_mouth::ENTRY, tunnel_mouth::lay),
 ];

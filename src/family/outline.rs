@@ -3,17 +3,24 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::sampler::Sampler;
+use crate::catalogue::Parameter;
 use crate::geometry::{Vector2, unit};
 
 /// Number of points of an arc.
 const POINTS: u32 = 32;
 
 /// The corners of a random convex polygon around the origin, counter-clockwise. They are on a circle, with a least
-/// distance between neighbours.
-pub(super) fn convex_polygon(sampler: &mut Sampler, radius: f64, corners: u32) -> Vec<Vector2> {
-    let (phase, step) = (sampler.between(0.0, TAU), TAU / f64::from(corners));
-    let angle = |k: u32, sampler: &mut Sampler| phase + step * (f64::from(k) + sampler.between(-0.3, 0.3));
-    (0..corners).map(|k| radius * unit(angle(k, sampler))).collect()
+/// distance between neighbours. `phase` is the direction of the first one, `shifts` are displacements of the corners.
+pub(super) fn convex_polygon(
+    sampler: &mut Sampler<'_>,
+    radius: f64,
+    corners: u32,
+    phase: &Parameter,
+    shifts: &[Parameter],
+) -> Vec<Vector2> {
+    let (phase, step) = (sampler.number(phase), TAU / f64::from(corners));
+    let corner = |(k, shift)| radius * unit(phase + step * (f64::from(k) + sampler.number(shift)));
+    (0..corners).zip(shifts).map(corner).collect()
 }
 
 /// Points on a circle around the origin.

@@ -2,30 +2,27 @@
 
 use std::f64::consts::TAU;
 
-use super::Family;
 use super::layout::{Aim, Layout, REFERENCE, rounded_polygon};
 use super::outline::{convex_polygon, rounded, turn};
 use super::position::{ahead, beside};
 use super::sampler::Sampler;
+use crate::catalogue::Parameter;
+use crate::catalogue::common::SIDE;
+use crate::catalogue::polygon::{CORNERS, PHASE, RADIUS, ROUNDINGS, SHIFTS};
 use crate::geometry::Vector2;
-
-pub(super) const FAMILY: Family = Family {
-    name: "polygon",
-    about: "a convex polygon of 3 to 8 corners, each sharp or, if the sides are long enough, rounded by 2 to 10 cm",
-    lay,
-};
 
 /// Largest share of a side that its two rounded corners replace.
 const ROUNDED: f64 = 0.8;
 
-fn lay(sampler: &mut Sampler) -> Layout {
-    let hand = sampler.side();
-    let radius = sampler.between(0.2, 0.35);
-    let count = sampler.count(3, 8);
-    let corners = convex_polygon(sampler, radius, count);
+/// Lays out a scene.
+pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
+    let hand = sampler.side(&SIDE);
+    let radius = sampler.number(&RADIUS);
+    let count = sampler.whole(&CORNERS);
+    let corners = convex_polygon(sampler, radius, count, &PHASE, &SHIFTS);
     // The first corner stays sharp: the outline begins there.
-    let radii: Vec<f64> =
-        (0..corners.len()).map(|k| if k == 0 { 0.0 } else { rounding(sampler, &corners, k) }).collect();
+    let others = (1..corners.len()).zip(&ROUNDINGS).map(|(k, parameter)| rounding(sampler, &corners, k, parameter));
+    let radii: Vec<f64> = std::iter::once(0.0).chain(others).collect();
     let centre = ahead(sampler, hand, &rounded(&corners, &radii));
     let arcs = radii.iter().filter(|radius| **radius > 0.0).count();
     Layout {
@@ -38,10 +35,13 @@ fn lay(sampler: &mut Sampler) -> Layout {
     }
 }
 
-/// The radius (m) of a corner. Every other corner is rounded, the rest have 0.
-fn rounding(sampler: &mut Sampler, corners: &[Vector2], k: usize) -> f64 {
+/// The radius (m) of a corner. Of random corners every other one is rounded, the rest have 0.
+fn rounding(sampler: &mut Sampler<'_>, corners: &[Vector2], k: usize, parameter: &Parameter) -> f64 {
     let (into, out, turn) = turn(corners, k);
     let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / (0.5 * turn).tan();
-    let wanted = sampler.between(0.02, 0.1);
-    if sampler.count(0, 1) == 0 || room < 0.02 { 0.0 } else { wanted.min(room) }
+    let wanted = sampler.number_or(parameter, |sampler| {
+        let radius = sampler.between(0.02, 0.1);
+        if sampler.count(0, 1) == 0 { 0.0 } else { radius }
+    });
+    if room < 0.02 { 0.0 } else { wanted.min(room) }
 }

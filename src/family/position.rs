@@ -6,6 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::sampler::Sampler;
+use crate::catalogue::common::{AHEAD, ASIDE, FLANK_AHEAD, MOUTH_AHEAD};
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit};
 
 /// Position of the platform's centre of mass at the mean start (m), as in the baseline's scenes.
@@ -15,15 +16,7 @@ const START: Point2 = Point2::new(0.0, 0.072);
 const INCLINATION: f64 = 0.35;
 
 /// Lateral distance (m) between the start and a flank that is parallel to the platform's path.
-const ASIDE: f64 = 0.19;
-
-/// Distance (m) between the start and the nearest point of an object ahead, along the platform's path. Neither nose nor
-/// whiskers reach as far from any start.
-const AHEAD: (f64, f64) = (0.16, 0.25);
-
-/// Lateral distance (m) between the path of the platform's centre of mass and the object. A whisker reaches 127 mm to
-/// the side, the body at most 60 mm.
-const GAP: (f64, f64) = (0.085, 0.115);
+const FLANK_ASIDE: f64 = 0.19;
 
 /// The start in front of a tunnel.
 pub(super) fn before() -> Pose {
@@ -37,24 +30,24 @@ pub(super) fn beside(hand: f64) -> Pose {
 
 /// Moves an object on the right to where the platform meets its `flank`, corners of a side parallel to the platform's
 /// path. For the left, the result is the mirror image.
-pub(super) fn along(sampler: &mut Sampler, hand: f64, corners: &[Vector2], flank: &[Vector2]) -> Vec<Point2> {
+pub(super) fn along(sampler: &mut Sampler<'_>, hand: f64, corners: &[Vector2], flank: &[Vector2]) -> Vec<Point2> {
     let lowest = corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
     let nearest = flank.iter().map(|corner| corner.x).fold(f64::INFINITY, f64::min);
-    let to = Vector2::new(ASIDE - nearest, sampler.between(0.05, 0.12) - lowest);
+    let to = Vector2::new(FLANK_ASIDE - nearest, sampler.number(&FLANK_AHEAD) - lowest);
     corners.iter().map(|corner| Point2::new(hand * (corner.x + to.x), corner.y + to.y)).collect()
 }
 
 /// The position of the origin of an object on the right or left, given by points of its outline. Straight ahead from
 /// the start beside it, a whisker touches it and the body does not.
-pub(super) fn ahead(sampler: &mut Sampler, hand: f64, outline: &[Vector2]) -> Point2 {
+pub(super) fn ahead(sampler: &mut Sampler<'_>, hand: f64, outline: &[Vector2]) -> Point2 {
     let forward = unit(beside(hand).heading);
     let aside = -hand * perpendicular(forward);
     let least = |direction: Vector2| outline.iter().map(|point| direction.dot(point)).fold(f64::INFINITY, f64::min);
-    let ahead = sampler.between(AHEAD.0, AHEAD.1) - least(forward);
-    START + ahead * forward + (sampler.between(GAP.0, GAP.1) - least(aside)) * aside
+    let ahead = sampler.number(&AHEAD) - least(forward);
+    START + ahead * forward + (sampler.number(&ASIDE) - least(aside)) * aside
 }
 
 /// The mouth of a tunnel in front of the start, and its direction.
-pub(super) fn mouth(sampler: &mut Sampler) -> Pose {
-    Pose { position: Point2::new(0.0, START.y + AHEAD.0 + sampler.between(0.0, 0.04)), heading: FRAC_PI_2 }
+pub(super) fn mouth(sampler: &mut Sampler<'_>) -> Pose {
+    Pose { position: Point2::new(0.0, START.y + sampler.number(&MOUTH_AHEAD)), heading: FRAC_PI_2 }
 }

@@ -1,18 +1,13 @@
 //! Random smooth closed curves.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use super::Family;
 use super::layout::{Aim, Layout, REFERENCE, polar};
 use super::position::{ahead, beside};
 use super::sampler::Sampler;
+use crate::catalogue::common::SIDE;
+use crate::catalogue::smooth_curve::{PHASES, RADIUS, WAVES};
 use crate::geometry::{Harmonic, Vector2, unit};
-
-pub(super) const FAMILY: Family = Family {
-    name: "smooth-curve",
-    about: "a smooth closed curve with up to five bulges, and radii of at least 8 cm outwards and 25 cm inwards",
-    lay,
-};
 
 /// Largest curvature of a convex part (1/m). A tip that slides around it does not snap off.
 const MAX_CONVEX: f64 = 1.0 / 0.08;
@@ -25,13 +20,15 @@ const ANGLES: u32 = 720;
 /// Factor of the harmonics each time that the curvature is too large.
 const FLATTER: f64 = 0.95;
 
-fn lay(sampler: &mut Sampler) -> Layout {
-    let hand = sampler.side();
-    let radius = sampler.between(0.2, 0.35);
-    let mut harmonics: Vec<Harmonic> = (2..=5)
-        .map(|order| {
-            let amplitude = sampler.between(0.0, 0.4) * radius / f64::from(order);
-            Harmonic { order, amplitude, phase: sampler.between(-PI, PI) }
+/// Lays out a scene.
+pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
+    let hand = sampler.side(&SIDE);
+    let radius = sampler.number(&RADIUS);
+    let waves = (2..).zip(WAVES.iter().zip(&PHASES));
+    let mut harmonics: Vec<Harmonic> = waves
+        .map(|(order, (wave, phase))| {
+            let amplitude = sampler.number(wave) * radius / f64::from(order);
+            Harmonic { order, amplitude, phase: sampler.number(phase) }
         })
         .collect();
     let mut curvatures = curvatures(radius, &harmonics);

@@ -1,17 +1,16 @@
 //! Free-standing thin walls.
 
-use super::Family;
 use super::layout::{Aim, Layout, REFERENCE, polygon};
 use super::position::{along, beside};
 use super::sampler::Sampler;
+use crate::catalogue::common::{SIDE, TILT};
+use crate::catalogue::thin_wall::{LENGTH, THICKNESS};
 use crate::geometry::{Vector2, rotate};
 
-pub(super) const FAMILY: Family =
-    Family { name: "thin-wall", about: "a free-standing straight wall, 2 to 20 mm thick", lay };
-
-fn lay(sampler: &mut Sampler) -> Layout {
-    let (length, thickness) = (sampler.between(0.3, 0.6), sampler.between(2e-3, 0.02));
-    let (hand, tilt) = (sampler.side(), sampler.between(-0.17, 0.17));
+/// Lays out a scene.
+pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
+    let (length, thickness) = (sampler.number(&LENGTH), sampler.number(&THICKNESS));
+    let (hand, tilt) = (sampler.side(&SIDE), sampler.number(&TILT));
     let (across, down) = (Vector2::new(thickness, 0.0), Vector2::new(0.0, -length));
     let corners = [Vector2::zeros(), down, down + across, across].map(|corner| rotate(corner, tilt));
     Layout {

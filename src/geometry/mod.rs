@@ -43,8 +43,8 @@ pub use sample::ContourPoint;
 pub use segment::Segment;
 pub(crate) use shapes::polar_curve_pieces;
 pub use shapes::{
-    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, polar_curve, polygon,
-    regular_polygon, rounded_rectangle,
+    CentreLine, Corners, Harmonic, Opening, Path, ShapeError, Tunnel, TunnelAxis, circle, concave_corner,
+    convex_corner, polar_curve, polygon, regular_polygon, rounded_rectangle,
 };
 pub use strip::{Side, Strip, StripError};
 pub use union::{TOUCHING, UnionError, United, unite};

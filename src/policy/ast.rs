@@ -192,13 +192,31 @@ pub(super) struct Target {
     pub(super) span: Span,
 }
 
-/// `test "title" in "scenario" { set name = value  expect truth }`
+/// `test "title" in "scenario" { set name = value  expect truth }`, or a property with the same braces
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Test {
     pub(super) title: Name,
-    pub(super) scenario: Name,
+    pub(super) scenes: TestScenes,
     pub(super) settings: Vec<(Name, Bound)>,
     pub(super) expectations: Vec<Expression>,
+}
+
+/// The scenes of a test.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum TestScenes {
+    /// `in "scenario"`
+    Scenario(Name),
+    /// `over family(ranges)`
+    Family { family: Name, ranges: Vec<Range> },
+}
+
+/// `name in low .. high`, `name = value`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Range {
+    pub(super) name: Name,
+    pub(super) low: Bound,
+    /// `None` for one value.
+    pub(super) high: Option<Bound>,
 }
 
 #[derive(Debug, Clone, PartialEq)]

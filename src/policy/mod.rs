@@ -34,7 +34,7 @@ mod unit;
 
 pub use format::format;
 pub use load::Library;
-pub use test::{Expectation, PolicyTest, RunFigure};
+pub use test::{Expectation, ParameterRange, PolicyTest, RunFigure, TestScenes};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 use load::{Files, Loaded};

@@ -21,7 +21,7 @@ use super::parse_tree::{Pair, Pairs};
 use expression::{binary, climb};
 use reader::{Reader, values};
 use state::{state, target, variable};
-use test::test;
+use test::{property, test};
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
 
@@ -88,6 +88,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::state => state(&mut reader, None, &mut file.states)?,
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             Rule::test => file.tests.push(test(&mut reader)?),
+            Rule::property => file.tests.push(property(&mut reader)?),
             Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             Rule::memory => file.memory.push(variable(&mut reader)?),
             _ => {

@@ -151,6 +151,8 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test
+            | Rule::kw_property
+            | Rule::spanning
             | Rule::kw_expect
             | Rule::open
             | Rule::close

@@ -17,9 +17,9 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
-const ITEM_WORDS: [&str; 13] = [
-    "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "machine",
-    "library",
+const ITEM_WORDS: [&str; 14] = [
+    "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "property",
+    "machine", "library",
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];

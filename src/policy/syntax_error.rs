@@ -9,14 +9,14 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`)";
+const ITEM: &str = "an item (`use`, `whisker`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 11] =
-    ["machine", "library", "use", "whisker", "needs", "param", "initial", "law", "state", "always", "test"];
+const ITEM_WORDS: [&str; 12] =
+    ["machine", "library", "use", "whisker", "needs", "param", "initial", "law", "state", "always", "test", "property"];
 
 /// The diagnostic for an error of pest.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -232,7 +232,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::close => (0, "`)`"),
         Rule::bar if !is_value_due(among) => (0, "`|`"),
         Rule::comma => (1, "`,`"),
-        Rule::arguments | Rule::values => (1, "`(`"),
+        Rule::arguments | Rule::values | Rule::ranges => (1, "`(`"),
         Rule::open if !among.contains(&Rule::dot) && !is_value_due(among) => (1, "`(`"),
         Rule::kw_along => (0, "`along`"),
         Rule::kw_at => (0, "`at`"),
@@ -243,7 +243,9 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_of => (1, "`of`"),
         Rule::kw_else => (4, "`else`"),
         Rule::fitted => (0, "`fitted`"),
-        Rule::name | Rule::argument => (0, "a name"),
+        Rule::spanning => (0, "`over`"),
+        Rule::family => (0, "a family of scenes such as `convex-corner`"),
+        Rule::name | Rule::argument | Rule::range => (0, "a name"),
         Rule::target => (0, "the name of a state"),
         Rule::type_name => (0, "a type"),
         Rule::module => (0, "a module such as `std.swipe`"),
@@ -286,6 +288,8 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_state => "state",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
+        Rule::kw_property => "property",
+        Rule::spanning => "over",
         Rule::kw_expect => "expect",
         Rule::kw_failsafe => "failsafe",
         Rule::kw_when => "when",

@@ -1,5 +1,6 @@
 //! The tests of a policy: runs with expectations.
 
+use crate::catalogue::{Entry, Parameter};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
 use vibrissa_runtime::machine::{
@@ -7,18 +8,16 @@ use vibrissa_runtime::machine::{
 };
 use vibrissa_runtime::units::{Dimension, format_si};
 
-/// A run of a policy in a scenario, with its expectations.
+/// Runs of a policy, with their expectations: a test or a property.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolicyTest {
     /// The title.
     pub title: String,
-    /// The scenario's file, relative to the policy's.
-    pub scenario: String,
-    /// Span of the scenario's name.
-    pub scenario_span: Span,
+    /// The scenes.
+    pub scenes: TestScenes,
     /// The changed parameters, by index, with their values (SI).
     pub settings: Vec<(usize, f64)>,
-    /// The expectations of the run.
+    /// The expectations of each run.
     pub expectations: Vec<Expectation>,
 }
 
@@ -29,6 +28,36 @@ impl PolicyTest {
             program.initial_registers[parameter] = value;
         }
     }
+}
+
+/// The scenes of a test or a property.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TestScenes {
+    /// One scenario.
+    Scenario {
+        /// Its file, relative to the policy's.
+        file: String,
+        /// Span of its name.
+        span: Span,
+    },
+    /// All scenes of a family with parameters in these ranges.
+    Family {
+        /// The family.
+        entry: &'static Entry,
+        /// The ranges of all parameters of the family. Those that the property names come last, in its order.
+        ranges: Vec<ParameterRange>,
+    },
+}
+
+/// The values of a family's parameter in a property.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterRange {
+    /// The parameter.
+    pub parameter: &'static Parameter,
+    /// The least value (SI).
+    pub low: f64,
+    /// The greatest value (SI).
+    pub high: f64,
 }
 
 /// A condition that a run must fulfil.
@@ -54,6 +83,8 @@ pub(super) struct FigureRegister {
 /// A figure of a run that expectations can read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunFigure {
+    /// True if the run fulfils the expectations of its scenario.
+    Passed,
     /// True if the run completed.
     Completed,
     /// True if the policy failed.
@@ -93,7 +124,9 @@ pub enum RunFigure {
 impl RunFigure {
     fn show(self, value: f64) -> String {
         match self {
-            Self::Completed | Self::Failed | Self::TimedOut | Self::Diverged => (value > 0.5).to_string(),
+            Self::Passed | Self::Completed | Self::Failed | Self::TimedOut | Self::Diverged => {
+                (value > 0.5).to_string()
+            }
             _ if value.is_nan() => "not known".to_owned(),
             Self::Time | Self::TimeIn(_) | Self::CornerTimeMax => format_si(value, Dimension::TIME),
             Self::ErrorMean

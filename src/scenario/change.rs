@@ -6,6 +6,7 @@ use super::{fault, scene};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::scenario::Files;
 use crate::scene::Scene;
+use std::ops::Range;
 
 /// One value for a key of a scenario, such as `rig.physics.friction`.
 #[derive(Debug, Clone)]
@@ -15,7 +16,8 @@ pub(crate) struct Change {
 }
 
 impl Change {
-    /// Creates a change of the key at the end of `path` to `value`. The path consists of keys separated by points.
+    /// Creates a change of the key or item at the end of `path` to `value`. The path consists of keys separated by points,
+    /// and of numbers of list items in brackets: `objects[0].circle.radius`.
     pub(crate) fn new(path: Placed<String>, value: Placed<Node>) -> Self {
         Self { path, value }
     }
@@ -28,29 +30,110 @@ impl Change {
     /// Inserts the value into the tree of a scenario. Spans of the change are moved by `offset` bytes.
     fn apply(&self, reader: &mut Reader<'_>, tree: &mut Placed<Node>, offset: usize) {
         let start = self.path.span.start + offset;
-        let (mut node, mut behind) = (tree, 0);
-        let words: Vec<&str> = self.path.value.split('.').collect();
-        for (index, &word) in words.iter().enumerate() {
-            let key = Placed { value: word.to_owned(), span: Span::new(start + behind, start + behind + word.len()) };
-            behind += word.len() + 1;
-            let kind = node.value.kind();
-            let Node::Mapping(entries) = &mut node.value else {
-                let message = format!("`{}` has no keys that can be varied", words[..index].join("."));
-                let label = format!("it is {kind} in the scenario");
-                let fault = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, label);
-                reader.report(fault.hint("vary the value itself: list its values"));
-                return;
+        let mut node = tree;
+        for Step { kind, text, range } in steps(&self.path.value) {
+            let span = Span::new(start + range.start, start + range.end);
+            let found = match kind {
+                StepKind::Key => key(&mut node.value, text, span),
+                StepKind::Item => item(&mut node.value, text),
             };
-            let position = entries.iter().position(|entry| entry.key.value == word).unwrap_or_else(|| {
-                let value = Placed { value: Node::Mapping(Vec::new()), span: key.span };
-                entries.push(Entry { key: key.clone(), value });
-                entries.len() - 1
-            });
-            entries[position].key = key;
-            node = &mut entries[position].value;
+            match found {
+                Ok(found) => node = found,
+                Err((code, label, hint)) => {
+                    let outer = self.path.value.get(..range.start).unwrap_or_default().trim_end_matches(['.', '[']);
+                    let message = if outer.is_empty() {
+                        "the scenario has no keys".to_owned()
+                    } else {
+                        format!("`{outer}` has no {} `{text}` that can be varied", kind.name())
+                    };
+                    reader.report(Diagnostic::error(code, message, span, label).hint(hint));
+                    return;
+                }
+            }
         }
         *node = self.value.clone().moved(offset);
     }
+}
+
+/// A step of a path.
+struct Step<'p> {
+    kind: StepKind,
+    /// The key, or the number of the item.
+    text: &'p str,
+    /// Its bytes in the path.
+    range: Range<usize>,
+}
+
+#[derive(Clone, Copy)]
+enum StepKind {
+    /// A key of a mapping.
+    Key,
+    /// An item of a list: `[0]`.
+    Item,
+}
+
+impl StepKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Key => "key",
+            Self::Item => "item",
+        }
+    }
+}
+
+/// The steps of a path such as `objects[0].circle.radius`.
+fn steps(path: &str) -> impl Iterator<Item = Step<'_>> {
+    let mut start = 0_usize;
+    path.split_inclusive(['.', '[']).map(move |part| {
+        let before = start.checked_sub(1).and_then(|before| path.as_bytes().get(before));
+        let kind = if before == Some(&b'[') { StepKind::Item } else { StepKind::Key };
+        let text = part.trim_end_matches(['.', '[']);
+        let text = if matches!(kind, StepKind::Item) { text.strip_suffix(']').unwrap_or("") } else { text };
+        let range = start..start + text.len();
+        start += part.len();
+        Step { kind, text, range }
+    })
+}
+
+/// The reason why a step leads nowhere: code, label, hint.
+type Astray = (&'static str, String, String);
+
+/// The value of a key. A key that does not exist is added.
+fn key<'n>(node: &'n mut Node, name: &str, span: Span) -> Result<&'n mut Placed<Node>, Astray> {
+    let kind = node.kind();
+    let Node::Mapping(entries) = node else {
+        let hint = match node {
+            Node::List(_) => "name an item by its number, such as `objects[0]`",
+            _ => "vary the value itself: list its values",
+        };
+        return Err((fault::UNKNOWN_KEY, format!("it is {kind} in the scenario"), hint.to_owned()));
+    };
+    let key = Placed { value: name.to_owned(), span };
+    let position = entries.iter().position(|entry| entry.key.value == name).unwrap_or_else(|| {
+        let value = Placed { value: Node::Mapping(Vec::new()), span };
+        entries.push(Entry { key: key.clone(), value });
+        entries.len() - 1
+    });
+    let entry = &mut entries[position];
+    entry.key = key;
+    Ok(&mut entry.value)
+}
+
+/// The item of a list. Items are counted from 0.
+fn item<'n>(node: &'n mut Node, number: &str) -> Result<&'n mut Placed<Node>, Astray> {
+    let kind = node.kind();
+    let Node::List(items) = node else {
+        let hint = "write a point before a key, such as `rig.physics`".to_owned();
+        return Err((fault::UNKNOWN_KEY, format!("it is {kind} in the scenario"), hint));
+    };
+    let count = items.len();
+    let hint = match count {
+        0 => "the list is empty".to_owned(),
+        1 => "the list has one item, `[0]`".to_owned(),
+        _ => format!("the list has the items `[0]` to `[{}]`", count - 1),
+    };
+    let found = number.parse().ok().and_then(|number: usize| items.get_mut(number));
+    found.ok_or_else(|| (fault::UNKNOWN_KEY, "no such item".to_owned(), hint))
 }
 
 /// Reads the scenario `source` with the changes of a `sweep`. The source of the diagnostics contains both texts.

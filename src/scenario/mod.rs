@@ -6,6 +6,7 @@
 mod budget;
 mod calibration;
 mod change;
+mod corner;
 mod expect;
 pub(crate) mod fault;
 mod fields;

@@ -5,7 +5,7 @@ use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
-use super::{fault, outline, path, polar, tunnel};
+use super::{corner, fault, outline, path, polar, tunnel};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{
     Contour, ContourError, Point2, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
@@ -21,8 +21,19 @@ const WIDTH: Key = Key { name: "width", ..RADIUS };
 const HEIGHT: Key = Key { name: "height", ..RADIUS };
 const CORNER_RADIUS: Key = Key::new("corner_radius", Dimension::LENGTH, (0.0, 100.0), "20 mm");
 
-const KINDS: [&str; 9] =
-    ["circle", "rectangle", "rounded_rectangle", "polygon", "regular_polygon", "polar", "path", "outline", "tunnel"];
+const KINDS: [&str; 11] = [
+    "circle",
+    "rectangle",
+    "rounded_rectangle",
+    "polygon",
+    "regular_polygon",
+    "convex_corner",
+    "concave_corner",
+    "polar",
+    "path",
+    "outline",
+    "tunnel",
+];
 
 /// The geometry of an object.
 pub(super) enum Object {
@@ -57,6 +68,8 @@ fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Objec
         "rounded_rectangle" => read_rounded_rectangle(reader, entry),
         "polygon" => read_polygon(reader, entry),
         "regular_polygon" => read_regular_polygon(reader, entry),
+        "convex_corner" => corner::read_convex(reader, entry),
+        "concave_corner" => corner::read_concave(reader, entry),
         "polar" => polar::read(reader, entry),
         "path" => path::read(reader, entry),
         "outline" => return outline::read(reader, entry).map(|contours| contours.map(plain).collect()),

@@ -16,6 +16,8 @@ pub(super) struct Axis {
 pub(super) enum AxisValues {
     /// Values of a policy parameter.
     Parameter(Vec<ParameterValue>),
+    /// Values of a parameter of the families.
+    Family(&'static str, Vec<ParameterValue>),
     /// Values of a scenario key.
     Scenario(Vec<Change>),
 }
@@ -39,7 +41,7 @@ impl Axis {
 impl AxisValues {
     pub(super) fn len(&self) -> usize {
         match self {
-            Self::Parameter(values) => values.len(),
+            Self::Parameter(values) | Self::Family(_, values) => values.len(),
             Self::Scenario(changes) => changes.len(),
         }
     }
@@ -47,7 +49,7 @@ impl AxisValues {
     /// The text of a value in keys of runs. `value` is an index below the number of values.
     pub(super) fn text(&self, value: usize) -> String {
         match self {
-            Self::Parameter(values) => values[value].text.clone(),
+            Self::Parameter(values) | Self::Family(_, values) => values[value].text.clone(),
             Self::Scenario(changes) => changes[value].text(),
         }
     }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod definition;
+mod family_axis;
 mod header;
 mod line;
 mod lines;

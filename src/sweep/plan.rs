@@ -10,8 +10,9 @@ use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
 use super::{Header, ScenesOf, Shard, Sweep, SweepRun};
+use crate::catalogue::common::SPEED;
 use crate::diagnostic::Source;
-use crate::family::NoDraw;
+use crate::family::{NoDraw, Values};
 use crate::file::CommandFiles;
 use crate::load::{self, LoadError, Loaded, Policy, beside, outline_file, with_settings};
 use crate::scenario::unreadable;
@@ -206,15 +207,16 @@ impl Plan {
         let scenes = run.scenes();
         match (&scenes.of, &self.scenarios[run.scenes]) {
             (ScenesOf::Family(family), _) => {
-                let given = run.parameters().find(|(name, ..)| *name == "speed");
-                let speed = given.map(|(_, speed, _)| speed.value_si);
-                let draw = family.draw_at(scenes.family_seed(), run.trial, speed);
-                let draw = draw.map_err(|fault| match given {
-                    Some((.., span)) => PlanError::Load(LoadError::at(
-                        &self.source,
-                        run.unfit(Some(span), "the family has no scene at this speed"),
-                    )),
-                    None => PlanError::Draw(fault),
+                let speed = run.parameters().find(|(name, ..)| *name == SPEED.name);
+                let speed = speed.map(|(_, speed, span)| (SPEED.name, speed.value_si, span));
+                let given: Vec<_> = run.family_values().chain(speed).collect();
+                let values: Values = given.iter().map(|&(name, value, _)| (name, value)).collect();
+                let draw = family.draw_with(scenes.family_seed(), run.trial, &values);
+                let draw = draw.map_err(|fault| match (fault, given.first()) {
+                    (NoDraw::Given { reason, .. }, Some(&(.., span))) => {
+                        PlanError::Load(LoadError::at(&self.source, run.no_scene(span, &reason)))
+                    }
+                    (fault, _) => PlanError::Draw(fault),
                 })?;
                 let drawn_speed = speed.is_none().then_some(draw.speed);
                 Ok((self.path.clone(), Source::new(draw.scene.name, draw.text), drawn_speed))

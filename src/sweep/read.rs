@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, AxisValues, ParameterValue};
 use super::definition::Sweep;
+use super::family_axis;
 use super::scenes::{ScenesOf, SweepScenes};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::family::{FAMILIES, Family};
@@ -37,7 +38,7 @@ fn read_sweep(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Sweep> {
     let scenes_entry = fields.required("scenes", SCENES);
     let scenes = scenes_entry.and_then(|entry| scenes(reader, entry));
     let axes = match fields.entry("vary") {
-        Some(entry) => axes(reader, entry),
+        Some(entry) => axes(reader, entry, scenes.as_deref()),
         None => Some(Vec::new()),
     };
     fields.finish(reader);
@@ -138,12 +139,19 @@ fn family(reader: &mut Reader<'_>, entry: &Entry) -> Option<Family> {
     FAMILIES.get(index).copied()
 }
 
-fn axes(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Axis>> {
+/// Reads the axes. Without `scenes`, which have errors, those of families are not read.
+fn axes(reader: &mut Reader<'_>, entry: &Entry, scenes: Option<&[SweepScenes]>) -> Option<Vec<Axis>> {
     let mut fields = Fields::of(reader, &entry.value, "what varies", entry.key.span)?;
-    let (policy, scenario) = (fields.entry("policy"), fields.entry("scenario"));
+    let (policy, family, scenario) = (fields.entry("policy"), fields.entry("family"), fields.entry("scenario"));
     fields.finish(reader);
-    check_names(reader, policy, scenario);
+    check_names(reader, policy, family, scenario);
     let mut axes = named(reader, policy, "speed: [2 cm/s, 5 cm/s]", parameters);
+    if let Some(scenes) = scenes {
+        let values = |reader: &mut Reader<'_>, name: &Placed<String>, items: &[Placed<Node>]| {
+            family_axis::values(reader, scenes, name, items)
+        };
+        axes.extend(named(reader, family, "angle: [30 deg, 60 deg]", values));
+    }
     axes.extend(named(reader, scenario, "rig.physics.friction: [0, 0.1]", changes));
     axes.into_iter().collect()
 }
@@ -155,19 +163,25 @@ const GIVEN: [(&str, &str); 2] = [
 ];
 
 /// Checks that the axes are independent. Otherwise results would be listed under values that their runs did not have.
-fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option<&Entry>) {
+fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, family: Option<&Entry>, scenario: Option<&Entry>) {
     let names = |entry: Option<&'_ Entry>| match entry.map(|entry| &entry.value.value) {
         Some(Node::Mapping(entries)) => entries.iter().map(|entry| entry.key.clone()).collect(),
         _ => Vec::new(),
     };
-    let (parameters, keys): (Vec<Placed<String>>, Vec<Placed<String>>) = (names(policy), names(scenario));
+    let keys: Vec<Placed<String>> = names(scenario);
     let spans: BTreeMap<&str, Span> = keys.iter().map(|key| (key.value.as_str(), key.span)).collect();
-    for Placed { value, span } in &parameters {
-        if let Some(&other) = spans.get(value.as_str()) {
+    let kinds = [
+        ("as a parameter of the policies", names(policy)),
+        ("as a parameter of the families", names(family)),
+        ("as a key of the scenarios", keys.clone()),
+    ];
+    let mut seen: BTreeMap<&str, (Span, &str)> = BTreeMap::new();
+    for (kind, names) in &kinds {
+        for Placed { value, span } in names {
+            let Some((first, first_kind)) = seen.insert(value, (*span, kind)) else { continue };
             let message = format!("the name `{value}` is varied twice");
-            let fault = Diagnostic::error(fault::ENTANGLED, message, *span, "as a parameter of the policies");
-            let fault = fault.note(other, "as a key of the scenarios");
-            reader.report(fault.hint("split the sweep, or rename the parameter"));
+            let fault = Diagnostic::error(fault::ENTANGLED, message, first, first_kind);
+            reader.report(fault.note(*span, *kind).hint("split the sweep, or rename the parameter of the policies"));
         }
     }
     for Placed { value, span } in &keys {
@@ -176,7 +190,7 @@ fn check_names(reader: &mut Reader<'_>, policy: Option<&Entry>, scenario: Option
             let label = "the sweep sets it for every run";
             reader.report(Diagnostic::error(fault::ENTANGLED, message, *span, label).hint(*hint));
         }
-        for (end, _) in value.match_indices('.') {
+        for (end, _) in value.match_indices(['.', '[']) {
             let above = &value[..end];
             if let Some(&outer) = spans.get(above) {
                 let message = format!("`{above}` and `{value}` cannot both vary");
@@ -218,8 +232,8 @@ fn parameters(reader: &mut Reader<'_>, _: &Placed<String>, items: &[Placed<Node>
     Some(AxisValues::Parameter(values.into_iter().collect::<Option<_>>()?))
 }
 
-/// A value of a parameter. Its dimension is checked later against the policy.
-fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterValue> {
+/// Reads a value of a parameter. Its dimension is checked later.
+pub(super) fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterValue> {
     let plain = |value_si| Quantity { value_si, dimension: Dimension::NUMBER, unit: None };
     let (quantity, text) = match &node.value {
         Node::Integer(integer) => (plain(*integer as f64), integer.to_string()),

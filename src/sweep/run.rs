@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::axis::{Axis, AxisValues};
-use super::read;
 use super::{Sweep, SweepScenes};
+use super::{family_axis, read};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::scenario;
 use crate::scenario::Files;
@@ -87,8 +87,21 @@ impl<'s> SweepRun<'s> {
     pub fn parameters(&self) -> impl Iterator<Item = (&'s str, Quantity, Span)> {
         self.choices().filter_map(|(axis, value)| match &axis.values {
             AxisValues::Parameter(values) => Some((axis.name.as_str(), values[value].quantity, values[value].span)),
-            AxisValues::Scenario(_) => None,
+            AxisValues::Scenario(_) | AxisValues::Family(..) => None,
         })
+    }
+
+    /// The parameters of its family that are set (SI), with their spans in the sweep.
+    pub(super) fn family_values(&self) -> impl Iterator<Item = (&'static str, f64, Span)> {
+        self.choices().filter_map(|(axis, value)| match &axis.values {
+            AxisValues::Family(name, values) => Some((*name, values[value].quantity.value_si, values[value].span)),
+            AxisValues::Scenario(_) | AxisValues::Parameter(_) => None,
+        })
+    }
+
+    /// The error of a family that has no scene with the run's values, at a span in the sweep.
+    pub(super) fn no_scene(&self, span: Span, reason: &str) -> Diagnostic {
+        family_axis::no_scene(self.scenes().name(), span, reason)
     }
 
     /// The error of a policy that cannot be run as the run requires. Its span is that of the parameter, or else of the
@@ -110,7 +123,7 @@ impl<'s> SweepRun<'s> {
     ) -> Result<Scene, (Box<Source>, Vec<Diagnostic>)> {
         let changes = self.choices().filter_map(|(axis, value)| match &axis.values {
             AxisValues::Scenario(changes) => Some(&changes[value]),
-            AxisValues::Parameter(_) => None,
+            AxisValues::Parameter(_) | AxisValues::Family(..) => None,
         });
         scenario::read_changed(scenario, sweep, &changes.collect::<Vec<_>>(), files)
     }

@@ -3,23 +3,23 @@
 use super::trial::TrialResult;
 use crate::diagnostic::Diagnostic;
 use crate::policy::{PolicyTest, RunFigure};
-use crate::run::Run;
 use crate::scene::{Metric, Outcome};
-use crate::score::Score;
 use vibrissa_runtime::machine::Program;
 
-/// The expectations of a `test` that do not hold for the `result` of `program`. Empty if the test passed.
+/// The expectations of a `test` or a property that do not hold for the `result` of `program`. Empty if the test passed.
 #[must_use]
 pub(crate) fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) -> Vec<Diagnostic> {
-    let figure = |wanted| figure(wanted, program, &result.run, &result.score);
+    let figure = |wanted| figure(wanted, program, result);
     test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
 }
 
 /// A figure of a run (SI, bool as 1 and 0). Not a number if the run does not have it.
-fn figure(figure: RunFigure, program: &Program, run: &Run, score: &Score) -> f64 {
+fn figure(figure: RunFigure, program: &Program, result: &TrialResult) -> f64 {
+    let TrialResult { run, score, violations } = result;
     let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
     let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
     match figure {
+        RunFigure::Passed => f64::from(u8::from(violations.is_empty())),
         RunFigure::Completed => ended(Outcome::Completed),
         RunFigure::Failed => ended(Outcome::Failed),
         RunFigure::TimedOut => ended(Outcome::Timeout),

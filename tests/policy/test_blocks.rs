@@ -18,7 +18,8 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
     let figure = |figure| match figure {
         RunFigure::Failed | RunFigure::Visits(_) => 1.0,
         RunFigure::TimeIn(_) | RunFigure::Time => 5.1,
-        RunFigure::Completed
+        RunFigure::Passed
+        | RunFigure::Completed
         | RunFigure::TimedOut
         | RunFigure::Diverged
         | RunFigure::Coverage

@@ -2,12 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
+use vibrissa::catalogue::{self, Parameter};
 use vibrissa::diagnostic::Source;
-use vibrissa::family::{Draw, FAMILIES, Family, SPEEDS};
+use vibrissa::family::{Draw, FAMILIES, Family, SPEEDS, Values};
 use vibrissa::geometry::{Contour, Piece, Point2, Pose, Vector2, unit};
 use vibrissa::scenario;
 use vibrissa::scene::Scene;
 use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::units::parse_quantity;
 
 const TRIALS: u64 = 200;
 
@@ -239,4 +241,81 @@ fn polygons_have_sharp_and_rounded_corners() {
         let radii = outline.pieces().iter().filter(|piece| is_round(piece)).map(|piece| piece.curvature().recip());
         assert!(radii.into_iter().all(|radius| (0.0199..0.1001).contains(&radius)));
     }
+}
+
+/// All parameters of a family at the ends that `choose` selects.
+fn values(family: &Family, choose: impl Fn(&Parameter) -> f64) -> Values {
+    family.parameters.iter().map(|parameter| (parameter.name, choose(parameter))).collect()
+}
+
+#[test]
+fn parameters_have_names_of_their_own_and_values_in_their_ranges() {
+    for family in FAMILIES {
+        assert!(catalogue::entry(family.name).is_some_and(|entry| entry.about == family.about));
+        for (index, parameter) in family.parameters.iter().enumerate() {
+            let Parameter { name, range, limits, simplest, step, .. } = *parameter;
+            assert!(family.parameters[..index].iter().all(|other| other.name != name), "{}: {name}", family.name);
+            assert!(limits.0 <= range.0 && range.0 < range.1 && range.1 <= limits.1 && step > 0.0, "{name}");
+            assert!((limits.0..=limits.1).contains(&simplest) && parameter.fault(simplest).is_none(), "{name}");
+            let beyond = limits.1 + 0.01 * (limits.1 - limits.0);
+            assert!(parameter.fault(beyond).is_some() && parameter.fault(f64::NAN).is_some(), "{name}");
+            let text = parameter.text(range.1);
+            let read = parse_quantity(&text).unwrap();
+            assert!(read.dimension == parameter.dimension && (read.value_si - range.1).abs() < 1e-5, "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_parameters_of_a_family_determine_its_scenes() {
+    for family in FAMILIES {
+        let draw = |seed, trial, given: &Values| family.draw_with(seed, trial, given).unwrap();
+        let simplest = values(&family, |parameter| parameter.simplest);
+        // The seed is that of the sensors' noise, and does not affect the geometry.
+        let geometry = |draw: Draw| draw.text.split("rig:").nth(1).unwrap().to_owned();
+        assert_eq!(geometry(draw(1, 0, &simplest)), geometry(draw(2, 5, &simplest)), "{}", family.name);
+        assert_eq!(geometry(draw(1, 0, &simplest)), geometry(family.scene(&simplest).unwrap()));
+        for parameter in family.parameters {
+            // A whole turn is the same direction.
+            let (low, high) = parameter.range;
+            let other = if parameter.is_stepped { high } else { low + 0.4 * (high - low) };
+            let with = |value: f64| {
+                let given = |other: &Parameter| if other.name == parameter.name { value } else { other.simplest };
+                // A rounding shows only if there are so many corners.
+                let given =
+                    |other: &Parameter| if other.name.ends_with("corners") { other.range.1 } else { given(other) };
+                geometry(family.scene(&values(&family, given)).unwrap())
+            };
+            let is_hidden = parameter.name == "thickness" && family.name == "convex-corner"
+                || parameter.name.starts_with("phase_")
+                || parameter.name.ends_with("corners");
+            assert!(is_hidden || with(low) != with(other), "{}: {} has no effect", family.name, parameter.name);
+        }
+    }
+}
+
+#[test]
+fn a_given_value_leaves_all_other_numbers_of_a_scene_as_they_are() {
+    let family = Family::named("convex-corner").unwrap();
+    for trial in 0..50 {
+        let random = family.draw(3, trial).unwrap();
+        let given = |value: f64| Values::from_iter([("speed", value)]);
+        let slow = family.draw_with(3, trial, &given(0.03)).unwrap();
+        assert!((slow.speed - 0.03).abs() < 1e-12);
+        let vertices = |draw: &Draw| draw.scene.solids[0].outline().corners();
+        assert_eq!((slow.scene.start, vertices(&slow)), (random.scene.start, vertices(&random)));
+        let angle = 50_f64.to_radians();
+        let turned = family.draw_with(3, trial, &Values::from_iter([("angle", angle)])).unwrap();
+        assert_eq!((turned.scene.start, turned.speed), (random.scene.start, random.speed));
+        let turns = turns(turned.scene.solids[0].outline());
+        assert!(turns.iter().any(|turn| (turn - angle).abs() < 1e-4), "{turns:?}");
+    }
+}
+
+#[test]
+fn a_value_without_a_scene_is_refused_with_the_reason() {
+    let family = Family::named("two-objects").unwrap();
+    let given = Values::from_iter([("ahead", 0.0), ("aside", 0.0)]);
+    let error = family.scene(&given).unwrap_err().to_string();
+    assert!(error.contains("`two-objects` has no scene with these values") && error.contains("starts in"), "{error}");
 }

@@ -128,3 +128,69 @@ proptest! {
         }
     }
 }
+
+const DISKS: &str = "name: disks
+objects:
+  - circle: {centre: [40 cm, 40 cm], radius: 30 cm}
+  - polygon: {vertices: [[1 m, 1 m], [2 m, 1 m], [2 m, 2 m]]}
+start: {position: [0 mm, 72 mm], heading: 90 deg}
+stop: {time: 1 s}
+";
+
+/// The scenes of a sweep over one key, or the rendered faults.
+fn varied(path: &str, values: &str) -> Vec<Result<vibrissa::scene::Scene, String>> {
+    let text = format!(
+        "name: x\npolicies: [a.fsm]\nscenes: [{{scenario: b.yaml}}]\nvary: {{scenario: {{\"{path}\": {values}}}}}\n"
+    );
+    let (scenario, definition) = (Source::new("b.yaml", DISKS), Source::new("sweep.yaml", text));
+    let sweep = Sweep::from_yaml(&definition).unwrap();
+    let scene = |run: SweepRun<'_>| {
+        let read = run.scene(&scenario, &definition, &mut |_| Err("there are no files".to_owned()));
+        read.map_err(|(source, faults)| terminal(&source, &faults, Colour::Plain))
+    };
+    sweep.runs().map(scene).collect()
+}
+
+#[test]
+fn any_number_of_a_scenario_varies_by_its_path() {
+    let area = |scene: &Result<vibrissa::scene::Scene, String>, object: usize| {
+        scene.as_ref().unwrap_or_else(|told| panic!("{told}")).solids[object].outline().area()
+    };
+    let scenes = varied("objects[0].circle.radius", "[10 cm, 20 cm]");
+    assert!((area(&scenes[1], 0) / area(&scenes[0], 0) - 4.0).abs() < 1e-9);
+    assert!((area(&scenes[0], 1) - 0.5).abs() < 1e-9);
+    let scenes = varied("objects[1].polygon.vertices[2][1]", "[2 m, 3 m]");
+    assert!((area(&scenes[1], 1) / area(&scenes[0], 1) - 2.0).abs() < 1e-9);
+    let whole = varied("objects[1]", "[{circle: {centre: [5 m, 5 m], radius: 1 m}}]");
+    assert!((area(&whole[0], 1) - std::f64::consts::PI).abs() < 1e-9);
+}
+
+#[test]
+fn a_path_that_leads_nowhere_is_answered_as_reviewed() {
+    for (name, path) in [
+        ("item", "objects[2].circle.radius"),
+        ("no_number", "objects[first].circle.radius"),
+        ("no_bracket", "objects[0.circle.radius"),
+        ("key_of_a_list", "objects.circle.radius"),
+        ("item_of_a_mapping", "stop[0]"),
+        ("key_of_a_value", "stop.time.longest"),
+    ] {
+        let told = varied(path, "[20 cm]").remove(0).unwrap_err();
+        snapshots("sweeps").bind(|| insta::assert_snapshot!(format!("path@{name}"), told));
+    }
+}
+
+#[test]
+fn a_parameter_of_a_family_varies_and_changes_the_key_of_a_run() {
+    let sweep = sweep(
+        "name: x\npolicies: [a.fsm]\nscenes: [{family: convex-corner}]\nvary: {family: {angle: [30 deg, 60 deg]}}\n",
+    );
+    let keys: Vec<_> = sweep.runs().map(|run| run.key()).collect();
+    assert_eq!(
+        keys,
+        [
+            "family=convex-corner, trial=0, angle=30 deg, policy=a",
+            "family=convex-corner, trial=0, angle=60 deg, policy=a"
+        ]
+    );
+}

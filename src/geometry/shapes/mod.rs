@@ -1,6 +1,8 @@
 //! Constructors of common contours.
 
 mod circle;
+mod concave_corner;
+mod convex_corner;
 mod error;
 mod path;
 mod polar_curve;
@@ -11,6 +13,8 @@ mod tunnel;
 mod tunnel_axis;
 
 pub use circle::circle;
+pub use concave_corner::concave_corner;
+pub use convex_corner::convex_corner;
 pub use error::ShapeError;
 pub use path::Path;
 pub(crate) use polar_curve::polar_curve_pieces;

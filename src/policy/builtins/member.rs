@@ -198,7 +198,13 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 17] = [
+const RUN: [Member; 18] = [
+    figure(
+        "passed",
+        Type::Truth,
+        RunFigure::Passed,
+        "true if the run fulfils the expectations of its scenario. A scenario without expectations expects completion",
+    ),
     figure(
         "completed",
         Type::Truth,

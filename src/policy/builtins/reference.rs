@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::catalogue::{self, Parameter};
 use crate::diagnostic::Source;
 use crate::policy::ast::{Argument, Name};
 use crate::policy::description::description;
@@ -69,7 +70,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
             Type::Body => "",
             Type::Whisker => "\n## Members of a whisker `w`\n\n| member | type | meaning |\n|---|---|---|\n",
             Type::Run => {
-                "\n## Members of `run`, in the expectations of a test\n\n| member | type | meaning |\n|---|---|---|\n"
+                "\n## Members of `run`, in the expectations of tests and properties\n\n| member | type | meaning |\n|---|---|---|\n"
             }
             _ => {
                 "\n## Members of a contour `c`, such as `w.contour`\n\nA distance `back` is a length along the \
@@ -92,8 +93,34 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
     for (_, function, usage, meaning) in FUNCTIONS {
         row(&mut page, [&format!("`{usage}`"), function.takes(), meaning]);
     }
+    families(&mut page);
     standard(&mut page);
     page
+}
+
+/// The families of scenes that properties name.
+fn families(page: &mut String) {
+    *page += "\n## Families of scenes, in properties\n\nA parameter that a property does not name is drawn from the \
+              range of the family. A failing case is made simpler towards the simplest values.\n";
+    for entry in catalogue::ENTRIES {
+        let _ = write!(
+            page,
+            "\n### `{}`\n\n{}\n\n| parameter | range | possible values | simplest | meaning |\n|---|---|---|---|---|\n",
+            entry.name, entry.about
+        );
+        // Numbered parameters differ only in their number.
+        let stem = |parameter: &Parameter| parameter.name.trim_end_matches(|last: char| last.is_ascii_digit());
+        for group in entry.parameters.chunk_by(|one, next| stem(one) == stem(next) && stem(one).ends_with('_')) {
+            let (parameter, last) = (group[0], group[group.len() - 1]);
+            let span = |(low, high)| format!("{} to {}", parameter.text(low), parameter.text(high));
+            let simplest = parameter.text(parameter.simplest);
+            let name = match group {
+                [only] => format!("`{}`", only.name),
+                _ => format!("`{}` to `{}`", parameter.name, last.name),
+            };
+            row(page, [&name, &span(parameter.range), &span(parameter.limits), &simplest, parameter.about]);
+        }
+    }
 }
 
 /// The standard library, described by the comments in its files.

@@ -60,6 +60,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
             '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
             '0'..='9' => (Kind::Number, number(rest)),
             _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
+            _ if is_family_due(&tokens) && is_word(first) => (Kind::Name, family(rest)),
             _ if is_word(first) => {
                 let length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
                 (if is_keyword(&rest[..length]) { Kind::Keyword } else { Kind::Name }, length)
@@ -76,6 +77,17 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
         let line_ends = blanks.bytes().filter(|&blank| blank == b'\n').count();
         tokens.push(Token { kind, text, start, apart: !blanks.is_empty(), line_ends });
     }
+}
+
+/// True if the next word is the name of a family: after `property "title" over`.
+fn is_family_due(tokens: &[Token<'_>]) -> bool {
+    let mut before = tokens.iter().rev().filter(|token| token.kind != Kind::Comment);
+    before.next().is_some_and(|over| over.text == "over") && before.next().is_some_and(|title| title.kind == Kind::Text)
+}
+
+/// Length of the name of a family at the beginning of `text`. It may contain `-`.
+fn family(text: &str) -> usize {
+    text.find(|letter| !is_word(letter) && letter != '-').unwrap_or(text.len())
 }
 
 /// Length of the number at the beginning of `text`: digits, with an optional fraction and exponent.

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::catalogue;
 use crate::diagnostic::Span;
 use crate::policy::ast::{Name, TypeName};
 use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
@@ -32,6 +33,8 @@ pub enum CandidateKind {
     Unit,
     /// A module of the standard library.
     Module,
+    /// A family of scenes.
+    Family,
     /// A declared name.
     Symbol(SymbolKind),
 }
@@ -112,6 +115,8 @@ impl Index {
             Expected::Unit => units().collect(),
             Expected::Value => self.values(context),
             Expected::Machine => keywords_at(Position::File).map(of_keyword).collect(),
+            Expected::Family => families().collect(),
+            Expected::FamilyParameter(family) => family_parameters(family).collect(),
             Expected::Only(text) => keyword(text).map(of_keyword).into_iter().collect(),
             Expected::Statement(level) => self.statements(level).collect(),
             Expected::More(level, words) => {
@@ -239,6 +244,30 @@ fn modules(prefix: &str) -> impl Iterator<Item = Candidate> {
             meaning: heading(text),
             snippet: label.clone(),
             label,
+        }
+    })
+}
+
+fn families() -> impl Iterator<Item = Candidate> {
+    catalogue::ENTRIES.iter().map(|entry| Candidate {
+        label: entry.name.to_owned(),
+        kind: CandidateKind::Family,
+        detail: String::new(),
+        meaning: entry.about.to_owned(),
+        snippet: entry.name.to_owned(),
+    })
+}
+
+fn family_parameters(family: &str) -> impl Iterator<Item = Candidate> {
+    catalogue::entry(family).into_iter().flat_map(|entry| entry.parameters).map(|parameter| {
+        let (low, high) = parameter.range;
+        let (low, high) = (parameter.text(low), parameter.text(high));
+        Candidate {
+            label: parameter.name.to_owned(),
+            kind: CandidateKind::Member,
+            detail: Type::Scalar(parameter.dimension).to_string(),
+            meaning: parameter.about.to_owned(),
+            snippet: format!("{} in ${{1:{low}}} .. ${{2:{high}}}", parameter.name),
         }
     })
 }

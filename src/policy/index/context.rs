@@ -1,5 +1,6 @@
 //! The context of completion, determined by the text before the position.
 
+use crate::catalogue;
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind, tokens};
 
@@ -43,6 +44,10 @@ pub(super) enum Expected {
     Value,
     /// The keyword at the beginning of the file.
     Machine,
+    /// A family of scenes.
+    Family,
+    /// A parameter of this family.
+    FamilyParameter(&'static str),
     /// One keyword.
     Only(&'static str),
     /// The beginning of a statement at this level of braces.
@@ -58,7 +63,7 @@ pub(super) enum Level {
     Outside,
     /// Braces of a state.
     State,
-    /// Braces of a test.
+    /// Braces of a test or a property.
     Test,
     /// Any other braces.
     Block,
@@ -112,7 +117,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     let level = match frame.head {
         None => Level::Outside,
         Some("state") => Level::State,
-        Some("test") => Level::Test,
+        Some("test" | "property") => Level::Test,
         Some(_) => Level::Block,
     };
     let statement = frame.statement.and_then(|start| known.get(start..)).unwrap_or_default();
@@ -155,6 +160,10 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "(") if level == Level::Test && matches!(behind(known, 1), Some("visits" | "time_in")) => {
             Expected::State
         }
+        (TokenKind::Name, "over") if head == Some("property") => Expected::Family,
+        (TokenKind::Mark, "(" | ",") if head == Some("property") => {
+            family_of(statement).map_or(Expected::Nothing, Expected::FamilyParameter)
+        }
         (TokenKind::Mark, ".") => Expected::Member(before.start),
         (TokenKind::Mark, "->") => Expected::Target,
         (TokenKind::Mark, ":") => Expected::Type,
@@ -162,7 +171,7 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "{") => Expected::Statement(level),
         (TokenKind::Mark, "(" | ",") if is_declaring(statement) => Expected::Nothing,
         (TokenKind::Mark, "*" | "/") if is_declaring(statement) => Expected::Dimension,
-        (TokenKind::Mark, "=") if head == Some("param") => Expected::Nothing,
+        (TokenKind::Mark, "=") if matches!(head, Some("param" | "property")) => Expected::Nothing,
         (TokenKind::Mark, "=") if level == Level::Test && head == Some("set") => Expected::Nothing,
         (TokenKind::Mark, ")" | "}") => more(statement, level),
         (TokenKind::Mark, "|") if closes_a_norm(statement) => more(statement, level),
@@ -190,7 +199,7 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
 fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
         "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
-        | "test" => Expected::Nothing,
+        | "test" | "property" => Expected::Nothing,
         "initial" => Expected::Initial,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
@@ -219,6 +228,17 @@ fn is_declaring(statement: &[Token<'_>]) -> bool {
     }
 }
 
+/// The family of a property.
+fn family_of(statement: &[Token<'_>]) -> Option<&'static str> {
+    let over = statement.iter().position(|token| token.text == "over")?;
+    catalogue::entry(statement.get(over + 1)?.text).map(|entry| entry.name)
+}
+
+/// True if the last token is the name of a parameter in the parentheses of a property.
+fn is_range_begun(statement: &[Token<'_>]) -> bool {
+    matches!(statement, [.., mark, name] if (mark.is("(") || mark.is(",")) && name.kind == TokenKind::Name)
+}
+
 /// True if the last token of a statement is a bar that closes.
 fn closes_a_norm(statement: &[Token<'_>]) -> bool {
     statement.iter().filter(|token| token.is("|")).count() % 2 == 0
@@ -239,7 +259,9 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("set") if level == Level::Test => &[],
         Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],
         Some("test") if !has("in") => return Expected::Only("in"),
-        Some("law" | "state" | "test") if !has("}") => return Expected::Nothing,
+        Some("property") if !has("over") => return Expected::Only("over"),
+        Some("property") if is_range_begun(statement) => return Expected::Only("in"),
+        Some("law" | "state" | "test" | "property") if !has("}") => return Expected::Nothing,
         _ => &[],
     };
     Expected::More(level, words)

@@ -49,6 +49,17 @@ impl Index {
                 let word = keyword(text)?;
                 paragraphs(&[code(&word.usage()), word.meaning.to_owned()])
             }
+            Meaning::Family(entry) => {
+                let names = entry.parameters.iter().map(|parameter| format!("`{}`", parameter.name));
+                let names = names.collect::<Vec<_>>().join(", ");
+                paragraphs(&[code(entry.name), entry.about.to_owned(), format!("Its parameters are {names}.")])
+            }
+            Meaning::FamilyParameter(parameter) => {
+                let (low, high) = parameter.limits;
+                let limits = format!("From {} to {}.", parameter.text(low), parameter.text(high));
+                let types = type_line(Type::Scalar(parameter.dimension));
+                paragraphs(&[code(parameter.name), types, parameter.about.to_owned(), limits])
+            }
             Meaning::Unknown => return None,
         };
         Some(Hover { span: known.span, text })

@@ -9,7 +9,7 @@ pub(super) enum Position {
     Item,
     /// In the braces of a state.
     State,
-    /// In the braces of a test.
+    /// In the braces of a test or a property.
     Test,
     /// In any braces.
     Statement,
@@ -27,6 +27,8 @@ pub(super) enum Position {
     Need,
     /// After `by`.
     TipModel,
+    /// After the title of a property.
+    Property,
 }
 
 /// A keyword.
@@ -84,9 +86,10 @@ const TARGET: &[Position] = &[Position::Target];
 const MARK: &[Position] = &[Position::Mark];
 const NEED: &[Position] = &[Position::Need];
 const TIP_MODEL: &[Position] = &[Position::TipModel];
+const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 57] = [
+pub(super) const KEYWORDS: [Keyword; 59] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -157,6 +160,18 @@ pub(super) const KEYWORDS: [Keyword; 57] = [
         "A run of the policy in a scenario, with expectations.",
     ),
     entry(
+        "property",
+        ITEM,
+        "property \"${1:title}\" over ${2:convex-corner}(${3:angle in 30 deg .. 150 deg}) {\n  expect ${0}\n}",
+        "Expectations that hold for every run in the scenes of a family.",
+    ),
+    entry(
+        "over",
+        PROPERTY,
+        "over ${1:convex-corner}",
+        "The family of the scenes, with the ranges of its parameters in parentheses.",
+    ),
+    entry(
         "let",
         STATEMENT,
         "let ${1:name} = ${2:value}",
@@ -191,7 +206,7 @@ pub(super) const KEYWORDS: [Keyword; 57] = [
         "set",
         &[Position::Item, Position::State, Position::Statement, Position::Test],
         "set ${1:name} = ${2:value}",
-        "Changes memory. In a test, sets a parameter for the run.",
+        "Changes memory. In a test or a property, sets a parameter for the run.",
     ),
     entry(
         "expect",
@@ -227,7 +242,7 @@ pub(super) const KEYWORDS: [Keyword; 57] = [
         "in",
         INSIDE,
         "in ${1:low} .. ${2:high}",
-        "The range of the parameter or the need. In a test, the file of the scenario.",
+        "The range of a parameter or a need. In a test, the file of the scenario.",
     ),
     entry("of", INSIDE, "of ${1:length}", "The dimension of a vector's components."),
     entry("along", INSIDE, "along ${1:direction}", "The direction of the motion, a vector of any length."),

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::catalogue::common::SPEED;
 use crate::diagnostic::Span;
 use crate::policy::grammar::is_keyword;
 use crate::policy::lower::is_reserved;
@@ -41,6 +42,9 @@ pub enum RenameError {
         /// The module.
         module: String,
     },
+    /// Scenes of a property set the parameter.
+    #[error("the scenes of a property set the parameter `{0}`, so it keeps its name")]
+    SetByScenes(String),
     /// The new name is imported from a file.
     #[error("the name `{name}` is imported from `{file}`; choose another name")]
     Imported {
@@ -91,6 +95,9 @@ impl Index {
         if is_keyword(name) || is_reserved(name) {
             return Err(RenameError::Reserved(name.to_owned()));
         }
+        if symbol.kind == SymbolKind::Parameter && symbol.name == SPEED.name && self.has_property() {
+            return Err(RenameError::SetByScenes(symbol.name.clone()));
+        }
         let others = self.symbols.iter().enumerate().filter(|&(other, _)| other != index);
         if let Some((_, other)) = others.into_iter().find(|(_, other)| other.name == name && meet(symbol, other)) {
             if let Some(file) = self.file_of(other) {
@@ -100,6 +107,11 @@ impl Index {
             return Err(RenameError::Taken { name: name.to_owned(), line });
         }
         Ok(self.uses_of(index).into_iter().map(|(span, _)| span).collect())
+    }
+
+    /// True if the text names a family of scenes.
+    fn has_property(&self) -> bool {
+        self.resolved.uses.iter().any(|known| matches!(known.meaning, Meaning::Family(_)))
     }
 
     fn to_rename(&self, at: usize) -> Result<(Span, usize), RenameError> {

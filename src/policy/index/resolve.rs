@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::catalogue::{self, Entry};
 use crate::diagnostic::{Source, Span};
 use crate::policy::builtins::{self, FUNCTIONS};
 use crate::policy::format::{Token, TokenKind};
@@ -46,6 +47,8 @@ pub(super) fn resolve(
     let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
     // End of the current type name.
     let mut type_end = 0;
+    // The family whose ranges are being read.
+    let mut family = None;
     for (index, token) in tokens.iter().enumerate() {
         names.advance(token.start);
         let last = imports.partition_point(|import| import.tokens.start < index).checked_sub(1);
@@ -69,6 +72,16 @@ pub(super) fn resolve(
                 keyword(token.text).map(|word| Meaning::Keyword(word.text))
             }
             // A member, or an inner state: `-> Outer(w).Inner`.
+            TokenKind::Name if token.text == "over" && before.is_some_and(|before| before.kind == TokenKind::Text) => {
+                Some(Meaning::Keyword("over"))
+            }
+            TokenKind::Name if is_family(&tokens[..index]) => {
+                family = catalogue::entry(token.text);
+                family.map(Meaning::Family)
+            }
+            TokenKind::Name if let Some(family) = family => {
+                Entry::parameter(family, token.text).map(Meaning::FamilyParameter)
+            }
             TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
                 Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
@@ -83,6 +96,9 @@ pub(super) fn resolve(
             }
             _ => None,
         };
+        if token.is("{") {
+            family = None;
+        }
         operand = match (token.kind, token.text, meaning) {
             (TokenKind::Mark, ".", _) => {
                 resolved.owners.extend(operand.map(|owner| (token.start, owner)));
@@ -125,9 +141,14 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
     std::iter::once(file).chain(names).collect()
 }
 
-/// True if a word has its meaning only after `mark` or `needs`.
+/// True if the name of a family follows the tokens: after `property "title" over`.
+fn is_family(before: &[Token<'_>]) -> bool {
+    matches!(before, [.., title, over] if title.kind == TokenKind::Text && over.text == "over")
+}
+
+/// True if a word has its meaning only after `mark`, `needs` or the title of a property.
 fn is_contextual(word: &Keyword) -> bool {
-    [[Position::Mark], [Position::Need]].iter().any(|positions| word.positions == positions)
+    [[Position::Mark], [Position::Need], [Position::Property]].iter().any(|positions| word.positions == positions)
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.

@@ -1,5 +1,6 @@
 //! Declared names and their uses.
 
+use crate::catalogue::{Entry, Parameter};
 use crate::diagnostic::Span;
 use crate::policy::builtins::Member;
 use crate::policy::types::Type;
@@ -84,6 +85,10 @@ pub(super) enum Meaning {
     File(usize),
     /// A keyword.
     Keyword(&'static str),
+    /// A family of scenes.
+    Family(&'static Entry),
+    /// A parameter of a family of scenes.
+    FamilyParameter(&'static Parameter),
     Unknown,
 }
 

@@ -11,6 +11,7 @@ mod memory;
 mod names;
 mod needs;
 mod parameter;
+mod property;
 mod scope;
 mod statement;
 mod structure;

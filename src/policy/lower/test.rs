@@ -1,9 +1,9 @@
-//! Lowering of tests. Their code is not part of the program.
+//! Lowering of tests and properties. Their code is not part of the program.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test};
+use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test, TestScenes};
 use crate::policy::suggestion::did_you_mean;
-use crate::policy::test::{Expectation, FigureRegister, PolicyTest, RunFigure};
+use crate::policy::test::{self, Expectation, FigureRegister, PolicyTest, RunFigure};
 use crate::policy::types::Type;
 use vibrissa_runtime::machine::{Op, Parameter, Register};
 
@@ -20,16 +20,20 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.note(first.title.span, "first here").hint("give each test its own title"));
             }
             let test = self.test(test, parameters);
-            self.tests.push(test);
+            self.tests.extend(test);
         }
     }
 
-    fn test(&mut self, test: &'f Test, parameters: &[Parameter]) -> PolicyTest {
+    fn test(&mut self, test: &'f Test, parameters: &[Parameter]) -> Option<PolicyTest> {
         if test.expectations.is_empty() {
-            let diagnostic = Diagnostic::error("P0703", "the test has no expectation", test.title.span, "cannot fail");
+            let diagnostic = Diagnostic::error("P0703", "there is no expectation", test.title.span, "cannot fail");
             self.report(diagnostic.hint("write `expect run.completed`, or another condition on the run"));
         }
-        for text in [&test.title, &test.scenario] {
+        let file = match &test.scenes {
+            TestScenes::Scenario(file) => Some(file),
+            TestScenes::Family { .. } => None,
+        };
+        for text in std::iter::once(&test.title).chain(file) {
             if text.text.chars().any(char::is_control) {
                 let message = "the text has a control character";
                 let diagnostic =
@@ -37,13 +41,15 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.hint("use only letters, digits, signs and spaces"));
             }
         }
-        PolicyTest {
-            title: test.title.text.clone(),
-            scenario: test.scenario.text.clone(),
-            scenario_span: test.scenario.span,
-            settings: test.settings.iter().filter_map(|setting| self.setting(setting, parameters)).collect(),
-            expectations: test.expectations.iter().filter_map(|truth| self.expectation(truth)).collect(),
-        }
+        let scenes = match &test.scenes {
+            TestScenes::Scenario(Name { text, span }) => {
+                Some(test::TestScenes::Scenario { file: text.clone(), span: *span })
+            }
+            TestScenes::Family { family, ranges } => self.family(family, ranges, test, parameters),
+        };
+        let settings = test.settings.iter().filter_map(|setting| self.setting(setting, parameters)).collect();
+        let expectations = test.expectations.iter().filter_map(|truth| self.expectation(truth)).collect();
+        Some(PolicyTest { title: test.title.text.clone(), scenes: scenes?, settings, expectations })
     }
 
     fn setting(&mut self, (name, value): &'f (Name, Bound), parameters: &[Parameter]) -> Option<(usize, f64)> {

@@ -25,6 +25,28 @@ pub(crate) fn writing(inside: &str) -> String {
 }
 
 #[test]
+fn a_property_offers_families_and_their_parameters() {
+    let property =
+        |text: &str| labels(&format!("machine m\nparam speed = 1 m/s\ninitial S\nstate S {{ stop }}\nproperty {text}"));
+    assert_eq!(property("\"title\" \u{a7}"), ["over"]);
+    let families = property("\"title\" over \u{a7}");
+    assert!(families.len() == 8 && families.contains(&"convex-corner".to_owned()), "{families:?}");
+    assert_eq!(property("\"title\" over convex-co\u{a7}"), families);
+    for place in ["(\u{a7}", "(angle in 30 deg .. 60 deg, \u{a7}", "(an\u{a7}) {\n  expect run.passed\n}"] {
+        let parameters = property(&format!("\"title\" over convex-corner{place}"));
+        assert!(
+            parameters.contains(&"angle".to_owned()) && !parameters.contains(&"width".to_owned()),
+            "{parameters:?}"
+        );
+    }
+    assert_eq!(property("\"title\" over convex-corner(angle \u{a7}"), ["in"]);
+    assert_eq!(property("\"title\" over nothing(\u{a7}"), [""; 0]);
+    let inside = property("\"title\" over convex-corner {\n  \u{a7}");
+    assert_eq!(inside, ["set", "expect"]);
+    assert!(property("\"title\" over convex-corner {\n  expect run.\u{a7}").contains(&"passed".to_owned()));
+}
+
+#[test]
 fn behind_a_point_come_the_members_of_what_stands_before_it() {
     let members = [
         "deflection",

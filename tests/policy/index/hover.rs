@@ -31,6 +31,20 @@ fn every_word_of_a_policy_that_compiles_is_explained() {
 }
 
 #[test]
+fn the_names_in_a_property_are_those_of_the_family_and_not_of_the_policy() {
+    let text = "machine m  param speed = 50 mm/s  initial S  state S { stop }
+        property \"p\" over convex-corner(angle in 30 deg .. 60 deg, speed = 5 cm/s) { expect run.passed and speed > 0 m/s }";
+    let index = index(text);
+    let of = |part: &str| index.hover(text.find(part).unwrap()).unwrap().text;
+    assert!(of("over convex").contains("The family of the scenes"), "{}", of("over convex"));
+    assert!(of("convex-corner").contains("Its parameters are `start_x`"), "{}", of("convex-corner"));
+    assert!(of("angle in").contains("an angle, in deg") && of("angle in").contains("From 10 deg to 180 deg"));
+    assert!(of("speed = 5 cm").contains("value of the policy's parameter `speed`"));
+    // A change of the policy's own parameter leaves the family's alone.
+    assert_eq!(index.references(text.find("speed").unwrap()).len(), 2);
+}
+
+#[test]
 fn a_hover_says_type_unit_range_and_description() {
     let of = |text: &str, part: &str| index(text).hover(text.find(part).unwrap()).unwrap().text;
     assert_eq!(

@@ -76,7 +76,7 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
             "have the same name `thesis`",
         ),
         (vec!["bench", "--set", "trust=1"], "policies/thesis.fsm: the policy has no parameter `trust`"),
-        (vec!["families", "--set", "speed=20 mm/s"], "families sample the speed"),
+        (vec!["families", "--set", "speed=20 mm/s"], "families set the speed"),
         (vec!["sweep", "a.yaml", "-j", "100000000"], "32 for each processor"),
         (vec!["bench", "--friction", "0.1,2"], "from 0 to 1"),
         (vec!["bench", "--friction", "-1"], "from 0 to 1"),

@@ -24,6 +24,9 @@ pub(super) fn folder(name: &str) -> PathBuf {
         start: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 1 s}\nexpect: {outcome: failed}\n";
     let sweep = "name: small\npolicies: [quick.fsm]\nscenes: [{scenario: scene.yaml}]\n\
         vary: {policy: {speed: [4 cm/s, 5 cm/s]}}\n";
+    let property = "machine prop  param speed = 5 cm/s in 1 .. 10 cm/s  initial Still  state Still { stop }\n\
+        property \"it holds\" over thin-wall { expect run.time > 0 s }\n";
+    let regressions = "- {property: \"another\", family: thin-wall, values: {speed: 5 cm/s}}\n";
     let calibration = "vibrissa_calibration: 2\nabout: a test\nhinge_stiffness: 1.1\n";
     for (name, text) in [
         ("quick.fsm", POLICY),
@@ -31,6 +34,8 @@ pub(super) fn folder(name: &str) -> PathBuf {
         ("scene.yaml", scene),
         ("r0.yaml", calibration),
         ("small.yaml", sweep),
+        ("prop.fsm", property),
+        ("prop.regressions.yaml", regressions),
         ("measured.csv", &sets()),
     ] {
         fs::write(folder.join(name), text).unwrap();
@@ -60,6 +65,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("run @/scene.yaml --out @", "scene.yaml", "scene.json", "--out"),
     ("test @/quick.fsm --out @", "quick.fsm", "01-it-fails.json", "--out"),
     ("test @/quick.fsm --out @", "scene.yaml", "01-it-fails.svg", "--out"),
+    ("test @/prop.fsm --out @", "prop.regressions.yaml", "01-it-holds.yaml", "--out"),
+    ("test @/prop.fsm --out @", "prop.fsm", "01-it-holds.svg", "--out"),
     ("graph @/quick.fsm -o @/OUT", "quick.fsm", "OUT", "--out"),
     ("graph @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
     ("compile @/quick.fsm -o @/OUT", "quick.fsm", "OUT", "--out"),
@@ -95,7 +102,16 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
 #[test]
 fn no_command_writes_to_what_it_reads_under_any_name_or_link() {
     let folder = folder("onto-input");
-    let inputs = ["quick.fsm", "laws.fsm", "scene.yaml", "r0.yaml", "small.yaml", "measured.csv"];
+    let inputs = [
+        "quick.fsm",
+        "laws.fsm",
+        "scene.yaml",
+        "r0.yaml",
+        "small.yaml",
+        "measured.csv",
+        "prop.fsm",
+        "prop.regressions.yaml",
+    ];
     let texts = inputs.map(|name| text(&folder, name));
     for &(line, input, output, argument) in ONTO_INPUTS {
         let place = folder.join(output);

@@ -6,6 +6,7 @@ mod check;
 mod compile;
 #[cfg(unix)]
 mod drive;
+mod families;
 #[cfg(unix)]
 mod files;
 mod fmt;
@@ -19,6 +20,7 @@ mod library;
 #[cfg(target_os = "linux")]
 mod names;
 pub(crate) mod program;
+mod property;
 mod recording;
 mod run;
 pub(crate) mod schema;

@@ -100,6 +100,18 @@ pub(super) const TEST: Case = Case {
     is_long: false,
 };
 
+pub(super) const REGRESSIONS: Case = Case {
+    name: "regressions",
+    prepare: |_| {
+        let property = "property \"it goes on\" over thin-wall { expect not run.failed }\n";
+        let machine = POLICY.split("test").next().unwrap();
+        Content::from([("quick.fsm".to_owned(), format!("{machine}{property}").into())])
+    },
+    arguments: |folder| words("test @/out/quick.fsm --cases 1 --jobs 1 --world quasistatic", folder),
+    old,
+    is_long: false,
+};
+
 pub(super) const FAMILIES: Case = Case {
     name: "families",
     prepare: policy,

@@ -4,7 +4,7 @@
 mod case;
 mod shim;
 
-use case::{CALIBRATE, COMPILE, Case, DRIVE, FAMILIES, FMT, GRAPH, KEEP, MERGE, RUN, TEST};
+use case::{CALIBRATE, COMPILE, Case, DRIVE, FAMILIES, FMT, GRAPH, KEEP, MERGE, REGRESSIONS, RUN, TEST};
 use shim::{Kind, Shim};
 
 use std::collections::BTreeMap;
@@ -173,6 +173,11 @@ fn run_leaves_old_reports_or_new_ones() {
 #[test]
 fn test_leaves_old_reports_or_new_ones() {
     survives(&TEST);
+}
+
+#[test]
+fn test_keeps_failing_cases_or_leaves_the_old_file() {
+    survives(&REGRESSIONS);
 }
 
 #[test]

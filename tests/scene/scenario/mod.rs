@@ -1,5 +1,6 @@
 //! The YAML format of scenarios.
 
+mod corners;
 mod errors;
 mod near;
 mod page;
