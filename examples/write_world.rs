@@ -79,7 +79,7 @@ impl WallWorld {
     /// `3 E I d / L²`. The base angle is the moment over the stiffness of the hinge.
     fn reading(&self, whisker: &Whisker) -> Reading {
         let moment = 3.0 * whisker.shaft.tip_stiffness() * self.tip_base(whisker).y / whisker.shaft.length.powi(2);
-        Reading { base_angle: moment / whisker.hinge.stiffness, shear: None, axial: None }
+        Reading { base_angle: moment / whisker.hinge.stiffness, ..Reading::default() }
     }
 }
 

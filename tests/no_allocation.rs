@@ -13,7 +13,7 @@ use vibrissa::policy::compile;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Status;
 use vibrissa_runtime::rig::Rig;
-use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample, TrueTip};
 
 /// Ten samples of a platform that goes straight ahead, its right whisker bent to `base_angle` (rad).
 fn samples(tick: usize, base_angle: f64) -> [Sample; 10] {
@@ -55,12 +55,12 @@ fn a_tick_of_the_thesis_policy_allocates_nothing() {
 #[test]
 fn a_tick_by_any_tip_model_allocates_nothing() {
     let text = include_str!("../policies/thesis.fsm");
-    for model in ["one_channel", "sliding", "moment_and_shear", "recursive"] {
+    for model in ["one_channel", "sliding", "moment_and_shear", "recursive", "polynomial", "truth"] {
         let text = text.replace("by one_channel", &format!("by {model}"));
         let program = compile(&Source::new("thesis.fsm", &text)).unwrap();
         let mut rig = Rig::default();
         rig.sensing.forces = true;
-        let mut control = Control::new(&rig, Arc::new(program)).unwrap();
+        let mut control = Control::simulated(&rig, Arc::new(program)).unwrap();
         let mut told = 0;
         for tick in 0..90 {
             let base_angle = [0.0, -1.5e-4, -3e-4][tick / 30];
@@ -68,6 +68,8 @@ fn a_tick_by_any_tip_model_allocates_nothing() {
             for sample in &mut samples {
                 // The lever of a tip that is touched nearly square.
                 sample.whiskers[0].shear = Some(base_angle / 0.09);
+                let point_world = Point2::new(0.1, 0.02);
+                sample.whiskers[0].true_tip = Some(TrueTip { point_world, touches: true });
             }
             let before = allocations();
             control.tick(&samples);

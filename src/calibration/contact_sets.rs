@@ -7,6 +7,7 @@ use std::fmt::Write;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use vibrissa_runtime::calibration::ContactSet;
 
+use super::count_set::CountSet;
 use crate::geometry::Vector2;
 
 /// The error of a file of contact sets.
@@ -17,12 +18,17 @@ pub struct SetsError {
     reason: String,
 }
 
-/// The columns of a file of sets: the required ones, and the optional ones.
-const NEEDED: [&str; 3] = ["x_mm", "y_mm", "base_angle_urad"];
+/// The columns of a file of sets: the required ones beside the reading, and the optional ones.
+const POSITION: [&str; 2] = ["x_mm", "y_mm"];
 const OPTIONAL: [&str; 2] = ["normal_deg", "contact"];
 /// Largest distance of a contact from the base (mm), and the largest base angle (µrad): half a turn of the hinge.
 const MAX_DISTANCE: f64 = 1e4;
 const GREATEST_ANGLE: f64 = 1e6 * PI;
+/// The columns with the reading: the base angle (µrad), or the counts of the sensor.
+const ANGLE: &str = "base_angle_urad";
+const COUNTS: &str = "counts";
+/// Largest magnitude of the counts of a sensor.
+const MAX_COUNTS: f64 = 32_768.0;
 /// Largest magnitude of a direction (degrees).
 const FULL_TURN: f64 = 360.0;
 
@@ -32,19 +38,46 @@ const FULL_TURN: f64 = 360.0;
 /// # Errors
 /// [`SetsError`] with the first invalid line.
 pub fn read_sets(bytes: &[u8]) -> Result<Vec<ContactSet>, SetsError> {
+    let rows = read_rows(bytes, ANGLE, GREATEST_ANGLE)?;
+    Ok(rows.into_iter().map(|(set, angle)| ContactSet { base_angle: 1e-6 * angle, ..set }).collect())
+}
+
+/// Reads contact sets whose reading is the column `counts`, the value of the sensor, in place of `base_angle_urad`.
+///
+/// # Errors
+/// [`SetsError`] with the first invalid line.
+pub fn read_count_sets(bytes: &[u8]) -> Result<Vec<CountSet>, SetsError> {
+    let rows = read_rows(bytes, COUNTS, MAX_COUNTS)?;
+    let counted = |(ContactSet { contact_base, normal, on_shaft, .. }, counts)| CountSet {
+        contact_base,
+        counts,
+        normal,
+        on_shaft,
+    };
+    Ok(rows.into_iter().map(counted).collect())
+}
+
+/// Reads lines with a column `reading`, whose values are at most `most`. The base angle of the sets is 0.
+fn read_rows(bytes: &[u8], reading: &str, most: f64) -> Result<Vec<(ContactSet, f64)>, SetsError> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let refusal = |error: &csv::Error| SetsError {
         line: error.position().map_or(1, csv::Position::line),
         reason: "every line must be UTF-8 text with as many values as the header has names".to_owned(),
     };
     let header = reader.headers().map_err(|error| refusal(&error))?.clone();
-    let known = |name: &str| NEEDED.contains(&name) || OPTIONAL.contains(&name);
+    let needed = || POSITION.into_iter().chain([reading]);
+    let known = |name: &str| needed().chain(OPTIONAL).any(|known| known == name);
     let at_top = |reason| SetsError { line: 1, reason };
     if let Some(name) = header.iter().find(|name| !known(name)) {
-        let names = NEEDED.iter().chain(&OPTIONAL).copied().collect::<Vec<_>>().join(", ");
-        return Err(at_top(format!("there is no column `{name}`; columns are {names}")));
+        let names = needed().chain(OPTIONAL).collect::<Vec<_>>().join(", ");
+        let advice = match (name, reading) {
+            (COUNTS, ANGLE) => ". Counts need the settings of the sensor: give --config and --neutral",
+            (ANGLE, COUNTS) => ". Base angles need no settings of a sensor: leave out --config and --neutral",
+            _ => "",
+        };
+        return Err(at_top(format!("there is no column `{name}`; columns are {names}{advice}")));
     }
-    if let Some(name) = NEEDED.iter().find(|name| !header.iter().any(|found| found == **name)) {
+    if let Some(name) = needed().find(|name| !header.iter().any(|found| found == *name)) {
         return Err(at_top(format!("the column `{name}` is missing")));
     }
     let mut seen = BTreeSet::new();
@@ -62,12 +95,16 @@ pub fn read_sets(bytes: &[u8]) -> Result<Vec<ContactSet>, SetsError> {
                 reason: format!("there are more than {} sets; leave some out", ContactSet::MOST),
             });
         }
-        sets.push(read(&record, &column).map_err(|reason| SetsError { line, reason })?);
+        sets.push(read(&record, &column, (reading, most)).map_err(|reason| SetsError { line, reason })?);
     }
     Ok(sets)
 }
 
-fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Result<ContactSet, String> {
+fn read(
+    record: &StringRecord,
+    column: &impl Fn(&str) -> Option<usize>,
+    (reading, most): (&str, f64),
+) -> Result<(ContactSet, f64), String> {
     let field = |name: &str| column(name).and_then(|index| record.get(index)).unwrap_or_default().to_owned();
     let number = |name: &str, most: f64| {
         let number: Option<f64> = field(name).parse().ok().filter(|number: &f64| number.abs() <= most);
@@ -84,8 +121,7 @@ fn read(record: &StringRecord, column: &impl Fn(&str) -> Option<usize>) -> Resul
         other => return Err(format!("`contact` must be `tip` or `shaft`, and is `{other}`")),
     };
     let contact_base = Vector2::new(number("x_mm", MAX_DISTANCE)?, number("y_mm", MAX_DISTANCE)?) * 1e-3;
-    let base_angle = number("base_angle_urad", GREATEST_ANGLE)? * 1e-6;
-    Ok(ContactSet { contact_base, base_angle, normal, on_shaft })
+    Ok((ContactSet { contact_base, base_angle: 0.0, normal, on_shaft }, number(reading, most)?))
 }
 
 /// Writes sets as comma-separated values.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, ContactSet};
+use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, ContactSet, DeflectionPolynomial};
 use vibrissa_runtime::rig::Whisker;
 
 use super::hinge_fit::HingeFit;
@@ -40,7 +40,7 @@ pub struct HeldOut {
 pub const MIN_POSITIONS: usize = 50;
 /// Number of parts into which the positions are divided.
 const FOLDS: usize = 5;
-/// Standard deviation of the angle between a surface and the heading (rad) for the fit of one channel. The weight of a
+/// Standard deviation of the angle between a surface and the heading (rad) for the fits that assume none. The weight of a
 /// set follows a normal distribution of this angle.
 const SURFACE_DEVIATION: f64 = 10.0 * PI / 180.0;
 
@@ -61,16 +61,29 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
         return Fitted { calibration, held_out };
     }
 
-    let curve = |sets: &[ContactSet]| near_heading(whisker, sets);
-    calibration.one_channel = near_heading(whisker, &sets);
+    // One standard deviation of the surface's direction, if it is known.
+    let is_meant = |set: &ContactSet| weight(whisker, set) > 0.6;
+    let curve = |sets: &[ContactSet]| ContactCurve::fit(&near_heading(whisker, sets));
+    calibration.one_channel = curve(&sets);
     if let Some(ContactCurve { range, .. }) = &calibration.one_channel {
         let error = |curve: &ContactCurve, set: &ContactSet| {
-            // One standard deviation of the surface's direction, if it is known.
-            let is_meant = weight(whisker, set) > 0.6 && (curve.range[0]..=curve.range[1]).contains(&set.base_angle);
-            is_meant.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
+            let is_within = is_meant(set) && (curve.range[0]..=curve.range[1]).contains(&set.base_angle);
+            is_within.then(|| (curve.at(set.base_angle) - set.contact_base).norm())
         };
         let range = format!("{:.0} to {:.0} urad, surface within 10 deg", 1e6 * range[0], 1e6 * range[1]);
         held_out.extend(hold_out("one_channel", (&sets, &positions), curve, error, range));
+    }
+
+    let polynomial =
+        |sets: &[ContactSet]| DeflectionPolynomial::fit(&near_heading(whisker, sets), whisker.shaft.length);
+    calibration.polynomial = polynomial(&sets);
+    if let Some(DeflectionPolynomial { range, .. }) = calibration.polynomial {
+        let error = |polynomial: &DeflectionPolynomial, set: &ContactSet| {
+            let is_within = is_meant(set) && set.base_angle <= polynomial.range;
+            is_within.then(|| (polynomial.at(set.base_angle) - set.contact_base).norm())
+        };
+        let range = format!("up to {:.0} urad, surface within 10 deg", 1e6 * range);
+        held_out.extend(hold_out("polynomial", (&sets, &positions), polynomial, error, range));
     }
 
     calibration.recursive = AngleSurface::fit(&sets);
@@ -95,16 +108,15 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     Fitted { calibration, held_out }
 }
 
-/// Weight of a set for the fit of one channel.
+/// Weight of a set for the fits that assume a surface parallel to the heading.
 fn weight(whisker: &Whisker, set: &ContactSet) -> f64 {
     let off = set.normal.map_or(0.0, |normal| (normal - whisker.usual_normal()) / SURFACE_DEVIATION);
     (-0.5 * off * off).exp()
 }
 
-/// The curve of one channel, fitted to the sets with sufficient weight.
-fn near_heading(whisker: &Whisker, sets: &[ContactSet]) -> Option<ContactCurve> {
-    let weighted = sets.iter().map(|set| (*set, weight(whisker, set))).filter(|(_, weight)| *weight > MIN_WEIGHT);
-    ContactCurve::fit(&weighted.collect::<Vec<_>>())
+/// The sets with sufficient weight.
+fn near_heading(whisker: &Whisker, sets: &[ContactSet]) -> Vec<(ContactSet, f64)> {
+    sets.iter().map(|set| (*set, weight(whisker, set))).filter(|(_, weight)| *weight > MIN_WEIGHT).collect()
 }
 
 /// The index of each set's position, in the order in which the positions occur. Sets of one position are similar: if

@@ -1,12 +1,14 @@
 //! Calibration of a whisker: files of contact sets, contact sets from a simulation, and fits.
 
 mod contact_sets;
+mod count_set;
 mod fit;
 mod hinge_fit;
 #[cfg(feature = "sim")]
 mod simulated_rig;
 
-pub use contact_sets::{SetsError, read_sets, write_sets};
+pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
+pub use count_set::{CountSet, fit_field};
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};

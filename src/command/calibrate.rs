@@ -4,36 +4,46 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
+use vibrissa_robot::array::Transducer;
+use vibrissa_robot::config::{BoardConfig, Config};
 use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
+use super::drive::config;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
 use super::trials::make_directory;
 use super::values::parse_seed;
-use crate::calibration::{Fitted, HeldOut, fit, write_sets};
+use crate::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load;
 use crate::physics::{Physics, Preset};
 use crate::report::{held_out_table, profile_picture};
 use crate::results::Document;
-use crate::scenario::write_calibration;
+use crate::scenario::{write_calibration, write_robot_calibration};
 
-const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CalibrateArguments {
-    /// Measured contacts, as comma-separated values. The columns are `x_mm`, `y_mm`, `base_angle_urad`, and optionally
-    /// `normal_deg` and `contact`. Without a file, contacts are simulated
+    /// Measured contacts, as comma-separated values. The columns are `x_mm`, `y_mm`, `base_angle_urad` or `counts`, and
+    /// optionally `normal_deg` and `contact`. Without a file, contacts are simulated
     #[arg(value_name = "SETS")]
     sets: Option<PathBuf>,
     /// Scenario with the rig of the whisker. The default is the reference rig
     #[arg(long, value_name = "SCENARIO")]
     rig: Option<PathBuf>,
+    /// Configuration of the robot, for contacts with the counts of its sensor. It has the rig, the settings of the sensor and
+    /// the board of the whisker
+    #[arg(long, value_name = "FILE", requires_all = ["sets", "neutral"], conflicts_with_all = ["rig", "noise"])]
+    config: Option<PathBuf>,
+    /// Counts of the whisker at rest, measured with the contacts
+    #[arg(long, value_name = "COUNTS", requires = "config", allow_negative_numbers = true)]
+    neutral: Option<f64>,
     /// Whisker to calibrate. The default is the first whisker of the rig
     #[arg(long, value_name = "NAME")]
     whisker: Option<String>,
@@ -57,6 +67,8 @@ pub(super) struct Printed<'f> {
     whisker: &'f str,
     sets: usize,
     tip_sets: usize,
+    /// Field at the sensor per base moment (T/(N m)). `null` if the contacts have no counts.
+    field_per_moment: Option<f64>,
     held_out: &'f [HeldOut],
 }
 
@@ -66,12 +78,17 @@ impl Document for Printed<'_> {
 
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let (mut rig, physics) = match &arguments.rig {
-        Some(scenario) => {
+    let robot = match &arguments.config {
+        Some(path) => Some((path, config(path, &mut files)?.0)),
+        None => None,
+    };
+    let (mut rig, physics) = match (&robot, &arguments.rig) {
+        (Some((_, robot)), _) => (uncalibrated(&robot.rig), Preset::default().rig().1),
+        (None, Some(scenario)) => {
             let scene = load::scenario(scenario, &mut files)?.value;
             (scene.rig, scene.physics)
         }
-        None => Preset::default().rig(),
+        (None, None) => Preset::default().rig(),
     };
     if arguments.noise {
         rig.sensing.make_real();
@@ -81,39 +98,85 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
         None => 0,
     };
     let whisker = &rig.whiskers[index];
-    let measured = match &arguments.sets {
-        Some(path) => Some((path, load::contact_sets(path, &mut files)?)),
-        None => None,
+    let measured = match (&arguments.sets, &robot) {
+        (Some(path), Some((file, robot))) => {
+            let sets = load::count_sets(path, &mut files)?;
+            Some((path, counted(&sets, whisker, (file, robot), arguments.neutral.unwrap_or_default())?))
+        }
+        (Some(path), None) => Some((path, (load::contact_sets(path, &mut files)?, None))),
+        (None, _) => None,
     };
     make_directory(arguments.out.as_deref())?;
-    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &mut files)).transpose()?;
-    let (sets, about) = match measured {
-        Some((path, sets)) => (sets, format!("{}, measured: {}", whisker.name, path.display())),
+    let has_board = robot.is_some();
+    let report = arguments.out.as_ref().map(|directory| Report::new(directory, has_board, &mut files)).transpose()?;
+    let ((sets, board), about) = match measured {
+        Some((path, measured)) => (measured, format!("{}, measured: {}", whisker.name, path.display())),
         None => (
-            simulated(&rig, &physics, index, arguments)?,
+            (simulated(&rig, &physics, index, arguments)?, None),
             format!("{}, simulated: calibration rig with a rod", whisker.name),
         ),
     };
     let tip_sets = sets.iter().filter(|set| !set.on_shaft).count();
-    let fitted = fit(whisker, &sets, format!("{about}, {tip_sets} sets"));
+    let mut fitted = fit(whisker, &sets, format!("{about}, {tip_sets} sets"));
     if fitted.held_out.is_empty() {
         return Err(Failure::TooFewSets { count: tip_sets });
     }
-    if let Some(report) = report {
-        report.write(whisker, &sets, &fitted)?;
-    }
     report_missing(&fitted);
+    if board.is_some() {
+        // The field per moment has taken the place of the stiffness.
+        fitted.calibration.hinge_stiffness = None;
+    }
+    if let Some(report) = report {
+        report.write(whisker, &sets, &fitted, board.as_ref())?;
+    }
     if arguments.format.json {
         let held_out = &fitted.held_out;
-        output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, held_out })?;
+        let field_per_moment = board.as_ref().map(|board| board.field_per_moment);
+        output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, field_per_moment, held_out })?;
     } else {
         output::tables(&[held_out_table(&fitted.held_out)], arguments.format.wide)?;
         output::result(format_args!("{} sets, {} of them tip contacts", sets.len(), tip_sets))?;
+        if let Some(board) = &board {
+            output::result(format_args!("board: {}", line(board)))?;
+        }
         if let Some(directory) = &arguments.out {
             output::result(format_args!("calibration: {}", directory.join(FILE).display()))?;
         }
     }
     Ok(Exit::Done)
+}
+
+/// A rig without the calibrations of its whiskers.
+fn uncalibrated(rig: &Rig) -> Rig {
+    let mut rig = rig.clone();
+    for whisker in &mut rig.whiskers {
+        whisker.calibration = None;
+    }
+    rig
+}
+
+/// Contacts with base angles from contacts with counts, and the board with the fitted field per moment.
+fn counted(
+    sets: &[CountSet],
+    whisker: &Whisker,
+    (path, robot): (&Path, &Config),
+    neutral: f64,
+) -> Result<(Vec<ContactSet>, Option<BoardConfig>), Failure> {
+    let found =
+        Transducer::of(robot, whisker).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
+    let (board, transducer) =
+        found.ok_or_else(|| Failure::NoBoard { path: path.to_owned(), whisker: whisker.name.clone() })?;
+    let transducer = fit_field(whisker, sets, &Transducer { neutral, ..transducer })
+        .ok_or_else(|| Failure::NoField { whisker: whisker.name.clone() })?;
+    let board = BoardConfig { field_per_moment: transducer.magnet.field_per_moment, ..board.clone() };
+    Ok((sets.iter().map(|set| set.converted(&transducer)).collect(), Some(board)))
+}
+
+/// A board as a line of the robot's configuration.
+fn line(board: &BoardConfig) -> String {
+    let BoardConfig { whisker, address, field_per_moment, cubic } = board;
+    let cubic = if *cubic == 0.0 { String::new() } else { format!(", cubic: {cubic:?}") };
+    format!("{{whisker: {whisker}, address: {address:#04x}, field_per_moment: {field_per_moment:.4}{cubic}}}")
 }
 
 /// Reports the fits that were not possible, and the sets that they need.
@@ -123,6 +186,11 @@ fn report_missing(Fitted { calibration, .. }: &Fitted) {
             calibration.one_channel.is_none(),
             "one_channel",
             "contacts with many base angles, on surfaces nearly parallel to the heading",
+        ),
+        (
+            calibration.polynomial.is_none(),
+            "polynomial",
+            "contacts with many base angles up to 500 urad, on surfaces nearly parallel to the heading",
         ),
         (calibration.recursive.is_none(), "recursive", "contacts distributed over the plane"),
         (
@@ -139,21 +207,32 @@ fn report_missing(Fitted { calibration, .. }: &Fitted) {
 /// The name of a calibration's file.
 const FILE: &str = "calibration.yaml";
 
-/// The files for the calibration, its contact sets, and a picture of both.
+/// The files for the calibration, its contact sets, a picture of both, and the parts of a robot's configuration.
 struct Report {
+    robot: Option<Output>,
     calibration: Output,
     sets: Output,
     profile: Output,
 }
 
 impl Report {
-    fn new(directory: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+    fn new(directory: &Path, has_board: bool, files: &mut CommandFiles) -> Result<Self, OutputError> {
         let mut file = |name| files.output("--out", &directory.join(name));
-        Ok(Self { calibration: file(FILE)?, sets: file("sets.csv")?, profile: file("profile.svg")? })
+        let robot = has_board.then(|| file("robot.yaml")).transpose()?;
+        Ok(Self { robot, calibration: file(FILE)?, sets: file("sets.csv")?, profile: file("profile.svg")? })
     }
 
-    fn write(self, whisker: &Whisker, sets: &[ContactSet], fitted: &Fitted) -> Result<(), OutputError> {
+    fn write(
+        self,
+        whisker: &Whisker,
+        sets: &[ContactSet],
+        fitted: &Fitted,
+        board: Option<&BoardConfig>,
+    ) -> Result<(), OutputError> {
         let calibration = &fitted.calibration;
+        if let (Some(robot), Some(board)) = (self.robot, board) {
+            robot.write(write_robot_calibration(&whisker.name, &line(board), calibration))?;
+        }
         self.calibration.write(write_calibration(calibration))?;
         self.sets.write(write_sets(sets))?;
         let title = format!("Deflection profile of {}", calibration.about);

@@ -16,6 +16,7 @@ use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::CommandFiles;
 use crate::load::{self, Loaded};
 use crate::report::comparison_tables;
+use crate::results::{RunResult, marked};
 use crate::scene::{Jitter, Scene};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns};
 use crate::trial::Trial;
@@ -77,7 +78,11 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let mut results = run_all(&trials, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
     let runs: Vec<_> = policies
         .iter()
-        .map(|path| (path.display().to_string(), results.by_ref().take(settings.len()).collect()))
+        .map(|path| {
+            let results: Vec<RunResult> = results.by_ref().take(settings.len()).collect();
+            let true_tips = results.iter().any(|result| result.true_tips);
+            (marked(&path.display().to_string(), true_tips), results)
+        })
         .collect();
     let comparison = Comparison::new(&runs);
     report_incomplete(&comparison);

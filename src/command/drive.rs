@@ -183,7 +183,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
 }
 
 /// Reads a configuration. The result has its text too.
-fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, String), Failure> {
+pub(super) fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, String), Failure> {
     let text = load::read(path, files)?.text;
     let config = Config::from_text(&text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
     Ok((config, text))

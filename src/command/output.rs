@@ -102,9 +102,20 @@ pub(super) fn warn_of_rates(scenario: &Path, rig: &Rig, program: &Program) {
     }
 }
 
-/// Prints the warnings of a policy.
+/// Prints the warnings of a policy, and says if only a simulator can run it.
 pub(super) fn warnings(policy: &Policy) {
+    note_true_tips(&policy.artifact.program);
     if let Some(PolicyText { source, warnings, .. }) = &policy.text {
         diagnostics(source, warnings);
+    }
+}
+
+/// Says that a program uses true tips, if it does.
+fn note_true_tips(program: &Program) {
+    if program.uses_true_tips() {
+        message(format_args!(
+            "note: {} uses true tips (`by truth`), so results are without errors of perception, and no robot can run it",
+            program.name
+        ));
     }
 }

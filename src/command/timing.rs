@@ -46,7 +46,7 @@ pub(super) fn timing(arguments: &TimingArguments) -> Result<Exit, Failure> {
         .iter()
         .zip(&times)
         .filter_map(|((conditions, trial), times)| {
-            let (scene, policy) = (conditions.named(&trial.scene.name), trial.program.name.clone());
+            let (scene, policy) = (conditions.named(&trial.scene.name), trial.policy_label());
             TimingRow::new(scene, policy, trial.world.kind.to_string(), times)
         })
         .collect();

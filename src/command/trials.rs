@@ -53,7 +53,7 @@ pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -
 }
 
 fn drawn(trial: &Trial, result: &TrialResult) -> String {
-    picture(&trial.scene, &trial.program.name, &result.run, &result.score)
+    picture(&trial.scene, &trial.policy_label(), &result.run, &result.score)
 }
 
 /// The inputs of a trial, by the path of its scenario and the hashes of scenario and policy.

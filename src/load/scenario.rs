@@ -8,7 +8,7 @@ use vibrissa_runtime::calibration::ContactSet;
 use super::text::{read, reason};
 use super::{LoadError, Loaded};
 use crate::built_in::TextFile;
-use crate::calibration::read_sets;
+use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::outline;
@@ -57,8 +57,21 @@ fn read_scenario(
     }
 }
 
-/// Reads measured contacts.
+/// Reads measured contacts with base angles.
 pub(crate) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, LoadError> {
+    sets(path, files, read_sets)
+}
+
+/// Reads measured contacts with counts of the sensor.
+pub(crate) fn count_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<CountSet>, LoadError> {
+    sets(path, files, read_count_sets)
+}
+
+fn sets<T>(
+    path: &Path,
+    files: &mut CommandFiles,
+    read_bytes: fn(&[u8]) -> Result<Vec<T>, SetsError>,
+) -> Result<Vec<T>, LoadError> {
     let source = read(path, files)?;
-    read_sets(source.text.as_bytes()).map_err(|cause| LoadError::Sets { path: path.to_owned(), cause })
+    read_bytes(source.text.as_bytes()).map_err(|cause| LoadError::Sets { path: path.to_owned(), cause })
 }

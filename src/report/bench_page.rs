@@ -43,7 +43,7 @@ pub fn bench_page(rows: &[BenchRow], pictures: &[String]) -> String {
         page += &table(rows, &columns);
     }
     for (index, (row, picture)) in rows.iter().zip(pictures).enumerate() {
-        let title = escaped(&format!("{}, {}", row.scene(), row.result.policy));
+        let title = escaped(&format!("{}, {}", row.scene(), row.result.policy_label()));
         let _ = write!(
             page,
             "<h2 id=\"run{index}\">{title}</h2>\n{}<img alt=\"{title}\" src=\"data:image/svg+xml,{}\">\n",

@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::{CornerFigures, CornerStatistics, Moments, RetrievalFigures, Score, StateShare, TipDistance};
+use vibrissa_runtime::machine::Program;
 
 /// The result of a run, in the units of its keys. Its serialised form is the output of `run --json`.
 ///
@@ -18,6 +19,8 @@ pub struct RunResult {
     pub scenario: String,
     /// Name of the policy.
     pub policy: String,
+    /// True if the policy used true tip positions, an ideal sensor that no robot has.
+    pub true_tips: bool,
     /// Name of the world.
     pub world: String,
     /// Seed of the sensor noise.
@@ -87,6 +90,8 @@ pub struct Identity {
     pub scenario: String,
     /// Name of the policy.
     pub policy: String,
+    /// True if the policy used true tip positions.
+    pub true_tips: bool,
     /// Name of the world.
     pub world: String,
     /// Seed of the sensor noise.
@@ -260,10 +265,16 @@ pub struct TickUs {
 }
 
 impl RunResult {
+    /// The name of the policy for people. It says so if the policy used true tips.
+    #[must_use]
+    pub fn policy_label(&self) -> String {
+        marked(&self.policy, self.true_tips)
+    }
+
     /// The result of `run` with this `score`.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score) -> Self {
-        let Identity { scenario, policy, world, seed, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, hash } = identity;
         let millimetres = |metres: f64| metres * 1e3;
         let microseconds = |seconds: f64| seconds * 1e6;
         let (error, latency) = (score.error, score.latency);
@@ -272,6 +283,7 @@ impl RunResult {
         Self {
             scenario,
             policy,
+            true_tips,
             world,
             seed,
             outcome: run.outcome,
@@ -326,6 +338,17 @@ impl RunResult {
             hash,
         }
     }
+}
+
+/// The name of a policy for people. It says so if the policy uses true tips.
+#[must_use]
+pub fn policy_label(program: &Program) -> String {
+    marked(&program.name, program.uses_true_tips())
+}
+
+/// The name of a policy, or of its file, with a mark if it used true tips.
+pub(crate) fn marked(policy: &str, true_tips: bool) -> String {
+    if true_tips { format!("{policy} (true tips)") } else { policy.to_owned() }
 }
 
 impl Retrieval {

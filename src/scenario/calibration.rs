@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use serde::Deserialize;
-use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, UnsoundCalibration};
+use vibrissa_runtime::calibration::{
+    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, UnsoundCalibration,
+};
 
 /// The supported format version.
 const FORMAT: u32 = 2;
@@ -18,6 +20,7 @@ struct Document {
     hinge_stiffness: Option<f64>,
     one_channel: Option<ContactCurve>,
     recursive: Option<AngleSurface>,
+    polynomial: Option<DeflectionPolynomial>,
 }
 
 /// The key that all format versions have.
@@ -57,11 +60,11 @@ pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
             _ => return Err(CalibrationError::Syntax(error.to_string())),
         },
     };
-    let Document { format, about, hinge_stiffness, one_channel, recursive } = read;
+    let Document { format, about, hinge_stiffness, one_channel, recursive, polynomial } = read;
     if format != FORMAT {
         return Err(CalibrationError::Format { found: format });
     }
-    let calibration = Calibration { about, hinge_stiffness, one_channel, recursive };
+    let calibration = Calibration { about, hinge_stiffness, one_channel, recursive, polynomial };
     calibration.check()?;
     Ok(calibration)
 }
@@ -69,13 +72,27 @@ pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
 /// Returns the text of a calibration file.
 #[must_use]
 pub fn write_calibration(calibration: &Calibration) -> String {
-    let mut text = format!(
+    format!(
         "# A whisker's calibration, in metres, radians and newtons; a rig loads it by `calibration: FILE`.\n\
-         vibrissa_calibration: {}\nabout: {}\n",
-        FORMAT,
-        // Quoted JSON text is valid YAML.
-        serde_json::Value::from(calibration.about.as_str())
-    );
+         vibrissa_calibration: {FORMAT}\n{}",
+        values(calibration)
+    )
+}
+
+/// Returns the parts of a robot's configuration for a calibrated whisker: its calibration, and its `board` on one line.
+#[must_use]
+pub fn write_robot_calibration(whisker: &str, board: &str, calibration: &Calibration) -> String {
+    let values: String = values(calibration).lines().map(|line| format!("        {line}\n")).collect();
+    format!(
+        "# For the configuration of the robot: copy the calibration into the section `rig`, and replace the board.\n\
+         # board: {board}\nrig:\n  whiskers:\n    {whisker}:\n      calibration:\n{values}"
+    )
+}
+
+/// The keys of a calibration.
+fn values(calibration: &Calibration) -> String {
+    // Quoted JSON text is valid YAML.
+    let mut text = format!("about: {}\n", serde_json::Value::from(calibration.about.as_str()));
     // Writing to a string cannot fail.
     if let Some(stiffness) = calibration.hinge_stiffness {
         let _ = writeln!(text, "hinge_stiffness: {stiffness:?}");
@@ -83,6 +100,12 @@ pub fn write_calibration(calibration: &Calibration) -> String {
     if let Some(ContactCurve { range, x, y, covariance }) = &calibration.one_channel {
         let _ =
             write!(text, "one_channel:\n  range: {range:?}\n  x: {x:?}\n  y: {y:?}\n  covariance: {covariance:?}\n");
+    }
+    if let Some(DeflectionPolynomial { range, length, x, y, covariance }) = &calibration.polynomial {
+        let _ = write!(
+            text,
+            "polynomial:\n  range: {range:?}\n  length: {length:?}\n  x: {x:?}\n  y: {y:?}\n  covariance: {covariance:?}\n"
+        );
     }
     if let Some(AngleSurface { centre, scale, coefficients, deviation: spread, reach, positions: places }) =
         &calibration.recursive

@@ -30,7 +30,7 @@ mod timing;
 mod tunnel;
 mod whisker;
 
-pub use calibration::{CalibrationError, read_calibration, write_calibration};
+pub use calibration::{CalibrationError, read_calibration, write_calibration, write_robot_calibration};
 pub(crate) use change::{Change, quoted, read as read_changed};
 pub(crate) use fields::Fields;
 pub(crate) use file::reference;

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
@@ -149,7 +148,7 @@ impl Plan {
                 let name = run.scenes().name();
                 note(format!("{name}: without noise all trials are the same run"));
             }
-            if let Err(cause) = Control::new(&trial.scene.rig, trial.program) {
+            if let Err(cause) = trial.control() {
                 return Err(LoadError::at(&self.source, run.unfit(None, &cause.to_string())).into());
             }
         }

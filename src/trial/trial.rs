@@ -12,11 +12,11 @@ use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
-use crate::results::{Hashes, Identity, RunResult};
+use crate::results::{Hashes, Identity, RunResult, policy_label};
 use crate::run::{Run, Trace, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
-use crate::world::World;
+use crate::world::{TrueTips, World};
 
 /// A policy in a scene and a world: everything that a run depends on.
 ///
@@ -46,6 +46,8 @@ pub struct Trial {
     pub world: WorldSetup,
     /// Seed of the sensor noise.
     pub seed: u64,
+    /// True if samples have the true tips. A policy with the contact estimator `truth` has them in any case.
+    pub true_tips: bool,
     /// The files that the trial was made from.
     pub inputs: Inputs,
 }
@@ -82,6 +84,7 @@ impl Trial {
             assumed_rig: scene.rig.clone(),
             world: scene.world.unwrap_or_default().into(),
             seed: scene.seed,
+            true_tips: false,
             inputs: Inputs::default(),
             scene,
             program,
@@ -130,11 +133,19 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the world refuses the scene.
     pub fn world(&self) -> Result<Box<dyn World>, ExecuteError> {
-        build_world(&self.scene, self.world, self.seed)
+        let world = build_world(&self.scene, self.world, self.seed)?;
+        if self.true_tips || self.program.uses_true_tips() {
+            return Ok(Box::new(TrueTips::new(world, &self.scene.rig, self.scene.truth.surfaces.clone())));
+        }
+        Ok(world)
     }
 
-    fn control(&self) -> Result<Control, ExecuteError> {
-        Ok(Control::new(&self.assumed_rig, Arc::clone(&self.program))?)
+    /// The control loop of the trial. In a simulator, the policy may use true tips.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the rig does not have what the policy needs.
+    pub fn control(&self) -> Result<Control, ExecuteError> {
+        Ok(Control::simulated(&self.assumed_rig, Arc::clone(&self.program))?)
     }
 
     fn drive(
@@ -161,11 +172,18 @@ impl Trial {
         RunResult::new(self.identity(), &result.run, &result.score)
     }
 
+    /// The name of the policy for people. It says so if the policy uses true tips.
+    #[must_use]
+    pub fn policy_label(&self) -> String {
+        policy_label(&self.program)
+    }
+
     /// The names and hashes that identify the trial.
     fn identity(&self) -> Identity {
         Identity {
             scenario: self.scene.name.clone(),
             policy: self.program.name.clone(),
+            true_tips: self.program.uses_true_tips(),
             world: self.world.kind.to_string(),
             seed: self.seed,
             hash: Hashes {

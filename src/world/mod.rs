@@ -2,9 +2,11 @@
 
 mod fault;
 mod sensors;
+mod true_tips;
 
 pub use fault::Fault;
 pub(crate) use sensors::{Sensors, whole};
+pub use true_tips::TrueTips;
 
 use crate::geometry::Point2;
 use vibrissa_runtime::signal::{Command, Sample};

@@ -36,6 +36,7 @@ fn identity() -> Identity {
     Identity {
         scenario: "disk".to_owned(),
         policy: "thesis".to_owned(),
+        true_tips: false,
         world: "mujoco".to_owned(),
         seed: 7,
         hash: Hashes { scenario, policy, engine },

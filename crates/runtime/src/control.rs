@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::machine::{Machine, Program, Tick};
+use crate::machine::{Machine, OnlySimulated, Program, Tick};
 use crate::motion::Steering;
 use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
@@ -17,6 +17,9 @@ pub enum BindError {
     /// The rig has no valid perception for the policy.
     #[error(transparent)]
     Perception(#[from] PerceptionError),
+    /// The policy can only run in a simulator.
+    #[error(transparent)]
+    OnlySimulated(#[from] OnlySimulated),
 }
 
 /// The control loop of one rig under one policy. It contains everything that runs at the control rate.
@@ -31,8 +34,18 @@ impl Control {
     /// Creates the controller of `rig` under `program`, at the start of a run.
     ///
     /// # Errors
-    /// [`BindError`] if the rig lacks something that the policy needs.
+    /// [`BindError`] if the rig lacks something that the policy needs. No rig has true tip positions.
     pub fn new(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
+        program.check_for_robot()?;
+        Self::simulated(rig, program)
+    }
+
+    /// Creates the controller of a simulated `rig`, whose samples have the [true tips](crate::signal::TrueTip) if the
+    /// program uses them. Without them, the contact estimator `truth` gives no contact.
+    ///
+    /// # Errors
+    /// [`BindError`] if the rig lacks something that the policy needs.
+    pub fn simulated(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
         Ok(Self {
             perception: Perception::new(rig, &whiskers, &program.contact_estimators)?,

@@ -12,7 +12,7 @@ use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::machine::{Artifact, ContactEstimatorKind};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
-use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample, TrueTip};
 
 /// The compiled policies, and the numbers of their commands.
 const POLICIES: [(&str, &[u8], &str); 3] = [
@@ -21,11 +21,13 @@ const POLICIES: [(&str, &[u8], &str); 3] = [
     ("vibrissa", include_bytes!("../fixtures/vibrissa.machine"), "2d692ec67219dba1"),
 ];
 /// The contact estimators, and the numbers of their contacts.
-const ESTIMATORS: [(ContactEstimatorKind, &str); 4] = [
+const ESTIMATORS: [(ContactEstimatorKind, &str); 6] = [
     (ContactEstimatorKind::OneChannel, "74b7d2fa0f18850f"),
     (ContactEstimatorKind::Sliding, "546cfb4450c21fd8"),
     (ContactEstimatorKind::MomentAndShear, "ec1fad99e69334e8"),
     (ContactEstimatorKind::Recursive, "b4c84fa8ee72406b"),
+    (ContactEstimatorKind::Polynomial, "5e0cbbe1716e3662"),
+    (ContactEstimatorKind::Truth, "c498d82cc8a44322"),
 ];
 
 /// Number of ticks: 40 s.
@@ -101,6 +103,8 @@ impl Robot {
                 reading.base_angle = bend + NOISE * self.noise.next();
                 let arm = whisker.shaft.length * (1.0 + 0.2 * self.noise.next());
                 reading.shear = Some(whisker.hinge.stiffness * reading.base_angle / arm);
+                let point_world = CENTRE + (tip - CENTRE).normalize() * RADIUS;
+                reading.true_tip = Some(TrueTip { point_world, touches: overlap > 0.0 });
                 if self.noise.next() > 0.498 {
                     reading.base_angle = f64::NAN;
                 }

@@ -108,7 +108,7 @@ pub(super) const KEYWORDS: [Keyword; 59] = [
         "by",
         INSIDE,
         "by ${1:sliding}",
-        "The contact estimator of the whiskers: `sliding`, `one_channel`, `moment_and_shear` or `recursive`.",
+        "The contact estimator of the whiskers: `sliding`, `one_channel`, `polynomial`, `moment_and_shear`, `recursive` or, in a simulator, `truth`.",
     ),
     entry(
         "fitted",
@@ -287,6 +287,18 @@ pub(super) const KEYWORDS: [Keyword; 59] = [
         TIP_MODEL,
         "one_channel",
         "Estimates the tip from the base angle alone, and assumes a surface parallel to the heading.",
+    ),
+    entry(
+        "polynomial",
+        TIP_MODEL,
+        "polynomial",
+        "Estimates the tip by a polynomial in the base angle, up to 500 urad, for a surface parallel to the heading.",
+    ),
+    entry(
+        "truth",
+        TIP_MODEL,
+        "truth",
+        "An ideal sensor of the tip position. Only a simulator has it, and a robot refuses the policy.",
     ),
     entry("control_rate", NEED, "control_rate in ${1:20} .. ${2:30 Hz}", "The rate of ticks."),
     entry("sample_rate", NEED, "sample_rate in ${1:200} .. ${2:300 Hz}", "The rate of samples of every whisker."),

@@ -20,7 +20,7 @@ const CELLS: usize = 120;
 
 /// A picture of the sets of a calibration and of the fits to them. All sets are shown as bends to the left. Positions
 /// of the tip in the frame of the base are coloured by base angle. Lines of equal base angle are those of the fit `z =
-/// f(x, y)`, and a curve is that of one channel. Figure 3.5 of the baseline's report is of this kind. A self-contained SVG.
+/// f(x, y)`. Curves are those of one channel and of the deflection polynomial. Figure 3.5 of the baseline's report is of this kind. A self-contained SVG.
 #[must_use]
 pub(crate) fn profile_picture(title: &str, length: f64, sets: &[ContactSet], calibration: &Calibration) -> String {
     let sets: Vec<ContactSet> = sets.iter().map(|set| set.to_left()).collect();
@@ -37,6 +37,11 @@ pub(crate) fn profile_picture(title: &str, length: f64, sets: &[ContactSet], cal
         let [least, greatest] = curve.range;
         let at = |share: f64| curve.at(least + share * (greatest - least));
         document = document.add(plot.path((0..=100).map(|index| at(f64::from(index) / 100.0)), style::ALARM, 2.5));
+    }
+    if let Some(polynomial) = &calibration.polynomial {
+        let at = |share: f64| polynomial.at(share * polynomial.range);
+        let path = plot.path((0..=100).map(|index| at(f64::from(index) / 100.0)), style::INK, 1.5);
+        document = document.add(path.set("stroke-dasharray", "6 4"));
     }
     document.to_string()
 }
@@ -70,6 +75,9 @@ impl Plot {
         }
         if calibration.one_channel.is_some() {
             parts.push("thick: one channel".to_owned());
+        }
+        if calibration.polynomial.is_some() {
+            parts.push("dashed: polynomial".to_owned());
         }
         parts.join("; ")
     }

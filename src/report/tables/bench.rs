@@ -44,14 +44,15 @@ pub fn bench_table(rows: &[BenchRow]) -> Table {
 /// the 95 % interval that the tips report.
 #[must_use]
 pub fn pooled_tips(rows: &[BenchRow]) -> String {
-    let mut policies: Vec<&str> = Vec::new();
+    let mut policies: Vec<String> = Vec::new();
     for row in rows {
-        if !policies.contains(&row.result.policy.as_str()) {
-            policies.push(&row.result.policy);
+        let policy = row.result.policy_label();
+        if !policies.contains(&policy) {
+            policies.push(policy);
         }
     }
-    let line = |policy: &str| {
-        let mine = rows.iter().filter(|row| row.result.policy == policy).map(|row| &row.result.error_mm);
+    let line = |policy: String| {
+        let mine = rows.iter().filter(|row| row.result.policy_label() == policy).map(|row| &row.result.error_mm);
         let tips: TipShares = mine.map(|error| TipShares::of_run(error.n, error.outliers, error.within_band)).sum();
         let share = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
         format!(
@@ -80,7 +81,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
     let corners = result.corners.as_ref();
     [
         plain(Some(row.scene())),
-        plain(Some(result.policy.clone())),
+        plain(Some(result.policy_label())),
         plain(Some(result.outcome.to_string())),
         plain(against_baseline(row)),
         error,

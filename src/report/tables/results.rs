@@ -10,7 +10,7 @@ type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 /// The columns from left to right.
 const COLUMNS: [Column; 22] = [
     ("scene", |result| Some(result.scenario.clone()), true),
-    ("policy", |result| Some(result.policy.clone()), true),
+    ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
     ("error mm", |result| Some(mean_std(result.error_mm.mean?, result.error_mm.std)), true),
     ("largest error mm", |result| result.error_mm.max.map(millimetres), true),

@@ -10,7 +10,7 @@ use super::row::{Front, ParetoRow};
 use super::setting::{FINE_LINKS, Setting, set_links};
 use super::{Pareto, front};
 use crate::geometry::unit;
-use crate::results::Ending;
+use crate::results::{Ending, policy_label};
 use crate::scene::{Scene, WorldKind};
 use crate::score::{Estimate, Statistics};
 use crate::study::estimators::evaluate;
@@ -73,7 +73,7 @@ pub fn measure(
     mark(&mut rows);
     Ok(Pareto {
         scenario: scene.name.clone(),
-        policy: program.name.clone(),
+        policy: policy_label(program),
         repeats,
         contact_estimators: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
         floor_mm,

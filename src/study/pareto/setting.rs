@@ -102,7 +102,9 @@ impl Setting {
             seen.push(about);
             is_new
         };
-        all.filter(is_new).chain(ContactEstimatorKind::ALL.map(|kind| Self(vec![ContactEstimator(kind)]))).collect()
+        // An ideal sensor is no setting of a robot.
+        let estimators = ContactEstimatorKind::ALL.into_iter().filter(|kind| !kind.is_ideal());
+        all.filter(is_new).chain(estimators.map(|kind| Self(vec![ContactEstimator(kind)]))).collect()
     }
 
     /// The contact estimator that replaces the policy's own.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::row::{Differences, WorldsRow};
 use super::simulation::Simulation;
 use super::track::{Instant, Track};
+use crate::results::policy_label;
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::score::Estimate;
@@ -42,7 +43,7 @@ pub fn compare_worlds(
         let moment = of(|(reference, other)| 1e6 * (other.moment - reference.moment).abs());
         rows.push(WorldsRow {
             scenario: scene.name.clone(),
-            policy: program.name.clone(),
+            policy: policy_label(program),
             simulation: simulation.name,
             reference: reference.name,
             outcome: own.outcome.into(),

@@ -26,7 +26,9 @@ fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
     let output = vibrissa(&["calibrate", &file, "--whisker", "l0", "--out", &out_text]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let printed = stdout(&output);
-    for wanted in ["one_channel", "recursive", "sliding, moment_and_shear", "120 sets, 120 of them tip contacts"] {
+    for wanted in
+        ["one_channel", "polynomial", "recursive", "sliding, moment_and_shear", "120 sets, 120 of them tip contacts"]
+    {
         assert!(printed.contains(wanted), "{printed}");
     }
     let calibration = std::fs::read_to_string(out.join("calibration.yaml")).unwrap();
@@ -67,7 +69,8 @@ fn json_alone_is_printed_if_asked_for() {
     let output = vibrissa(&["calibrate", &file.display().to_string(), "--json"]);
     let report: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!((&report["whisker"], &report["sets"]), (&"r0".into(), &120.into()));
-    assert_eq!(report["held_out"].as_array().unwrap().len(), 3);
+    assert_eq!(report["held_out"].as_array().unwrap().len(), 4);
+    assert!(report["field_per_moment"].is_null());
 }
 
 #[test]
@@ -91,3 +94,60 @@ fn what_cannot_be_calibrated_says_why() {
         assert!(stderr(&output).contains(reason), "{}", stderr(&output));
     }
 }
+
+/// The same touches as counts of a sensor at 0.15 µT per count, with a magnet of 6 µT/µN m and a neutral value of -812.
+pub(crate) fn counts() -> String {
+    let lines = sets();
+    let counted = lines.lines().skip(1).map(|line| {
+        let (position, angle) = line.rsplit_once(',').unwrap();
+        let counts = -812.0 + angle.parse::<f64>().unwrap() * 6.0 / 0.15;
+        format!("{position},{counts:.0}\n")
+    });
+    format!("x_mm,y_mm,counts\n{}", counted.collect::<String>())
+}
+
+#[test]
+fn touches_with_counts_become_a_board_and_a_calibration_for_the_robot() {
+    let folder = directory("calibrate_counts");
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.join(name), text).unwrap();
+        folder.join(name).display().to_string()
+    };
+    let (file, config) = (write("counts.csv", &counts()), write("array.yaml", CONFIG));
+    let out = folder.join("out").display().to_string();
+    let calibrate = |arguments: &[&str]| vibrissa(&[&["calibrate", &file, "--config", &config], arguments].concat());
+    let output = calibrate(&["--neutral", "-812", "--whisker", "l0", "--out", &out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let printed = stdout(&output);
+    let board = printed.lines().find_map(|line| line.strip_prefix("board: ")).unwrap();
+    let field = board.split("field_per_moment: ").nth(1).unwrap().trim_end_matches('}').parse::<f64>().unwrap();
+    // The same touches with base angles have a hinge of this stiffness.
+    let angles = write("angles.csv", &sets());
+    let output = vibrissa(&["calibrate", &angles, "--whisker", "l0", "--out", &out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let calibration = std::fs::read_to_string(folder.join("out/calibration.yaml")).unwrap();
+    let stiffness = calibration.split("hinge_stiffness: ").nth(1).unwrap().lines().next().unwrap();
+    let expected = 6.0 / stiffness.parse::<f64>().unwrap();
+    assert!((field / expected - 1.0).abs() < 1e-3, "{field} for {expected}");
+
+    let robot = std::fs::read_to_string(folder.join("out/robot.yaml")).unwrap();
+    assert!(robot.contains(board) && robot.contains("calibration:") && !robot.contains("hinge_stiffness"), "{robot}");
+
+    for (arguments, reason) in [
+        (&["--whisker", "l0"][..], "--neutral <COUNTS>"),
+        (&["--neutral", "0", "--whisker", "r0"], "no board is assigned to the whisker `r0`"),
+        (&["--neutral", "-300000", "--whisker", "l0"], "the counts do not agree with the mechanics"),
+        (&["--neutral", "0", "--rig", "a.yaml"], "cannot be used with"),
+    ] {
+        let output = calibrate(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(reason), "{arguments:?}: {}", stderr(&output));
+    }
+}
+
+/// A robot with the reference rig and a board at its left whisker.
+pub(crate) const CONFIG: &str = "name: robot
+buses: [{device: /dev/i2c-1, boards: [{whisker: l0, address: 0x0C}]}]
+limits: {speed: 0.1 m/s, yaw_rate: 60 deg/s, base_angle: 1050 urad}
+pose: {udp: {listen: \"0.0.0.0:9751\"}}
+";

@@ -5,7 +5,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::calibrate::sets;
+use super::calibrate::{CONFIG, counts, sets};
 use super::program::{directory, stderr, stdout, vibrissa};
 
 const LIBRARY: &str = "library laws\nlet still(w: whisker) = not w.touching\n";
@@ -37,6 +37,8 @@ pub(super) fn folder(name: &str) -> PathBuf {
         ("prop.fsm", property),
         ("prop.regressions.yaml", regressions),
         ("measured.csv", &sets()),
+        ("counts.csv", &counts()),
+        ("array.yaml", CONFIG),
     ] {
         fs::write(folder.join(name), text).unwrap();
     }
@@ -76,6 +78,12 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "scene.yaml", "calibration.yaml", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "r0.yaml", "profile.svg", "--out"),
+    (
+        "calibrate @/counts.csv --config @/array.yaml --neutral -812 --whisker l0 --out @",
+        "array.yaml",
+        "robot.yaml",
+        "--out",
+    ),
     ("bench --policy @/quick.fsm --world quasistatic --out @", "laws.fsm", "results.json", "--out"),
     ("bench --policy @/quick.fsm --world quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
     (
@@ -109,6 +117,8 @@ fn no_command_writes_to_what_it_reads_under_any_name_or_link() {
         "r0.yaml",
         "small.yaml",
         "measured.csv",
+        "counts.csv",
+        "array.yaml",
         "prop.fsm",
         "prop.regressions.yaml",
     ];

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::Content;
-use crate::command::calibrate::sets;
+use crate::command::calibrate::{CONFIG, counts};
 use crate::command::program::{ROOT, stderr, vibrissa};
 
 /// A command that writes to the folder `out` in a folder of its own.
@@ -142,10 +142,14 @@ pub(super) const PARETO: Case = Case {
 pub(super) const CALIBRATE: Case = Case {
     name: "calibrate",
     prepare: |folder| {
-        fs::write(folder.join("measured.csv"), sets()).unwrap();
+        fs::write(folder.join("counts.csv"), counts()).unwrap();
+        fs::write(folder.join("array.yaml"), CONFIG).unwrap();
         Content::new()
     },
-    arguments: |folder| words("calibrate @/measured.csv --out @/out", folder),
+    arguments: |folder| {
+        let line = "calibrate @/counts.csv --config @/array.yaml --neutral -812 --whisker l0 --out @/out";
+        words(line, folder)
+    },
     old,
     is_long: true,
 };

@@ -69,7 +69,12 @@ proptest! {
 #[test]
 fn beyond_its_range_a_model_tells_no_touch_and_nothing_is_recorded() {
     // By two readings the range is where the mechanics have a touch with both.
-    for kind in [ContactEstimatorKind::OneChannel, ContactEstimatorKind::Sliding, ContactEstimatorKind::Recursive] {
+    for kind in [
+        ContactEstimatorKind::OneChannel,
+        ContactEstimatorKind::Sliding,
+        ContactEstimatorKind::Recursive,
+        ContactEstimatorKind::Polynomial,
+    ] {
         let (perception, found) = touch(kind, -2e-3, 1.0);
         assert_eq!(found, None, "{kind:?}");
         assert_eq!(perception.recorded_tip(0), None, "{kind:?}");

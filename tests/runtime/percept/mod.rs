@@ -6,5 +6,7 @@ mod fitted;
 mod gaps;
 mod moment_and_shear;
 mod perception;
+mod polynomial;
 mod sliding;
 mod tip_curve;
+mod truth;

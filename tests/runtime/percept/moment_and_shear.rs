@@ -29,7 +29,7 @@ fn told(rig: &Rig, bend: &ShaftShape, mut normal: impl FnMut() -> f64) -> (Perce
             let mut whiskers = [Reading::default(); MAX_WHISKERS];
             let base_angle = bend.base_angle + sensing.angle_noise * normal();
             let shear = Some(bend.shear + sensing.force_noise * normal());
-            whiskers[1] = Reading { base_angle, shear, axial: None };
+            whiskers[1] = Reading { base_angle, shear, ..Reading::default() };
             Sample { time: (tick * 10 + index) as f64 / 300.0, body: Pose::default(), whiskers }
         });
         perception.update(&samples);

@@ -2,4 +2,5 @@
 
 mod hostile;
 mod ticks;
+mod true_tips;
 mod way;

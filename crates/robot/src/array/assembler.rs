@@ -6,6 +6,7 @@ use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 use super::magnet::Magnet;
 use super::pose_history::PoseHistory;
 use super::round::Round;
+use super::transducer::Transducer;
 use crate::config::{Config, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS};
 
 /// Number of sample periods that are kept until all buses have delivered.
@@ -37,30 +38,13 @@ struct Slot {
     counts: [Option<i32>; MAX_WHISKERS],
 }
 
-/// Conversion of counts to the base angle of a whisker.
-#[derive(Debug, Clone, Copy)]
-struct Transducer {
-    magnet: Magnet,
-    microtesla_per_count: f64,
-    hinge_stiffness: f64,
-    neutral: f64,
-}
-
-impl Transducer {
-    fn base_angle(&self, counts: i32) -> f64 {
-        let field_microtesla = (f64::from(counts) - self.neutral) * self.microtesla_per_count;
-        self.magnet.moment(field_microtesla) / self.hinge_stiffness
-    }
-}
-
 impl Assembler {
     /// The assembler of an array whose sensors have these settings.
     #[must_use]
     pub fn new(config: &Config, settings: &CheckedSettings) -> Self {
-        let microtesla_per_count = f64::from(settings.field_per_count_microtesla(Axis::Y));
         let none = Transducer {
             magnet: Magnet { field_per_moment: 1.0, cubic: 0.0 },
-            microtesla_per_count,
+            microtesla_per_count: f64::from(settings.field_per_count_microtesla(Axis::Y)),
             hinge_stiffness: 1.0,
             neutral: 0.0,
         };
@@ -72,8 +56,7 @@ impl Assembler {
             let rig = config.rig.whiskers.get(index);
             if let (Some(entry), Some(cell), Some(transducer), Some(rig)) = (entry, cell, transducer, rig) {
                 *cell = Some(index);
-                transducer.magnet = Magnet { field_per_moment: entry.field_per_moment, cubic: entry.cubic };
-                transducer.hinge_stiffness = rig.perceived().hinge.stiffness;
+                *transducer = Transducer::new(entry, rig, settings);
             }
         }
         Self {
@@ -107,7 +90,7 @@ impl Assembler {
     #[must_use]
     pub fn values(&self, whisker: usize, counts: i32) -> Option<(f64, f64)> {
         let transducer = self.transducers.get(whisker)?;
-        Some((f64::from(counts) * transducer.microtesla_per_count * 1e-6, transducer.base_angle(counts)))
+        Some((f64::from(counts) * transducer.microtesla_per_count * 1e-6, transducer.base_angle(f64::from(counts))))
     }
 
     /// Drops all sample periods before `slot`.
@@ -151,7 +134,7 @@ impl Assembler {
             let time_ns = read_ns.saturating_sub(self.delay_ns);
             let mut whiskers = [Reading::default(); MAX_WHISKERS];
             for ((reading, counts), transducer) in whiskers.iter_mut().zip(counts).zip(&self.transducers) {
-                reading.base_angle = counts.map_or(f64::NAN, |counts| transducer.base_angle(counts));
+                reading.base_angle = counts.map_or(f64::NAN, |counts| transducer.base_angle(f64::from(counts)));
             }
             let time = time_ns.saturating_sub(paused_ns) as f64 * 1e-9;
             self.samples.push(Sample { time, body: poses.at(origin_ns + time_ns), whiskers });

@@ -6,6 +6,7 @@ mod bus;
 mod magnet;
 mod pose_history;
 mod round;
+mod transducer;
 mod zeroing;
 
 pub use acquisition::{Acquisition, StartFault};
@@ -14,4 +15,5 @@ pub use bus::Bus;
 pub use magnet::Magnet;
 pub use pose_history::{PoseHistory, StampedPose};
 pub use round::{BoardReading, ReadingState, Round};
+pub use transducer::Transducer;
 pub use zeroing::{Zeroing, ZeroingFault};

@@ -18,9 +18,6 @@ impl Config {
     pub fn from_json(bytes: &[u8]) -> Result<Self, ConfigError> {
         let config: Self = serde_json::from_slice(bytes).map_err(|error| ConfigError::Text(error.to_string()))?;
         config.check()?;
-        for calibration in config.rig.whiskers.iter().filter_map(|whisker| whisker.calibration.as_ref()) {
-            calibration.check().map_err(|error| ConfigError::Inconsistent(error.to_string()))?;
-        }
         Ok(config)
     }
 }

@@ -10,6 +10,7 @@ mod sensor;
 
 use serde::{Deserialize, Serialize};
 use vibrissa_mlx90393::CheckedSettings;
+use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
@@ -167,6 +168,11 @@ impl Config {
         if self.rig.whiskers.is_empty() || self.rig.whiskers.len() > MAX_WHISKERS {
             let count = self.rig.whiskers.len();
             return fault(format!("the rig has {count} whiskers; give it 1 to {MAX_WHISKERS}"));
+        }
+        for whisker in &self.rig.whiskers {
+            if let Some(Err(error)) = whisker.calibration.as_ref().map(Calibration::check) {
+                return fault(format!("the calibration of the whisker `{}`: {error}", whisker.name));
+            }
         }
         if self.buses.is_empty() || self.buses.len() > MAX_BUSES {
             return fault(format!("there are {} buses; give 1 to {MAX_BUSES}", self.buses.len()));

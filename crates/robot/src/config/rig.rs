@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::geometry::Point2;
 use vibrissa_runtime::rig::{Hinge, Platform, Rig, Sensing, Shaft, Whisker};
 
@@ -81,6 +82,7 @@ struct WhiskerSection {
     direction: Option<f64>,
     shaft: ShaftSection,
     hinge: HingeSection,
+    calibration: Option<Calibration>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -121,6 +123,7 @@ impl WhiskerSection {
         whisker.direction_body = self.direction.unwrap_or(whisker.direction_body);
         self.shaft.apply(&mut whisker.shaft);
         self.hinge.apply(&mut whisker.hinge);
+        whisker.calibration.clone_from(&self.calibration);
         whisker
     }
 }

@@ -1,7 +1,7 @@
 //! A machine with a valid signature that is safe to run.
 
 use minisign_verify::{Error as MinisignError, Signature};
-use vibrissa_runtime::machine::{Artifact, ArtifactError};
+use vibrissa_runtime::machine::{Artifact, ArtifactError, OnlySimulated};
 
 use super::keys::Keys;
 use super::machine_hash::MachineHash;
@@ -49,6 +49,9 @@ pub enum Refusal {
     /// The signature is valid, but the content is not a machine that this program can run.
     #[error(transparent)]
     Artifact(#[from] ArtifactError),
+    /// The signature is valid, but no robot can run the machine.
+    #[error(transparent)]
+    OnlySimulated(#[from] OnlySimulated),
 }
 
 impl VerifiedMachine {
@@ -56,6 +59,7 @@ impl VerifiedMachine {
     pub(super) fn new(signed: SignedMachine, keys: &Keys) -> Result<Self, Refusal> {
         let (signer, trusted_comment) = verify_signature(&signed, keys)?;
         let artifact = Artifact::from_bytes(signed.artifact())?;
+        artifact.program.check_for_robot()?;
         Ok(Self { hash: signed.hash(), signed, artifact, signer, trusted_comment })
     }
 

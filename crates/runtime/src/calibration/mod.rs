@@ -3,6 +3,7 @@
 mod angle_surface;
 mod contact_curve;
 mod contact_set;
+mod deflection_polynomial;
 mod least_squares;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 pub use angle_surface::AngleSurface;
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
+pub use deflection_polynomial::DeflectionPolynomial;
 
 /// Measured properties of a whisker. Perception derives missing ones from the mechanics.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -23,6 +25,8 @@ pub struct Calibration {
     pub one_channel: Option<ContactCurve>,
     /// The base angle by contact position, for the contact estimator `recursive`.
     pub recursive: Option<AngleSurface>,
+    /// The tip position by base angle, for the contact estimator `polynomial`.
+    pub polynomial: Option<DeflectionPolynomial>,
 }
 
 /// A value of a calibration that cannot be used.
@@ -49,6 +53,7 @@ impl Calibration {
             ("hinge_stiffness", self.hinge_stiffness.is_none_or(|stiffness| (1e-6..=1e6).contains(&stiffness))),
             ("one_channel", self.one_channel.as_ref().is_none_or(ContactCurve::is_sound)),
             ("recursive", self.recursive.as_ref().is_none_or(AngleSurface::is_sound)),
+            ("polynomial", self.polynomial.as_ref().is_none_or(DeflectionPolynomial::is_sound)),
         ];
         match checks.iter().find(|(_, sound)| !sound) {
             Some((key, _)) => Err(UnsoundCalibration { key }),

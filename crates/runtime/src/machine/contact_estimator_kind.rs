@@ -15,11 +15,17 @@ pub enum ContactEstimatorKind {
     MomentAndShear,
     /// Uses the base angle as a polynomial in the tip position and follows its gradient from reading to reading.
     Recursive,
+    /// Uses the base angle alone, by a polynomial for the tip position with the range of the baseline's (section 3.3 of
+    /// its report).
+    Polynomial,
+    /// Is an ideal sensor of the tip position. Only a simulator can supply its readings.
+    Truth,
 }
 
 impl ContactEstimatorKind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::OneChannel, Self::Sliding, Self::MomentAndShear, Self::Recursive];
+    pub const ALL: [Self; 6] =
+        [Self::OneChannel, Self::Sliding, Self::MomentAndShear, Self::Recursive, Self::Polynomial, Self::Truth];
 
     /// The keyword of this kind in a policy.
     #[must_use]
@@ -29,7 +35,15 @@ impl ContactEstimatorKind {
             Self::Sliding => "sliding",
             Self::MomentAndShear => "moment_and_shear",
             Self::Recursive => "recursive",
+            Self::Polynomial => "polynomial",
+            Self::Truth => "truth",
         }
+    }
+
+    /// True for an ideal sensor, whose readings only a simulator can supply.
+    #[must_use]
+    pub const fn is_ideal(self) -> bool {
+        matches!(self, Self::Truth)
     }
 
     /// Returns the kind with this keyword.

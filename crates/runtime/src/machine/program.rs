@@ -220,7 +220,35 @@ impl Guard {
     }
 }
 
+/// A program that can only run in a simulator.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the policy uses the contact estimator truth for whisker `{whisker}`, which only a simulator has; write another one after \
+     `by`, such as sliding, and compile the policy again"
+)]
+pub struct OnlySimulated {
+    /// The first whisker with that estimator.
+    pub whisker: String,
+}
+
 impl Program {
+    /// True if a contact estimator needs [true tips](crate::signal::TrueTip), which only a simulator has.
+    #[must_use]
+    pub fn uses_true_tips(&self) -> bool {
+        self.contact_estimators.iter().any(|kind| kind.is_ideal())
+    }
+
+    /// Checks that the program can run outside of a simulator.
+    ///
+    /// # Errors
+    /// [`OnlySimulated`] with the first whisker that needs a true tip.
+    pub fn check_for_robot(&self) -> Result<(), OnlySimulated> {
+        match self.whiskers.iter().zip(&self.contact_estimators).find(|(_, kind)| kind.is_ideal()) {
+            Some((whisker, _)) => Err(OnlySimulated { whisker: whisker.clone() }),
+            None => Ok(()),
+        }
+    }
+
     /// The fallback transition for a state, and the state to which it belongs. It is the transition of the state
     /// itself, of the nearest outer state, or else of the program (`None`).
     #[must_use]

@@ -18,6 +18,7 @@ mod sliding;
 mod sliding_contact;
 mod tip_curve;
 mod tip_table;
+mod truth;
 mod whisker;
 
 pub use contact::Contact;

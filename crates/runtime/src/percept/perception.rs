@@ -17,7 +17,10 @@ use super::recursive::{self, Recursive};
 use super::sliding::Sliding;
 use super::tip_curve::{TipCurve, TipCurveError};
 use super::tip_table::TipTable;
+use super::truth::Truth;
 use super::whisker::{PerceivedWhisker, base_angle_deviation};
+
+use ContactEstimatorKind as Kind;
 
 /// Perception of a rig with the whiskers that a policy binds.
 #[derive(Debug, Clone)]
@@ -48,13 +51,16 @@ pub enum PerceptionError {
         /// The whisker.
         whisker: String,
     },
-    /// The mechanics of a whisker give too few positions for the polynomial of `recursive`.
+    /// The mechanics of a whisker give too few positions for the polynomial of an estimator.
     #[error(
-        "whisker {whisker}: its mechanics give too few contact positions for the contact estimator recursive; calibrate it, or use sliding"
+        "whisker {whisker}: its mechanics give too few contact positions for the contact estimator {}; calibrate it, or use \
+         sliding", estimator.name()
     )]
     NoSurface {
         /// The whisker.
         whisker: String,
+        /// The contact estimator.
+        estimator: ContactEstimatorKind,
     },
     /// The rig samples too slowly for the filter.
     #[error(transparent)]
@@ -65,10 +71,7 @@ impl Perception {
     /// Computes and caches the slowest part of [`new`](Self::new), so that a caller can do it in parallel with other
     /// work.
     pub fn prepare(rig: &Rig, contact_estimators: &[ContactEstimatorKind]) {
-        if contact_estimators
-            .iter()
-            .any(|kind| matches!(kind, ContactEstimatorKind::Sliding | ContactEstimatorKind::Recursive))
-        {
+        if contact_estimators.iter().any(|kind| matches!(kind, Kind::Sliding | Kind::Recursive)) {
             for whisker in &rig.whiskers {
                 drop(TipTable::shared(&whisker.perceived()));
             }
@@ -99,33 +102,39 @@ impl Perception {
             // A whisker that is never in contact gets the cheapest estimator.
             let (whisker, kind) = match index {
                 Some(index) => (rig.whiskers[index].perceived(), kind),
-                None => (Whisker::unfitted(), ContactEstimatorKind::OneChannel),
+                None => (Whisker::unfitted(), Kind::OneChannel),
             };
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
-            let curve = Arc::new(match calibration.and_then(|calibration| calibration.one_channel.as_ref()) {
-                Some(measured) => TipCurve::calibrated(measured),
-                None => TipCurve::with_friction(&whisker, sensing.friction)?,
-            });
+            let (length, bend_sign) = (whisker.shaft.length, whisker.usual_bend_sign());
+            let mechanics = || TipCurve::with_friction(&whisker, sensing.friction);
+            let too_few = || PerceptionError::NoSurface { whisker: whisker.name.clone(), estimator: kind };
+            let curve = match kind {
+                Kind::Polynomial => match calibration.and_then(|calibration| calibration.polynomial.as_ref()) {
+                    Some(measured) => TipCurve::by_polynomial(measured, bend_sign),
+                    None => mechanics()?.to_polynomial(length, bend_sign).ok_or_else(too_few)?,
+                },
+                _ => match calibration.and_then(|calibration| calibration.one_channel.as_ref()) {
+                    Some(measured) => TipCurve::calibrated(measured),
+                    None => mechanics()?,
+                },
+            };
+            let curve = Arc::new(curve);
             let estimator: Box<dyn ContactEstimator> = match kind {
-                ContactEstimatorKind::OneChannel => {
-                    Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), whisker.shaft.length))
+                Kind::OneChannel | Kind::Polynomial => {
+                    Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), length))
                 }
-                ContactEstimatorKind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
-                ContactEstimatorKind::MomentAndShear if sensing.forces => {
-                    Box::new(MomentAndShear::new(&whisker, sensing))
-                }
-                ContactEstimatorKind::MomentAndShear => {
-                    return Err(PerceptionError::NoForces { whisker: whisker.name });
-                }
-                ContactEstimatorKind::Recursive => {
+                Kind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
+                Kind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
+                Kind::MomentAndShear => return Err(PerceptionError::NoForces { whisker: whisker.name }),
+                Kind::Recursive => {
                     let surface = match calibration.and_then(|calibration| calibration.recursive.clone()) {
                         Some(measured) => measured,
-                        None => recursive::surface(&whisker, &TipTable::shared(&whisker))
-                            .ok_or_else(|| PerceptionError::NoSurface { whisker: whisker.name.clone() })?,
+                        None => recursive::surface(&whisker, &TipTable::shared(&whisker)).ok_or_else(too_few)?,
                     };
                     Box::new(Recursive::new(&whisker, Arc::new(surface), Arc::clone(&curve), sensing))
                 }
+                Kind::Truth => Box::new(Truth::new(Arc::clone(&curve), length)),
             };
             Ok(PerceivedWhisker::new(&whisker, filter, curve, estimator, sensing))
         });

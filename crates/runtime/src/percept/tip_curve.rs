@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::calibration::ContactCurve;
+use crate::calibration::{ContactCurve, ContactSet, DeflectionPolynomial};
 use crate::geometry::{rotate, unit};
 use crate::math;
 use crate::mechanics::ShaftChain;
@@ -22,8 +22,10 @@ use crate::rig::Whisker;
 pub struct TipCurve {
     /// Step of the base angle between knots (rad).
     step: f64,
-    /// Smallest base angle (rad) with known contact.
+    /// Smallest magnitude of a base angle (rad) with known contact.
     least: f64,
+    /// Smallest and largest base angle (rad), if the curve ends before its last knot.
+    limits: [f64; 2],
     /// Contact positions for the base angles 0, `step`, 2 `step`, …
     knots: Vec<Knot>,
 }
@@ -82,6 +84,9 @@ const TURN: f64 = 0.01;
 /// about this angle of a curved surface. At the first contact the direction is unknown.
 const SURFACE_DEVIATION: f64 = 10.0 * PI / 180.0;
 
+/// A curve without limits.
+const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 impl TipCurve {
     /// Computes the curve of `whisker` on frictionless surfaces.
     ///
@@ -135,7 +140,7 @@ impl TipCurve {
             let off = (turned_contact - contact) * (SURFACE_DEVIATION / TURN);
             unknowns.push(off * off.transpose());
         }
-        Ok(Self { step, least: 0.0, knots: knots(&contacts, &unknowns) })
+        Ok(Self { step, least: 0.0, limits: UNLIMITED, knots: knots(&contacts, &unknowns) })
     }
 
     /// Creates the curve of a measured whisker.
@@ -146,7 +151,41 @@ impl TipCurve {
         // Below the measured range the curve only serves steering. There is no contact estimate.
         let contacts: Vec<_> = (0..=STEPS).map(|index| measured.at(math::max(step * index as f64, least))).collect();
         let [xx, xy, yy] = measured.covariance;
-        Self { step, least, knots: knots(&contacts, &vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1]) }
+        let unknowns = vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1];
+        Self { step, least, limits: UNLIMITED, knots: knots(&contacts, &unknowns) }
+    }
+
+    /// Creates the curve of a measured polynomial. `bend_sign` is the sign of the base angle at a surface beside the
+    /// platform. The curve ends at the [limits](DeflectionPolynomial::LIMITS) of the two sides.
+    #[must_use]
+    pub fn by_polynomial(polynomial: &DeflectionPolynomial, bend_sign: f64) -> Self {
+        let step = polynomial.range / STEPS as f64;
+        let contacts: Vec<_> = (0..=STEPS).map(|index| polynomial.at(step * index as f64)).collect();
+        let [xx, xy, yy] = polynomial.covariance;
+        let unknowns = vec![Matrix2::new(xx, xy, xy, yy); STEPS + 1];
+        let (_, opposite) = DeflectionPolynomial::LIMITS;
+        let limits = if bend_sign < 0.0 { [f64::NEG_INFINITY, opposite] } else { [-opposite, f64::INFINITY] };
+        Self { step, least: 0.0, limits, knots: knots(&contacts, &unknowns) }
+    }
+
+    /// Replaces the positions of a curve of the mechanics by a polynomial that is fitted to them, for an uncalibrated
+    /// whisker of `length` (m). `None` if they do not determine it.
+    #[must_use]
+    pub fn to_polynomial(&self, length: f64, bend_sign: f64) -> Option<Self> {
+        let range = math::min(DeflectionPolynomial::LIMITS.0, self.range());
+        let base_angles = || (0..=STEPS).map(|index| range * (index as f64 / STEPS as f64));
+        let set = |base_angle| {
+            let contact_base = self.contact_base(base_angle);
+            (ContactSet { contact_base, base_angle, normal: None, on_shaft: false }, 1.0)
+        };
+        let polynomial = DeflectionPolynomial::fit(&base_angles().map(set).collect::<Vec<_>>(), length)?;
+        let mut curve = Self::by_polynomial(&polynomial, bend_sign);
+        // The error of the fit is in the knots already. The direction of the surface is unknown as before.
+        for (knot, base_angle) in curve.knots.iter_mut().zip(base_angles()) {
+            let (a, b, u) = self.between(base_angle);
+            knot.unknown += a.unknown + u * (b.unknown - a.unknown);
+        }
+        Some(curve)
     }
 
     /// Directions (rad, frame of the base) of the contact force that bends `whisker` counter-clockwise, and of the
@@ -168,6 +207,7 @@ impl TipCurve {
         if base_angle.is_nan() {
             return Vector2::repeat(f64::NAN);
         }
+        let base_angle = math::min(math::max(base_angle, self.limits[0]), self.limits[1]);
         let (a, b, u) = self.between(base_angle);
         let v = 1.0 - u;
         let position =
@@ -194,7 +234,8 @@ impl TipCurve {
     /// the range.
     #[must_use]
     pub fn covariance(&self, base_angle: f64, angle_deviation: f64) -> Option<Matrix2<f64>> {
-        if !(self.least..=self.range()).contains(&base_angle.abs()) {
+        let is_within = (self.limits[0]..=self.limits[1]).contains(&base_angle);
+        if !is_within || !(self.least..=self.range()).contains(&base_angle.abs()) {
             return None;
         }
         let (a, b, u) = self.between(base_angle);
@@ -205,7 +246,7 @@ impl TipCurve {
         Some(covariance)
     }
 
-    /// Largest base angle of the curve (rad).
+    /// Largest base angle of the curve (rad), to its usual side if it has one.
     #[must_use]
     pub fn range(&self) -> f64 {
         self.step * (self.knots.len() - 1) as f64

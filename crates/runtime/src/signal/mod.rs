@@ -4,4 +4,4 @@ mod command;
 mod sample;
 
 pub use command::Command;
-pub use sample::{MAX_WHISKERS, Reading, Sample};
+pub use sample::{MAX_WHISKERS, Reading, Sample, TrueTip};

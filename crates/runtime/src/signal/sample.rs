@@ -1,6 +1,6 @@
 //! The samples of the rig's sensors.
 
-use crate::geometry::Pose;
+use crate::geometry::{Point2, Pose};
 
 /// Maximum number of whiskers of a rig. Samples have a fixed size, so that no loop allocates memory.
 pub const MAX_WHISKERS: usize = 8;
@@ -27,4 +27,16 @@ pub struct Reading {
     /// Axial force (N): the force along the undeflected shaft that it exerts on the platform, positive towards the tip.
     /// `None` if the rig does not measure it.
     pub axial: Option<f64>,
+    /// The true tip, for the contact estimator `truth`. Only a simulator can supply it, and only for a run that asks for
+    /// it. Otherwise it is `None`.
+    pub true_tip: Option<TrueTip>,
+}
+
+/// The true tip of a whisker in a simulator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrueTip {
+    /// The point of the tip that is nearest to a surface (m, world frame).
+    pub point_world: Point2,
+    /// True if this point touches the surface.
+    pub touches: bool,
 }

@@ -136,6 +136,16 @@ fn a_signature_does_not_make_other_content_a_machine() {
 }
 
 #[test]
+fn a_machine_for_simulators_is_refused_when_it_is_pushed() {
+    let (folder, store) = store();
+    let machine = SignedMachine::from_file(&path("truth.machine")).unwrap();
+    let error = push(&store, &machine).unwrap_err();
+    assert!(matches!(error, ReceiveError::Refused(Refusal::OnlySimulated(_))), "{error}");
+    assert!(error.to_string().contains("only a simulator has"), "{error}");
+    assert_eq!(files(&folder.path().join("machines")), []);
+}
+
+#[test]
 fn a_frame_has_limits_and_an_end() {
     let (_folder, store) = store();
     let error = |bytes: &[u8]| match store.receive(bytes, &keys()).unwrap_err() {
