@@ -64,7 +64,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
     // One standard deviation of the surface's direction, if it is known.
     let is_meant = |set: &ContactSet| weight(whisker, set) > 0.6;
     let curve = |sets: &[ContactSet]| ContactCurve::fit(&near_heading(whisker, sets));
-    calibration.one_channel = curve(&sets);
+    calibration.one_channel = ContactCurve::fit(&near_heading(whisker, &sets));
     if let Some(ContactCurve { range, .. }) = &calibration.one_channel {
         let error = |curve: &ContactCurve, set: &ContactSet| {
             let is_within = is_meant(set) && (curve.range[0]..=curve.range[1]).contains(&set.base_angle);
@@ -76,7 +76,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
 
     let polynomial =
         |sets: &[ContactSet]| DeflectionPolynomial::fit(&near_heading(whisker, sets), whisker.shaft.length);
-    calibration.polynomial = polynomial(&sets);
+    calibration.polynomial = DeflectionPolynomial::fit(&near_heading(whisker, &sets), whisker.shaft.length);
     if let Some(DeflectionPolynomial { range, .. }) = calibration.polynomial {
         let error = |polynomial: &DeflectionPolynomial, set: &ContactSet| {
             let is_within = is_meant(set) && set.base_angle <= polynomial.range;

@@ -82,10 +82,10 @@ pub fn write_calibration(calibration: &Calibration) -> String {
 /// Returns the parts of a robot's configuration for a calibrated whisker: its calibration, and its `board` on one line.
 #[must_use]
 pub fn write_robot_calibration(whisker: &str, board: &str, calibration: &Calibration) -> String {
-    let values: String = values(calibration).lines().map(|line| format!("        {line}\n")).collect();
+    let values = values(calibration).trim_end().replace('\n', "\n        ");
     format!(
         "# For the configuration of the robot: copy the calibration into the section `rig`, and replace the board.\n\
-         # board: {board}\nrig:\n  whiskers:\n    {whisker}:\n      calibration:\n{values}"
+         # board: {board}\nrig:\n  whiskers:\n    {whisker}:\n      calibration:\n        {values}\n"
     )
 }
 

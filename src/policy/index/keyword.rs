@@ -89,7 +89,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 59] = [
+pub(super) const KEYWORDS: [Keyword; 61] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",

@@ -53,7 +53,7 @@ proptest! {
         whisker in 0..2_usize, base_angle in 3e-5..4.99e-4_f64,
     ) {
         let rig = Rig::default();
-        let bend_sign = rig.whiskers[whisker].usual_bend_sign();
+        let bend_sign = rig.whiskers[whisker].side();
         let perception = told(&rig, whisker, bend_sign * base_angle);
         let expected = exact(&rig.whiskers[whisker], base_angle, rig.whiskers[whisker].usual_normal());
         let error = (tip_base(&perception) - mirrored(expected, bend_sign)).norm();
@@ -68,7 +68,7 @@ proptest! {
         whisker in 0..2_usize, (most, sign) in prop_oneof![Just((5e-4, 1.0)), Just((5e-5, -1.0))], beyond in 1.01..20.0_f64,
     ) {
         let rig = Rig::default();
-        let end = sign * rig.whiskers[whisker].usual_bend_sign() * most;
+        let end = sign * rig.whiskers[whisker].side() * most;
         let (inside, outside) = (told(&rig, whisker, 0.999_999 * end), told(&rig, whisker, beyond * end));
         prop_assert!(inside.contact(0).is_some());
         prop_assert_eq!(outside.contact(0), None);

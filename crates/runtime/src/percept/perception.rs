@@ -106,7 +106,7 @@ impl Perception {
             };
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
-            let (length, bend_sign) = (whisker.shaft.length, whisker.usual_bend_sign());
+            let (length, bend_sign) = (whisker.shaft.length, whisker.side());
             let mechanics = || TipCurve::with_friction(&whisker, sensing.friction);
             let too_few = || PerceptionError::NoSurface { whisker: whisker.name.clone(), estimator: kind };
             let curve = match kind {
