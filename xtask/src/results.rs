@@ -1,6 +1,7 @@
 //! The pages of measured figures, `docs/results`, each made of the output of commands of the program.
 
 mod pages;
+mod reproduction;
 mod sums;
 mod table;
 mod tables;

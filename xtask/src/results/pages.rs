@@ -1,7 +1,7 @@
 //! The pages: what each says, and the commands that it is made of.
 
 use super::table::NoKey;
-use super::{sums, tables};
+use super::{reproduction, sums, tables};
 use crate::json::Json;
 
 /// A page of results.
@@ -36,8 +36,21 @@ macro_rules! thesis_array {
     };
 }
 
+/// The arguments of the runs of scenes that are not in the bench, but in claims of the baseline.
+macro_rules! claimed_scenes {
+    ($policy:literal) => {
+        concat!(
+            "run scenarios/more/dodecagon.yaml scenarios/more/turns-of-20.yaml scenarios/more/turns-of-10.yaml ",
+            "scenarios/more/thin-wall.yaml scenarios/more/short-wall.yaml scenarios/more/steep-tunnel.yaml ",
+            "scenarios/more/mixed-tunnel.yaml --policy policies/",
+            $policy,
+            ".fsm --json"
+        )
+    };
+}
+
 /// All pages.
-pub(super) const PAGES: [Page; 12] = [
+pub(super) const PAGES: [Page; 13] = [
     Page {
         name: "bench",
         title: "Results of the bench",
@@ -46,6 +59,21 @@ pub(super) const PAGES: [Page; 12] = [
         has_times: false,
         is_slow: false,
         body: tables::bench,
+    },
+    Page {
+        name: "reproduction",
+        title: "Reproduction of the baseline",
+        about: "The claims of the [baseline](../glossary.md#baseline), with their sections, beside the measured figures of both built-in policies in MuJoCo.",
+        commands: &[
+            "bench --json",
+            claimed_scenes!("thesis"),
+            claimed_scenes!("vibrissa"),
+            "sweep sweeps/turns.yaml --out out/turns --json",
+            "run scenarios/wall.yaml --policy policies/thesis.fsm --set radius=20mm --json",
+        ],
+        has_times: false,
+        is_slow: false,
+        body: reproduction::page,
     },
     Page {
         name: "friction",

@@ -104,7 +104,7 @@ pub(super) fn pivot<'a>(
 }
 
 /// A table of cells. Without lines, a sentence that there are none.
-fn markdown(headings: &[String], lines: &[Vec<String>]) -> String {
+pub(super) fn markdown(headings: &[String], lines: &[Vec<String>]) -> String {
     if lines.is_empty() {
         return "There are none.\n".to_owned();
     }
