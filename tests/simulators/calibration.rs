@@ -384,8 +384,10 @@ fn a_stage_in_the_simulated_world_finds_the_hinge_that_is_there() {
     let Fitted { calibration, held_out } = fit(&whisker(1.0), &sets, String::new());
     let stiffness = calibration.hinge_stiffness.unwrap();
     assert!((stiffness / 1.25 - 1.0).abs() < 0.01, "{stiffness}");
-    for model in &held_out[1..] {
-        assert!(model.rms_mm < 0.1, "{model:?}");
+    // Curves in the base angle alone leave out the direction of the surface.
+    for model in &held_out {
+        let most = if ["one_channel", "polynomial"].contains(&model.model) { 1.5 } else { 0.1 };
+        assert!(model.rms_mm < most, "{model:?}");
     }
 }
 
@@ -435,7 +437,9 @@ proptest! {
         let found = fit_field(&whisker(1.0), &sets, &sensor(neutral)).unwrap().magnet.field_per_moment;
         // A touch on the right bends the whisker clockwise, by the same counts.
         let expected = if is_right { -field_per_moment } else { field_per_moment };
-        prop_assert!((found / expected - 1.0).abs() < 2e-3, "{found} for {expected}");
+        // Without normals the moment follows from the distance of the tip alone. The elastica differs a little from the chain.
+        let tolerance = if has_normals { 2e-3 } else { 0.08 };
+        prop_assert!((found / expected - 1.0).abs() < tolerance, "{found} for {expected}");
     }
 }
 
