@@ -196,7 +196,7 @@ mod tests {
         };
         assert!(names(&[]).is_ok_and(|names| names.contains(&"bench") && !names.contains(&"families")));
         assert_eq!(names(&["families"]).ok(), Some(vec!["families"]));
-        assert!(names(&["bnech"]).is_err_and(|error| error.to_string().contains("bench, friction, families")));
+        assert!(names(&["bnech"]).is_err_and(|error| error.to_string().contains("bench, reproduction, friction")));
     }
 
     #[test]

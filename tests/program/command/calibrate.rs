@@ -135,7 +135,7 @@ fn touches_with_counts_become_a_board_and_a_calibration_for_the_robot() {
 
     for (arguments, reason) in [
         (&["--whisker", "l0"][..], "--neutral <COUNTS>"),
-        (&["--neutral", "0", "--whisker", "r0"], "no board is assigned to the whisker `r0`"),
+        (&["--neutral", "0", "--whisker", "r7"], "the rig has no whisker `r7`"),
         (&["--neutral", "-300000", "--whisker", "l0"], "the counts do not agree with the mechanics"),
         (&["--neutral", "0", "--rig", "a.yaml"], "cannot be used with"),
     ] {
@@ -145,9 +145,9 @@ fn touches_with_counts_become_a_board_and_a_calibration_for_the_robot() {
     }
 }
 
-/// A robot with the reference rig and a board at its left whisker.
+/// A robot with the reference rig, and a board at each whisker.
 pub(crate) const CONFIG: &str = "name: robot
-buses: [{device: /dev/i2c-1, boards: [{whisker: l0, address: 0x0C}]}]
+buses: [{device: /dev/i2c-1, boards: [{whisker: l0, address: 0x0C}, {whisker: r0, address: 0x0D}]}]
 limits: {speed: 0.1 m/s, yaw_rate: 60 deg/s, base_angle: 1050 urad}
 pose: {udp: {listen: \"0.0.0.0:9751\"}}
 ";

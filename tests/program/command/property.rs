@@ -47,7 +47,7 @@ fn assert_simplest(result: &Value) {
 #[test]
 fn a_wrong_sign_for_one_side_is_found_and_shrunk_to_that_side_alone() {
     let changes = [
-        ("direction(body.yaw + away * w.side)", "direction(body.yaw - away)"),
+        ("direction(travel_heading(w) + away * w.side)", "direction(travel_heading(w) - away)"),
         ("angle(tangent) - away * w.side", "angle(tangent) + away"),
     ];
     let property = "

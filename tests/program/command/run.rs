@@ -105,6 +105,7 @@ mod with_simulation {
             "tip_error_mm.along.max",
             "tip_error_mm.along.mean",
             "tip_error_mm.along.p95",
+            "true_tips",
             "format",
             "version",
             "scenario",

@@ -55,7 +55,7 @@ const fn claim(
 }
 
 /// The claims about contour following.
-const FOLLOWING: [Claim; 8] = [
+const FOLLOWING: [Claim; 7] = [
     claim("5.1", "disk: error, mm", "disk", ERROR, ["0.8", "0.80"], AtMost(0.8)),
     claim("5.1", "rounded rectangle: error, mm", "rounded-rectangle", ERROR, ["0.8", "0.63"], AtMost(0.8)),
     claim("5.1", "complex object: error, mm", "complex", ERROR, ["0.8", "0.85"], AtMost(0.8)),
@@ -70,7 +70,6 @@ const FOLLOWING: [Claim; 8] = [
     claim("5.1", "turns of 30°: retrievals", "dodecagon", RETRIEVALS, ["0", ""], Is(0.0)),
     claim("5.1", "turns of 20°: retrievals", "turns-of-20", RETRIEVALS, ["0", ""], Is(0.0)),
     claim("5.1", "turns of 10°: retrievals", "turns-of-10", RETRIEVALS, ["0", ""], Is(0.0)),
-    claim("7.1", "turns of 30°: error, mm", "dodecagon", ERROR, ["", ""], AtMost(0.8)),
 ];
 
 /// The claims about retrieval. A radius below 30 mm is acceptable to the report.
@@ -130,7 +129,10 @@ impl Claim {
         let cell = |text: &str| if text.is_empty() { "–".to_owned() } else { text.to_owned() };
         let mut row = vec![self.section.to_owned(), self.statement.to_owned(), cell(self.report), cell(self.program)];
         for policy in POLICIES {
-            row.push(self.figure.1.text(value(run_of(runs, self.scene, policy)?, self.figure.0)?));
+            let figure = value(run_of(runs, self.scene, policy)?, self.figure.0)?;
+            // A run without retrievals has no figures of them.
+            let is_none = matches!(self.holds_if, Is(_)) && *figure == Json::Null;
+            row.push(if is_none { "0".to_owned() } else { self.figure.1.text(figure) });
         }
         let holds = self.holds(run_of(runs, self.scene, POLICIES[0])?)?;
         row.push(if holds { "yes" } else { "no" }.to_owned());
@@ -151,7 +153,7 @@ fn claims(runs: &[Json], claims: &[Claim]) -> Result<String, NoKey> {
     Ok(markdown(&headings.map(str::to_owned), &rows))
 }
 
-/// The corners of different angles: completed and passed runs of both policies.
+/// The corners of different angles: the results of both policies.
 fn corners(groups: &[Json]) -> Result<String, NoKey> {
     let mut angles = Vec::new();
     for group in groups {
@@ -167,11 +169,16 @@ fn corners(groups: &[Json]) -> Result<String, NoKey> {
             let is_it =
                 |group: &&Json| text(group, "settings.angle") == Ok(angle) && text(group, "policy") == Ok(policy);
             let group = groups.iter().find(is_it).ok_or_else(|| NoKey(format!("{angle} under {policy}")))?;
-            row.extend([Plain.text(value(group, "passed")?), Fixed(3).text(value(group, "error_mean_mm")?)]);
+            let result = match (number(group, "passed")? > 0.0, number(group, "completed")? > 0.0) {
+                (true, _) => "passed",
+                (false, true) => "completed",
+                (false, false) => "not completed",
+            };
+            row.extend([result.to_owned(), Fixed(2).text(value(group, "error_mean_mm")?)]);
         }
         rows.push(row);
     }
-    let headings = ["turn", "`thesis.fsm`, passed", "its error, mm", "`vibrissa.fsm`, passed", "its error, mm"];
+    let headings = ["turn", "`thesis.fsm`", "its error, mm", "`vibrissa.fsm`", "its error, mm"];
     Ok(markdown(&headings.map(str::to_owned), &rows))
 }
 
@@ -190,7 +197,7 @@ pub(super) fn page(outputs: &[Json]) -> Result<String, NoKey> {
     let _ = write!(
         page,
         "\n## Corners of all angles\n\nThe report claims turns of 30° to 180° (1.3, 4.6). Each run goes around an object with one corner of the given turn, and \
-         around the other corners of the object.\n\n{}",
+         around the other corners of the object. A passed run has traced the whole object and its body touched nothing.\n\n{}",
         corners(groups)?
     );
     let doubled = outputs[4].items().first().ok_or_else(|| NoKey("the run with the doubled radius".to_owned()))?;
