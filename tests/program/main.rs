@@ -12,6 +12,8 @@ mod editor;
 #[cfg(target_os = "linux")]
 mod faults;
 #[cfg(feature = "sim")]
+mod metrics;
+#[cfg(feature = "sim")]
 mod policies;
 #[cfg(feature = "sim")]
 mod thesis_array;
