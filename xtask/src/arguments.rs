@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::nightly;
 use crate::results::Selection;
 use crate::setup::Options;
 
@@ -27,6 +28,9 @@ Commands:
             --save         make them the baseline
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
             --program FILE use this program of the same commit instead of building it
+  nightly run the families of docs/results/families.md again and print the verdicts that changed
+            --count N      only the first N scenes of each family
+            --program FILE use this program instead of building it
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
@@ -49,6 +53,7 @@ pub(crate) enum Command {
         save: bool,
     },
     Results(Selection),
+    Nightly(nightly::Options),
     Pi,
     Fuzz(u64),
 }
@@ -66,6 +71,8 @@ pub(crate) enum ArgumentError {
     NoProgram,
     #[error("`--from` needs the number of a check, such as `cargo x test --from 12`")]
     NoCheck,
+    #[error("`--count` needs how many scenes of each family to run")]
+    NoScenes,
     #[error("`fuzz` needs how many policies to try, such as `cargo x fuzz 100000`")]
     NoCount,
 }
@@ -90,6 +97,7 @@ impl Command {
                 return end("bench", arguments, Self::Bench { save });
             }
             "results" => return parse_results(arguments),
+            "nightly" => return parse_nightly(arguments),
             "pi" => Self::Pi,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
@@ -149,6 +157,24 @@ fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Comman
     Ok(Command::Results(selection))
 }
 
+fn parse_nightly(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut options = nightly::Options::default();
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--count") => {
+                let count = arguments.next().and_then(|count| count.to_str()?.parse().ok()).filter(|&count| count > 0);
+                options.count = Some(count.ok_or(ArgumentError::NoScenes)?);
+            }
+            Some("--program") => {
+                options.program = Some(arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoProgram)?);
+            }
+            Some("--help" | "-h") => return Ok(Command::Help),
+            _ => return Err(unexpected("nightly", &argument)),
+        }
+    }
+    Ok(Command::Nightly(options))
+}
+
 fn unexpected(command: &str, argument: &OsString) -> ArgumentError {
     ArgumentError::UnexpectedArgument { command: command.to_owned(), argument: argument.to_string_lossy().into_owned() }
 }
@@ -186,6 +212,15 @@ mod tests {
         assert_eq!(parse(&["results"]), Ok(Command::Results(Selection::default())));
         assert_eq!(parse(&["results", "--program"]), Err(ArgumentError::NoProgram));
         assert!(parse(&["results", "--all"]).is_err());
+    }
+
+    #[test]
+    fn a_night_may_be_short_and_may_use_a_program() {
+        let options = nightly::Options { count: Some(3), program: Some(PathBuf::from("v")) };
+        assert_eq!(parse(&["nightly", "--count", "3", "--program", "v"]), Ok(Command::Nightly(options)));
+        assert_eq!(parse(&["nightly"]), Ok(Command::Nightly(nightly::Options::default())));
+        assert_eq!(parse(&["nightly", "--count", "0"]), Err(ArgumentError::NoScenes));
+        assert!(parse(&["nightly", "disk"]).is_err());
     }
 
     #[test]

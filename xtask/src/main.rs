@@ -16,6 +16,7 @@ mod hash;
 mod imports;
 mod json;
 mod links;
+mod nightly;
 mod pi;
 mod platform;
 mod prose;
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Results(selection) => status(results::write(&root, &selection)),
+        Command::Nightly(options) => status(nightly::nightly(&root, &options)),
         Command::Pi => status(pi::pack(&root)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }

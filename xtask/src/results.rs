@@ -5,6 +5,7 @@ mod reproduction;
 mod sums;
 mod table;
 mod tables;
+mod verdicts;
 
 use std::fs;
 use std::io;
@@ -19,11 +20,13 @@ use crate::cargo::{NotStarted, cargo};
 use crate::json::Json;
 use crate::setup::{self, Options, SetupError};
 use crate::sign_of_life::SignOfLife;
+pub(crate) use pages::FAMILIES;
 use pages::{PAGES, Page};
-use table::NoKey;
+pub(crate) use table::NoKey;
+pub(crate) use verdicts::{PageError, SIMULATORS, Verdicts, joined};
 
 /// The folder of the pages.
-const FOLDER: &str = "docs/results";
+pub(crate) const FOLDER: &str = "docs/results";
 /// The files that the figures depend on. A commit that changes only other files, such as documentation, leaves them as they are.
 const PROGRAM: [&str; 8] =
     ["src", "crates", "policies", "scenarios", "grammar", "build.rs", "Cargo.toml", "Cargo.lock"];
@@ -96,7 +99,8 @@ fn selected(names: &[String]) -> Result<Vec<&'static Page>, ResultsError> {
     names.iter().map(page).collect()
 }
 
-fn build(root: &Path) -> Result<(), ResultsError> {
+/// Builds the program in release.
+pub(crate) fn build(root: &Path) -> Result<(), ResultsError> {
     setup::setup(root, &Options::default())?;
     let _sign = SignOfLife::of("building; the last crate, vibrissa itself, takes longest");
     let mut build = cargo(root, &["build", "--release", "--package", "vibrissa"]);
@@ -105,7 +109,7 @@ fn build(root: &Path) -> Result<(), ResultsError> {
 }
 
 /// The output of a command of the program.
-fn output(root: &Path, program: Option<&Path>, command: &str) -> Result<Json, ResultsError> {
+pub(crate) fn output(root: &Path, program: Option<&Path>, command: &str) -> Result<Json, ResultsError> {
     let mut run = if let Some(path) = program {
         Command::new(path)
     } else {

@@ -49,6 +49,12 @@ macro_rules! claimed_scenes {
     };
 }
 
+/// The runs in random scenes, in each simulator.
+pub(crate) const FAMILIES: [&str; 2] = [
+    "families --count 200 --seed 11 --world quasistatic --json",
+    "families --count 50 --seed 11 --world mujoco --json",
+];
+
 /// All pages.
 pub(super) const PAGES: [Page; 13] = [
     Page {
@@ -87,11 +93,8 @@ pub(super) const PAGES: [Page; 13] = [
     Page {
         name: "families",
         title: "Results in random scenes",
-        about: "Pass rates of `vibrissa.fsm` in random scenes of each [family](../families.md): 200 in the quasi-static simulator, and the first 50 of them in MuJoCo.",
-        commands: &[
-            "families --count 200 --seed 11 --world quasistatic --json",
-            "families --count 50 --seed 11 --world mujoco --json",
-        ],
+        about: "Pass rates of `vibrissa.fsm` in random scenes of each [family](../families.md): 200 in the quasi-static simulator, and the first 50 of them in MuJoCo. `cargo x nightly` compares them with those of the current program.",
+        commands: &FAMILIES,
         has_times: false,
         is_slow: true,
         body: sums::families,

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::table::Show::{Code, Fixed, Percent, Plain};
 use super::table::{Column, NoKey, number, pivot, table, text, value};
 use super::tables::{SCENE, has, names, those};
+use super::verdicts::{SIMULATORS, Verdicts};
 use crate::json::Json;
 
 /// Counts, means and shares over rows, as a row.
@@ -47,7 +48,7 @@ pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
         Column("in 95 % interval, %", "within", Percent(1)),
     ];
     let mut page = String::new();
-    for (title, runs) in ["Quasi-static simulator", "MuJoCo"].into_iter().zip(outputs) {
+    for (title, runs) in SIMULATORS.into_iter().zip(outputs) {
         let mut rows = Vec::new();
         for family in names(runs.items(), "family")? {
             let mut sum = Sum::default();
@@ -64,7 +65,8 @@ pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
             }
             rows.push(sum.row(&[("family", family)]));
         }
-        let _ = write!(page, "\n## {title}\n\n{}", table(&rows, &columns)?);
+        let list = Verdicts::list(&Verdicts::of(title, runs.items())?);
+        let _ = write!(page, "\n## {title}\n\n{}\n{list}", table(&rows, &columns)?);
     }
     Ok(page)
 }
@@ -114,6 +116,30 @@ pub(super) fn estimators(outputs: &[Json]) -> Result<String, NoKey> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_page_of_the_families_has_the_verdicts_of_its_runs() -> Result<(), NoKey> {
+        let run = |family: &str, trial: u64, passed: bool| {
+            format!(
+                r#"{{"family": "{family}", "trial": {trial}, "passed": {passed}, "outcome": "completed", "object_coverage": 1,
+                "error_mm": {{"n": 9, "mean": 0, "outliers": 0, "within_band": 1}}, "collisions": {{"count": 0}}}}"#
+            )
+        };
+        let first = [run("wall", 0, true), run("wall", 1, false), run("wall", 2, false), run("disk", 0, true)];
+        let second = [run("wall", 0, true), run("wall", 1, false), run("disk", 0, true)];
+        let outputs =
+            [&first[..], &second[..]].map(|runs| Json::read(&format!("[{}]", runs.join(","))).unwrap_or(Json::Null));
+        let page = families(&outputs)?;
+        let expected: Vec<_> = SIMULATORS
+            .into_iter()
+            .zip(&outputs)
+            .map(|(simulator, runs)| Verdicts::of(simulator, runs.items()))
+            .collect::<Result<Vec<_>, _>>()?
+            .concat();
+        assert_eq!(Verdicts::published(&page), Ok(expected), "{page}");
+        assert!(page.contains("| `wall` | 1, 2 |\n| `disk` | – |\n"), "{page}");
+        Ok(())
+    }
 
     #[test]
     fn means_are_weighted_and_sums_are_kept() {
