@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod compare;
 pub mod estimators;
+pub mod latency;
 pub mod pareto;
 pub mod stress;
 pub mod timing;

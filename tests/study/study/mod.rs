@@ -3,5 +3,6 @@
 mod bench;
 mod compare;
 mod estimators;
+mod latency;
 mod pareto;
 mod worlds;
