@@ -162,10 +162,8 @@ fn counted(
     (path, robot): (&Path, &Config),
     neutral: f64,
 ) -> Result<(Vec<ContactSet>, Option<BoardConfig>), Failure> {
-    let found =
-        Transducer::of(robot, whisker).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
-    let (board, transducer) =
-        found.ok_or_else(|| Failure::NoBoard { path: path.to_owned(), whisker: whisker.name.clone() })?;
+    let found = Transducer::of(robot, whisker);
+    let (board, transducer) = found.map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
     let transducer = fit_field(whisker, sets, &Transducer { neutral, ..transducer })
         .ok_or_else(|| Failure::NoField { whisker: whisker.name.clone() })?;
     let board = BoardConfig { field_per_moment: transducer.magnet.field_per_moment, ..board.clone() };

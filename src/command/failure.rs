@@ -121,8 +121,6 @@ pub(super) enum Failure {
     NoRobotProgram(std::io::Error),
     #[error("{}: {cause}", path.display())]
     RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
-    #[error("{}: no board is assigned to the whisker `{whisker}`; add one to `buses`", path.display())]
-    NoBoard { path: PathBuf, whisker: String },
     #[error(
         "the counts do not agree with the mechanics of the whisker `{whisker}`; check --neutral, the positions, and the shaft in \
          the configuration, or measure `field_per_moment` with weights first: it must be right within a factor of five"

@@ -477,7 +477,7 @@ fn one_fit_serves_the_robots_conversion_and_its_perception() {
     );
     let config = Config::from_text(&config).unwrap();
     assert_eq!(config.rig.whiskers[0].calibration, Some(calibration));
-    let (_, found) = Transducer::of(&config, &config.rig.whiskers[0]).unwrap().unwrap();
+    let (_, found) = Transducer::of(&config, &config.rig.whiskers[0]).unwrap();
     let found = Transducer { neutral, ..found };
     for set in counts(&magnet, neutral) {
         let base_angle = found.base_angle(set.counts);

@@ -33,14 +33,16 @@ impl Transducer {
         }
     }
 
-    /// The board of a whisker with its conversion. `None` if no board is assigned to it.
+    /// The board of a whisker with its conversion.
     ///
     /// # Errors
-    /// [`ConfigError`] if the sensors do not permit their settings.
-    pub fn of<'c>(config: &'c Config, whisker: &Whisker) -> Result<Option<(&'c BoardConfig, Self)>, ConfigError> {
+    /// [`ConfigError`] if the sensors do not permit their settings, or if no board is assigned to the whisker.
+    pub fn of<'c>(config: &'c Config, whisker: &Whisker) -> Result<(&'c BoardConfig, Self), ConfigError> {
         let settings = config.settings()?;
         let board = config.buses.iter().flat_map(|bus| &bus.boards).find(|board| board.whisker == whisker.name);
-        Ok(board.map(|board| (board, Self::new(board, whisker, &settings))))
+        let none = || ConfigError::Inconsistent(format!("the whisker `{}` has no board; give it one", whisker.name));
+        let board = board.ok_or_else(none)?;
+        Ok((board, Self::new(board, whisker, &settings)))
     }
 
     /// The base angle (rad) at a value (counts). NaN where the field of the magnet is not invertible.
