@@ -16,7 +16,7 @@ use recorded::{Felt, Recorded};
 use stage::{SETTLED, Stage};
 use vibrissa::policy::{compile, compile_with_warnings};
 use vibrissa::world::World;
-use vibrissa_runtime::machine::{Action, Turn};
+use vibrissa_runtime::machine::{Action, Status, Turn};
 use vibrissa_runtime::signal::Command;
 
 /// Ticks in a row: enough that the clock costs nothing, and few enough that what they felt stays in the cache.
@@ -42,22 +42,26 @@ fn main() -> Result<(), Box<dyn Error>> {
             .map(|index| disk.program.initial_registers[index])
             .ok_or_else(|| format!("the policy has no parameter `{name}`"))
     };
-    let mut by_hand = thesis::Swiping {
+    let mut by_hand = thesis::Following {
         speed: parameter("speed")?,
         target: parameter("target")?,
         limit: parameter("limit")?,
         lost_for: parameter("lost_for")?,
         spring: parameter("spring")?,
+        light: parameter("light")?,
         whiskers: [0, 1],
         memory: thesis::Memory::default(),
     };
-    // Side by side from the start of swiping, so that both remember the same.
+    // Side by side from the start of following, so that both remember the same.
     let (mut world, mut control, mut command) = (disk.world()?, disk.control()?, Command::STOP);
     let mut ticks = 0;
     while ticks < SETTLED {
         let tick;
         (command, tick) = control.tick(world.advance(&command)?);
-        if control.machine().state_name() == "Swiping" {
+        if tick.status != Status::Running {
+            return Err("the policy does not follow the disk for long enough".into());
+        }
+        if control.machine().state_name() == "Following" {
             ticks += 1;
             agree(tick.action, by_hand.tick(&mut felt(&Recorded::after(&control, by_hand.target))));
         }

@@ -1,13 +1,13 @@
 //! The contour following of `thesis.fsm`, written in Rust, as the reference for the compiled policy.
 
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use vibrissa::geometry::{Vector2, rotate, turn_between, unit};
 use vibrissa_runtime::machine::{Action, BodyScalar, ContourVector, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
 
-/// The state `Swiping` of `policies/thesis.fsm` by hand, with all that it uses of the standard library.
+/// The state `Following` of `policies/thesis.fsm` by hand, with all that it uses of the standard library.
 #[derive(Debug, Clone)]
-pub(crate) struct Swiping {
+pub(crate) struct Following {
     /// Speed (m/s).
     pub(crate) speed: f64,
     /// Base angle at which the tip is known best (rad).
@@ -18,6 +18,8 @@ pub(crate) struct Swiping {
     pub(crate) lost_for: f64,
     /// Loss of bend from tick to tick by which a whisker springs off an edge (rad).
     pub(crate) spring: f64,
+    /// Least base angle along a wall (rad).
+    pub(crate) light: f64,
     /// The whisker that swipes, and the other one.
     pub(crate) whiskers: [usize; 2],
     pub(crate) memory: Memory,
@@ -31,7 +33,7 @@ pub(crate) struct Memory {
     way: Vector2,
     last_edge: Vector2,
     last_way: Vector2,
-    same_since: Option<f64>,
+    between_since: Option<f64>,
     lost_since: Option<f64>,
     /// The yaw controllers along the contour and straight on.
     yaw: [Controller; 2],
@@ -56,7 +58,7 @@ impl Controller {
     }
 }
 
-impl Swiping {
+impl Following {
     /// One tick; `None` if it would leave the state.
     pub(crate) fn tick<S: Senses>(&mut self, senses: &mut S) -> Option<Action> {
         let [whisker, other] = self.whiskers;
@@ -67,10 +69,17 @@ impl Swiping {
         }
         let touching = senses.whisker(whisker, WhiskerScalar::Touching) > 0.5;
         let sense = senses.whisker(whisker, WhiskerScalar::Sense);
-        let same = touching
-            && senses.whisker(other, WhiskerScalar::Touching) > 0.5
-            && senses.whisker(other, WhiskerScalar::Sense) * sense > 0.0;
-        if lasts(&mut self.memory.same_since, same, now, 0.1)
+        let is_along_wall = |index: usize| {
+            senses.whisker(index, WhiskerScalar::Sense) > 0.0
+                && senses.whisker(index, WhiskerScalar::BaseAngle).abs() > self.light
+        };
+        let trails = |index: usize| mounting_offset(index, senses) == 0.0;
+        let is_between = is_along_wall(whisker) && is_along_wall(other) && trails(whisker) && trails(other);
+        let travel_heading = senses.body(BodyScalar::Yaw) - mounting_offset(whisker, senses);
+        let ahead = unit(travel_heading);
+        let runs_ahead = |senses: &S| senses.whisker_vector(whisker, WhiskerVector::ContourTangent).dot(&ahead) > 0.3;
+        if lasts(&mut self.memory.between_since, is_between, now, 0.1)
+            || (deflection.abs() > 1.1 * self.target && !runs_ahead(senses))
             || deflection.abs() < self.memory.bend - self.spring
             || sense < 0.0
             || lasts(&mut self.memory.lost_since, !touching, now, self.lost_for)
@@ -78,15 +87,13 @@ impl Swiping {
             return None;
         }
         senses.record(whisker);
-        let tangent = senses.whisker_vector(whisker, WhiskerVector::ContourTangent);
-        let heading = senses.body(BodyScalar::Yaw);
-        let ahead = unit(heading);
         let side = senses.whisker(whisker, WhiskerScalar::Side);
-        let action = if tangent.dot(&ahead) <= 0.3 || tangent.x.is_nan() {
-            self.follow(whisker, 1, (ahead, self.target * side), (now, heading), senses)
+        let action = if !runs_ahead(senses) {
+            self.follow(whisker, 1, (ahead, self.target * side), now, senses)
         } else if touching && senses.whisker(whisker, WhiskerScalar::ContourReady) > 0.5 {
             let target = if deflection == 0.0 { 0.0 } else { self.target * deflection.signum() };
-            self.follow(whisker, 0, (tangent, target), (now, heading), senses)
+            let tangent = senses.whisker_vector(whisker, WhiskerVector::ContourTangent);
+            self.follow(whisker, 0, (tangent, target), now, senses)
         } else {
             Action::Hold
         };
@@ -109,10 +116,11 @@ impl Swiping {
         whisker: usize,
         controller: usize,
         (tangent, target): (Vector2, f64),
-        (now, heading): (f64, f64),
+        now: f64,
         senses: &S,
     ) -> Action {
-        let off = turn_between(heading, tangent.y.atan2(tangent.x));
+        let heading = tangent.y.atan2(tangent.x) + mounting_offset(whisker, senses);
+        let off = turn_between(senses.body(BodyScalar::Yaw), heading);
         let gain = (self.speed / 0.025).min(2.0);
         let limit = (self.speed / 0.06).min(FRAC_PI_4);
         let rate = self.memory.yaw[controller].next(now, off, [gain, gain * gain / 5.0, limit]);
@@ -124,6 +132,13 @@ impl Swiping {
         let along_world = tangent * (1.0 - pull) + towards * pull;
         Action::Steer { mover: Mover::Whisker(whisker), along_world, speed: self.speed, turn: Turn::Rate(rate) }
     }
+}
+
+/// The yaw offset (rad) of the body from the surface that the mounting of a whisker needs.
+fn mounting_offset<S: Senses>(whisker: usize, senses: &S) -> f64 {
+    let side = senses.whisker(whisker, WhiskerScalar::Side);
+    let mounting = turn_between(senses.body(BodyScalar::Yaw), senses.whisker(whisker, WhiskerScalar::Yaw));
+    2.0 * (FRAC_PI_2 - mounting * side).max(0.0) * side
 }
 
 /// Whether a condition has held for a time; `since` is when it began to.
