@@ -40,7 +40,7 @@ pub(super) struct RunArguments {
     /// Seed of the sensor noise. Overrides the seed of the scenario, and has no effect without noise
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
-    /// Write a picture and the result of every run into this directory
+    /// Write pictures and the result of every run into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Write the perception and the command of every tick into this file, as one line of JSON each

@@ -11,7 +11,7 @@ use super::output;
 use super::progress::Progress;
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::report::picture;
+use crate::report::{picture, retrieval_picture};
 use crate::results::{Document, Failsafes, RunResult};
 use crate::run::Trace;
 use crate::scene::Violation;
@@ -109,22 +109,27 @@ fn milliseconds(seconds: f64) -> u64 {
     milliseconds
 }
 
-/// The files for the picture and the result of a run.
+/// The files for the pictures and the result of a run.
 pub(super) struct ReportFiles {
     picture: Output,
+    /// The strips of its retrievals. It is written only if there are any.
+    retrievals: Output,
     result: Output,
 }
 
 impl ReportFiles {
     /// `stem` with their extensions, in the directory that `--out` gives.
     pub(super) fn new(stem: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
-        let picture = files.output("--out", &extended(stem, "svg"))?;
-        Ok(Self { picture, result: files.output("--out", &extended(stem, "json"))? })
+        let mut file = |extension| files.output("--out", &extended(stem, extension));
+        Ok(Self { picture: file("svg")?, retrievals: file("retrievals.svg")?, result: file("json")? })
     }
 
-    /// Writes the picture and the result.
+    /// Writes the pictures and the result.
     pub(super) fn write(self, trial: &Trial, result: &TrialResult, document: &RunResult) -> Result<(), Failure> {
         self.picture.write(drawn(trial, result))?;
+        if let Some(strips) = retrieval_picture(&trial.scene, &trial.policy_label(), &result.run.trace) {
+            self.retrievals.write(strips)?;
+        }
         self.result.write(serde_json::to_string_pretty(&document.versioned())? + "\n")?;
         Ok(())
     }

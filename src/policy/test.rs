@@ -107,6 +107,14 @@ pub enum RunFigure {
     Hausdorff,
     /// Share of the object's contour that was traced (0 to 1).
     Coverage,
+    /// Number of retrievals.
+    Retrievals,
+    /// Mean retrieval radius (m).
+    RetrievalRadius,
+    /// Mean retrieval distance (m).
+    RetrievalDistance,
+    /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
+    AxisMean,
     /// Maximum distance of an estimated corner from the exact one (m).
     CornerPlaceMax,
     /// Maximum time for a corner (s).
@@ -133,9 +141,14 @@ impl RunFigure {
             | Self::ErrorP95
             | Self::ErrorMax
             | Self::Hausdorff
+            | Self::RetrievalRadius
+            | Self::RetrievalDistance
+            | Self::AxisMean
             | Self::CornerPlaceMax
             | Self::CornerPathMax => format_si(value, Dimension::LENGTH),
-            Self::Outliers | Self::Coverage | Self::Collisions | Self::Visits(_) => format_si(value, Dimension::NUMBER),
+            Self::Outliers | Self::Coverage | Self::Retrievals | Self::Collisions | Self::Visits(_) => {
+                format_si(value, Dimension::NUMBER)
+            }
         }
     }
 }

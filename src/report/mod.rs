@@ -13,7 +13,7 @@ mod tables;
 pub use bench_page::bench_page;
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub(crate) use picture::profile_picture;
-pub use picture::{pareto_picture, picture};
+pub use picture::{pareto_picture, picture, retrieval_picture};
 pub use table::Table;
 pub use tables::{
     bench_table, comparison_tables, estimators_tables, faults_table, latency_table, pareto_table, pooled_tips,

@@ -24,6 +24,8 @@ pub(super) const PLATFORM_FILL: &str = "#cbd2d9";
 pub(super) const UNTRACED: &str = "#f8c4ae";
 /// The state of failure.
 pub(super) const FAILURE: &str = "#f0846a";
+/// The axis of a tunnel.
+pub(super) const AXIS: &str = "#c2185b";
 /// Errors and failures.
 pub(super) const ALARM: &str = "#c2410c";
 

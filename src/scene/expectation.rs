@@ -43,6 +43,8 @@ pub enum Metric {
     WallCoverage,
     /// Mean retrieval radius (m).
     RetrievalRadius,
+    /// Mean retrieval distance (m).
+    RetrievalDistance,
     /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
     AxisMean,
     /// Largest distance of an estimated corner from the exact one (m).
@@ -115,7 +117,7 @@ impl fmt::Display for Outcome {
 
 impl Metric {
     /// All metrics.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::ErrorMean,
         Self::ErrorP95,
         Self::ErrorMax,
@@ -127,6 +129,7 @@ impl Metric {
         Self::Passage,
         Self::WallCoverage,
         Self::RetrievalRadius,
+        Self::RetrievalDistance,
         Self::AxisMean,
         Self::CornerPlaceMax,
         Self::CornerTimeMax,
@@ -149,6 +152,7 @@ impl Metric {
             Self::Passage => "passage",
             Self::WallCoverage => "wall_coverage",
             Self::RetrievalRadius => "retrieval_radius",
+            Self::RetrievalDistance => "retrieval_distance",
             Self::AxisMean => "axis_mean",
             Self::CornerPlaceMax => "corner_place_max",
             Self::CornerTimeMax => "corner_time_max",

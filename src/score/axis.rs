@@ -16,9 +16,28 @@ use super::{Moments, Statistics};
 /// Returns `None` without midpoints.
 #[must_use]
 pub fn axis_error(trace: &Trace, axes: &[TunnelAxis]) -> Option<Moments> {
-    let nearest = |midpoint| axes.iter().filter_map(|axis| axis.distance(midpoint)).min_by(f64::total_cmp);
-    let errors = trace.ticks.iter().filter_map(midpoint).filter_map(nearest);
+    let errors = midpoints(trace, axes).map(|midpoint| midpoint.error);
     Statistics::of(errors.collect()).map(|errors| Moments { mean: errors.mean(), std: errors.std() })
+}
+
+/// An estimated midpoint of a tunnel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Midpoint {
+    /// Index of its tick in the trace.
+    pub tick: usize,
+    /// Its position (m, world frame).
+    pub point_world: Point2,
+    /// Its distance from the nearest axis (m).
+    pub error: f64,
+}
+
+/// The midpoints that count for the [axis error](axis_error), in the order of their ticks.
+pub fn midpoints(trace: &Trace, axes: &[TunnelAxis]) -> impl Iterator<Item = Midpoint> {
+    let nearest = |midpoint| axes.iter().filter_map(|axis| axis.distance(midpoint)).min_by(f64::total_cmp);
+    trace.ticks.iter().enumerate().filter_map(move |(tick, record)| {
+        let point_world = midpoint(record)?;
+        Some(Midpoint { tick, point_world, error: nearest(point_world)? })
+    })
 }
 
 /// The midpoint of the tips that a tick recorded on both sides of the body (m, world frame).

@@ -22,7 +22,7 @@ mod state_share;
 mod statistics;
 mod tip;
 
-pub use axis::axis_error;
+pub use axis::{Midpoint, axis_error, midpoints};
 pub use body_path::body_path;
 pub use collision::Collisions;
 pub use corner::{CornerFigures, CornerStatistics, SHARP, SIDE, TracedCorner, traced_corners};

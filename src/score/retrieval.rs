@@ -25,6 +25,10 @@ pub struct Retrieval {
     pub distance: f64,
     /// Time from the edge point to the retrieved point (s).
     pub time: f64,
+    /// Index of the tick of the edge point in the trace.
+    pub edge_tick: usize,
+    /// Index of the tick of the retrieved point.
+    pub found_tick: usize,
 }
 
 /// Mean and sample standard deviation of a figure.
@@ -115,6 +119,8 @@ fn retrieval(trace: &Trace, edge: &MarkPosition, found: &MarkPosition) -> Retrie
         radius: (found.point_world - edge.point_world).norm(),
         distance: body_path(&trace.ticks[edge.tick..=found.tick]),
         time: trace.ticks[found.tick].time - trace.ticks[edge.tick].time,
+        edge_tick: edge.tick,
+        found_tick: found.tick,
     }
 }
 

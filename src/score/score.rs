@@ -95,6 +95,7 @@ impl Score {
             Metric::Passage => self.passage.map(|passage| passage.share),
             Metric::WallCoverage => self.passage.map(|passage| passage.wall_coverage()),
             Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
+            Metric::RetrievalDistance => self.retrieval?.distance.map(|distance| distance.mean),
             Metric::AxisMean => self.axis.map(|axis| axis.mean),
             Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),
             Metric::CornerTimeMax => self.all_corners()?.time.map(|time| time.max),

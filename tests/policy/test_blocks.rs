@@ -23,8 +23,12 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
         | RunFigure::TimedOut
         | RunFigure::Diverged
         | RunFigure::Coverage
+        | RunFigure::Retrievals
         | RunFigure::Collisions => 0.0,
         RunFigure::ErrorMean
+        | RunFigure::RetrievalRadius
+        | RunFigure::RetrievalDistance
+        | RunFigure::AxisMean
         | RunFigure::ErrorP95
         | RunFigure::ErrorMax
         | RunFigure::Outliers

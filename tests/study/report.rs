@@ -9,12 +9,12 @@ use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::report::{picture, results_table};
+use vibrissa::report::{picture, results_table, retrieval_picture};
 use vibrissa::results::{Hashes, Identity, RunResult};
 use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene};
-use vibrissa::score::Score;
+use vibrissa::score::{Score, retrievals};
 use vibrissa_runtime::machine::{ActionPart, Cause, Fallback, Mark, NonFinite};
 use vibrissa_runtime::rig::Rig;
 
@@ -301,5 +301,40 @@ proptest! {
             tick.state = (state < 3).then_some(state);
         }
         see(&draw(&scene(), "thesis", &run));
+    }
+}
+
+#[test]
+fn every_retrieval_has_a_strip_with_a_frame_for_the_edge_and_for_each_state() {
+    let scene = scenario::read(&Source::new("disk.yaml", include_str!("../../scenarios/disk.yaml"))).unwrap();
+    assert_eq!(retrieval_picture(&scene, "thesis", &half_round().trace), None);
+    let run = retrieved();
+    let strips = retrieval_picture(&scene, "thesis", &run.trace).unwrap();
+    let found = retrievals(&run.trace);
+    assert_eq!(found.len(), 2);
+    for (number, retrieval) in found.iter().enumerate() {
+        let heading = format!("{}: whisker", number + 1);
+        assert!(strips.contains(&heading), "{heading}");
+        let radius = format!("radius {:.1} mm", 1e3 * retrieval.radius);
+        assert!(strips.contains(&radius), "{radius}");
+        // The state is the same throughout, so there is one frame besides that of the edge.
+        let frames = (0..3).filter(|index| strips.contains(&format!("id=\"frame-{}-{index}\"", number + 1)));
+        assert_eq!(frames.count(), 2);
+    }
+}
+
+#[test]
+fn only_the_picture_of_a_tunnel_shows_its_axis() {
+    let read = |text: &str| scenario::read(&Source::new("scene.yaml", text)).unwrap();
+    let run = half_round();
+    for (scene, is_tunnel) in [
+        (read(include_str!("../../scenarios/disk.yaml")), false),
+        (read(include_str!("../../scenarios/smooth-tunnel.yaml")), true),
+    ] {
+        let score = Score::new(&run, &scene.truth, &scene.rig);
+        let shown = picture(&scene, "thesis", &run, &score);
+        assert_eq!(shown.contains("axis of the tunnel"), is_tunnel, "{}", scene.name);
+        // Two dashed lines besides the path of the platform: the axis and its entry in the legend.
+        assert_eq!(shown.matches("stroke-dasharray=\"7 4\"").count(), if is_tunnel { 2 } else { 0 });
     }
 }

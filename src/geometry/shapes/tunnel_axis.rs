@@ -71,6 +71,15 @@ impl TunnelAxis {
         self.arc_length_beside(point).map(|_| (self.project(point) - point).norm())
     }
 
+    /// Points of the axis from the beginning of the tunnel to its end, at distances of at most `step` (m) along the line.
+    #[must_use]
+    pub fn points(&self, step: f64) -> Vec<Point2> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive number of points")]
+        let count = (self.line.length() / step).ceil().clamp(1.0, 1e6) as usize;
+        let share = |index: usize| self.line.length() * index as f64 / count as f64;
+        (0..=count).map(|index| self.project(self.line.point_at(share(index)))).collect()
+    }
+
     /// The arc length (m) of a point projected on the line. `None` before the beginning of the tunnel and beyond its
     /// end.
     fn arc_length_beside(&self, point: Point2) -> Option<f64> {
@@ -128,6 +137,20 @@ mod tests {
             let normal = Vector2::new(-x / (height + radius), 1.0).normalize();
             let distance = axis.distance(Point2::new(x, y) + off * normal).unwrap();
             prop_assert!((distance - off.abs()).abs() < 2e-5, "{distance} for {off}");
+        }
+
+        #[test]
+        fn its_points_have_equal_distances_from_both_walls(height in 0.25..0.4_f64, step in 0.005..0.1_f64) {
+            let straight = |y: f64, from: f64| {
+                Contour::open(vec![Piece::segment(Point2::new(-from, y), Point2::new(from, y))]).unwrap()
+            };
+            let post = circle(Point2::new(0.0, height), 0.1).unwrap();
+            let axis = TunnelAxis::new(straight(0.5 * (height - 0.1), 0.1), post.clone(), straight(0.0, 2.0));
+            let points = axis.points(step);
+            prop_assert!(points.len() as f64 * step >= 0.2);
+            for point in points {
+                prop_assert!((post.nearest(point).distance - point.y.abs()).abs() < 1e-9);
+            }
         }
     }
 }

@@ -198,7 +198,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 18] = [
+const RUN: [Member; 22] = [
     figure(
         "passed",
         Type::Truth,
@@ -246,6 +246,30 @@ const RUN: [Member; 18] = [
         "the Hausdorff distance between the estimated and the exact contour",
     ),
     figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the exact contour that was traced, 0 to 1"),
+    figure(
+        "retrievals",
+        Type::NUMBER,
+        RunFigure::Retrievals,
+        "the number of retrievals: from `mark lost` to the next `mark found` of the same whisker",
+    ),
+    figure(
+        "retrieval_radius",
+        Type::LENGTH,
+        RunFigure::RetrievalRadius,
+        "the mean distance from the edge point to the retrieved point. Unknown without a retrieval",
+    ),
+    figure(
+        "retrieval_distance",
+        Type::LENGTH,
+        RunFigure::RetrievalDistance,
+        "the mean path length of the platform during a retrieval. Unknown without a retrieval",
+    ),
+    figure(
+        "axis_mean",
+        Type::LENGTH,
+        RunFigure::AxisMean,
+        "the mean distance of the estimated midpoints from the axis of a tunnel. Unknown outside of tunnels",
+    ),
     figure(
         "corner_place_max",
         Type::LENGTH,

@@ -4,7 +4,7 @@ use svg::Node;
 use svg::node::element::{Group, Path, Rectangle};
 
 use super::error_class::{COLOURS, LIMITS};
-use super::map::{self, OUTLINE, UNTRACED, mark_style, pose_style};
+use super::map::{self, MIDPOINT, OUTLINE, UNTRACED, axis_style, mark_style, pose_style};
 use super::scale::round_step;
 use crate::report::number::{mean_std, millimetres};
 use crate::report::outline::Outline;
@@ -29,6 +29,15 @@ const MARK: f64 = 34.0;
 const OUTLINE_FARTHEST: &str = "of the outline's farthest untraced point";
 const ESTIMATE_FARTHEST: &str = "of the farthest estimate";
 
+/// The entries of the object that a picture needs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ObjectEntries {
+    /// True if parts of its outline were not traced.
+    pub(super) untraced: bool,
+    /// True if it is a tunnel with an axis.
+    pub(super) axis: bool,
+}
+
 /// The column beside the map in construction.
 pub(super) struct Legend {
     group: Group,
@@ -47,10 +56,10 @@ impl Legend {
         scale: f64,
         trace: &Trace,
         score: &Score,
-        untraced: bool,
+        object: ObjectEntries,
     ) -> Group {
         let mut legend = Self { group: Group::new(), left, width, y: top + 12.0 };
-        legend.contour(untraced);
+        legend.contour(object);
         legend.estimates();
         legend.platform(trace);
         legend.marks(trace);
@@ -59,12 +68,21 @@ impl Legend {
         legend.group
     }
 
-    fn contour(&mut self, untraced: bool) {
+    fn contour(&mut self, object: ObjectEntries) {
         self.heading("Object");
         let mut reference = Outline::default();
         reference.polyline(self.mark());
         self.entry(reference.stroked(style::INK, OUTLINE), "outline, exact");
-        if untraced {
+        if object.axis {
+            let mut axis = Outline::default();
+            axis.polyline(self.mark());
+            self.entry(axis_style(axis), "axis of the tunnel");
+            let mut dots = Outline::default();
+            let [(from, y), (to, _)] = self.mark();
+            (0..5).for_each(|index| dots.dot((from + 0.25 * f64::from(index) * (to - from), y)));
+            self.entry(dots.dots(style::INK, MIDPOINT), "midpoints between the tips");
+        }
+        if object.untraced {
             let mut stretch = Outline::default();
             stretch.polyline(self.mark());
             self.entry(stretch.stroked(style::UNTRACED, UNTRACED), "not traced within 1 mm");
@@ -138,6 +156,9 @@ impl Legend {
             let meaning = if of_outline { OUTLINE_FARTHEST } else { ESTIMATE_FARTHEST };
             self.add(text(self.left, self.y - 5.0, Anchor::Start, 11.0, style::GREY, meaning));
             self.y += LINE - 6.0;
+        }
+        if let Some(axis) = score.axis {
+            self.figure("axis error", &format!("{} mm", mean_std(axis.mean * 1e3, axis.std.map(|std| std * 1e3))));
         }
         self.figure("coverage", &format!("{:.1} %", score.coverage * 100.0));
         if let Some(RetrievalFigures { count, radius, .. }) = score.retrieval {

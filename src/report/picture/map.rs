@@ -15,7 +15,7 @@ use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
 use crate::run::{TickRecord, Trace};
 use crate::scene::Scene;
-use crate::score::{Tip, mark_positions};
+use crate::score::{Tip, mark_positions, midpoints};
 use vibrissa_runtime::machine::Mark;
 use vibrissa_runtime::rig::Rig;
 
@@ -30,6 +30,12 @@ pub(super) const UNTRACED: f64 = 12.0;
 
 /// Half the width of the diamond of a mark (px).
 pub(super) const MARK: f64 = 5.0;
+
+/// Diameter of a midpoint's dot (px).
+pub(super) const MIDPOINT: f64 = 2.6;
+
+/// Distance of the points of an axis (m).
+const AXIS_STEP: f64 = 2e-3;
 
 /// Number of poses of the platform between the first and the last.
 const POSES_BETWEEN: usize = 5;
@@ -70,6 +76,17 @@ impl Map {
         }
     }
 
+    /// A square panel with its `side` (px) and its upper left corner at (`left`, `top`). It shows a square of twice `half`
+    /// (m) around `centre`.
+    pub(super) fn square(centre: Point2, half: f64, (left, top): (f64, f64), side: f64) -> Self {
+        Self {
+            x: Scale { values: (centre.x - half, centre.x + half), positions: (left, left + side) },
+            y: Scale { values: (centre.y - half, centre.y + half), positions: (top + side, top) },
+            scale: 0.5 * side / half,
+            height: side,
+        }
+    }
+
     /// The panel with its content.
     pub(super) fn draw(&self, scene: &Scene, trace: &Trace, untraced: &[Untraced<'_>], tips: &[Tip]) -> Group {
         let frame = || {
@@ -95,6 +112,16 @@ impl Map {
             inside = inside.add(dots.dots(colour, DOT));
         }
         inside = solids().fold(inside, |inside, solid| inside.add(solid.stroked(style::INK, OUTLINE)));
+        let mut dots = Outline::default();
+        let positions = midpoints(trace, &scene.truth.axes).map(|midpoint| self.position(midpoint.point_world));
+        positions.filter(|position| self.shows(*position)).for_each(|position| dots.dot(position));
+        inside = inside.add(dots.dots(style::INK, MIDPOINT));
+        // The axis is drawn over the midpoints, which may cover it.
+        for axis in &scene.truth.axes {
+            let mut line = Outline::default();
+            line.polyline(axis.points(AXIS_STEP).into_iter().map(|point| self.position(point)));
+            inside = inside.add(axis_style(line));
+        }
         for mark in Mark::ALL {
             let mut diamonds = Outline::default();
             let positions = mark_positions(trace).into_iter().filter(|position| position.mark == mark);
@@ -114,17 +141,17 @@ impl Map {
             .add(frame().set("fill", "none").set("stroke", style::GREY))
     }
 
-    fn position(&self, point: Point2) -> (f64, f64) {
+    pub(super) fn position(&self, point: Point2) -> (f64, f64) {
         (self.x.at(point.x), self.y.at(point.y))
     }
 
     /// True if a position is on the panel. Tips can be anywhere.
-    fn shows(&self, (x, y): (f64, f64)) -> bool {
+    pub(super) fn shows(&self, (x, y): (f64, f64)) -> bool {
         (self.x.positions.0..=self.x.positions.1).contains(&x) && (self.y.positions.1..=self.y.positions.0).contains(&y)
     }
 
     /// The exact outline: segments as lines, arcs as arcs.
-    fn outline(&self, contour: &Contour) -> Outline {
+    pub(super) fn outline(&self, contour: &Contour) -> Outline {
         let mut outline = Outline::default();
         outline.move_to(self.position(contour.point_at(0.0)));
         for piece in contour.pieces() {
@@ -161,16 +188,7 @@ impl Map {
         let ticks = shown_ticks(trace);
         let mut group = Group::new();
         for (index, tick) in ticks.iter().enumerate() {
-            let position = |point| self.position(tick.body.point_to_world(point));
-            let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut shafts, whisker| {
-                let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(position);
-                shafts.move_to(base);
-                shafts.curve_to(first, second, tip);
-                shafts
-            });
-            let mut body = Outline::default();
-            body.polyline(rig.platform.outline_body().map(position));
-            body.close();
+            let (body, whiskers) = self.pose(rig, trace, tick);
             group = group.add(pose_style(body, index, ticks.len())).add(whiskers.stroked(style::PLATFORM, 0.8));
         }
         let mut kept: Vec<(f64, f64)> = Vec::new();
@@ -183,6 +201,21 @@ impl Map {
         let mut path = Outline::default();
         path.polyline(kept);
         group.add(path.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"))
+    }
+
+    /// The outline of the platform and the shafts of its whiskers in a tick.
+    pub(super) fn pose(&self, rig: &Rig, trace: &Trace, tick: &TickRecord) -> (Outline, Outline) {
+        let position = |point| self.position(tick.body.point_to_world(point));
+        let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut shafts, whisker| {
+            let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(position);
+            shafts.move_to(base);
+            shafts.curve_to(first, second, tip);
+            shafts
+        });
+        let mut body = Outline::default();
+        body.polyline(rig.platform.outline_body().map(position));
+        body.close();
+        (body, whiskers)
     }
 
     fn axes(&self) -> Group {
@@ -231,6 +264,11 @@ pub(super) fn pose_style(body: Outline, index: usize, count: usize) -> svg::node
     } else {
         body.stroked(style::PLATFORM, 0.8).set("stroke-opacity", "0.7")
     }
+}
+
+/// The axis of a tunnel.
+pub(super) fn axis_style(line: Outline) -> svg::node::element::Path {
+    line.stroked(style::AXIS, 1.4).set("stroke-dasharray", "7 4")
 }
 
 /// Diamonds for marks: hollow at lost edges, filled at points where contact was found again.

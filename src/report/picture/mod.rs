@@ -8,17 +8,19 @@ mod pareto;
 mod profile;
 mod scale;
 mod shaft;
+mod strip;
 mod timeline;
 
 pub use pareto::pareto_picture;
 pub(crate) use profile::profile_picture;
+pub use strip::retrieval_picture;
 
 use std::iter;
 use std::ops::Range;
 
 use svg::node::element::{TSpan, Text};
 
-use self::legend::Legend;
+use self::legend::{Legend, ObjectEntries};
 use self::map::Map;
 use self::timeline::Timeline;
 use super::shade::{define, shades};
@@ -36,6 +38,8 @@ const MAP_WIDTH: f64 = 800.0;
 const MAP_HEIGHT: (f64, f64) = (560.0, 820.0);
 /// Additional height of the legend if there are marks (px).
 const MARKS_HEIGHT: f64 = 110.0;
+/// Additional height of the legend if there is a tunnel (px).
+const TUNNEL_HEIGHT: f64 = 66.0;
 /// Left side of the map and the strips, and right side of the picture's content (px).
 const SIDES: (f64, f64) = (66.0, 1170.0);
 /// Left side of the legend (px).
@@ -47,7 +51,7 @@ const LINE: usize = 130;
 ///
 /// The upper part shows the scene from above: the exact outlines, the tip estimates, the path of the platform and some
 /// of its poses. Whiskers are bent according to their base angles and tips. The colour of an estimate is the class of
-/// its error. The classes are equal in all pictures. The lower part shows state, error and base angles over time. The
+/// its error. The classes are equal in all pictures. In a tunnel, its axis is dashed, and the estimated midpoints are dots. The lower part shows state, error and base angles over time. The
 /// appearance of a state depends only on the machine.
 ///
 /// The same run gives the same picture, byte for byte. Nothing in it depends on the clock.
@@ -57,9 +61,12 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
     let untraced = untraced(scene, trace);
     let (head, map_top) = heading(scene, policy, run);
-    let least = MAP_HEIGHT.0 + if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
+    let marks = if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
+    let tunnel = if scene.truth.axes.is_empty() { 0.0 } else { TUNNEL_HEIGHT };
+    let least = MAP_HEIGHT.0 + marks + tunnel;
     let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, (least, MAP_HEIGHT.1));
-    let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score, !untraced.is_empty());
+    let object = ObjectEntries { untraced: !untraced.is_empty(), axis: !scene.truth.axes.is_empty() };
+    let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score, object);
     let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
     let height = bottom + 20.0;

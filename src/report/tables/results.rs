@@ -8,7 +8,7 @@ use crate::results::{MeanStd, RunResult};
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 22] = [
+const COLUMNS: [Column; 23] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
@@ -29,7 +29,8 @@ const COLUMNS: [Column; 22] = [
     ("corner position mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
     ("corner time s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
     ("corner path m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
-    ("retrieval mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
+    ("retrieval radius mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
+    ("retrieval distance mm", |result| mean_with_std(result.retrieval?.distance_mm), false),
     ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
 ];
 

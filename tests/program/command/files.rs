@@ -65,6 +65,7 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("run @/scene.yaml --policy @/quick.fsm --ticks @/OUT", "quick.fsm", "OUT", "--ticks"),
     ("run @/scene.yaml --out @", "laws.fsm", "scene.svg", "--out"),
     ("run @/scene.yaml --out @", "scene.yaml", "scene.json", "--out"),
+    ("run @/scene.yaml --out @", "scene.yaml", "scene.retrievals.svg", "--out"),
     ("test @/quick.fsm --out @", "quick.fsm", "01-it-fails.json", "--out"),
     ("test @/quick.fsm --out @", "scene.yaml", "01-it-fails.svg", "--out"),
     ("test @/prop.fsm --out @", "prop.regressions.yaml", "01-it-holds.yaml", "--out"),

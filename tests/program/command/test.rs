@@ -58,6 +58,30 @@ fn tests_pass_or_show_what_was_measured() {
 
 #[cfg(feature = "sim")]
 #[test]
+fn tests_read_the_figures_of_retrievals_as_the_result_has_them() {
+    let policy = directory("test-retrievals").join("policy.fsm");
+    let scenario = Path::new(ROOT).join("scenarios/prism.yaml").display().to_string();
+    let text = std::fs::read_to_string(Path::new(ROOT).join("policies/thesis.fsm")).unwrap();
+    std::fs::write(&policy, &text).unwrap();
+    let output = vibrissa(&["run", &scenario, "--policy", policy.to_str().unwrap(), "--json"]);
+    let run: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let retrieval = &run[0]["retrieval"];
+    let [radius, distance] = ["radius_mm", "distance_mm"].map(|key| retrieval[key]["mean"].as_f64().unwrap());
+    let bounds =
+        |name: &str, mean: f64| format!("run.{name} > {:.6} mm and run.{name} < {:.6} mm", mean - 1e-3, mean + 1e-3);
+    let test = format!(
+        "test \"figures\" in \"{scenario}\" {{ expect run.retrievals == {} and {} and {} and not (run.axis_mean < 1 m) }}",
+        retrieval["count"],
+        bounds("retrieval_radius", radius),
+        bounds("retrieval_distance", distance)
+    );
+    std::fs::write(&policy, text + &test).unwrap();
+    let output = vibrissa(&["test", policy.to_str().unwrap(), "--filter", "figures"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[cfg(feature = "sim")]
+#[test]
 fn several_policies_are_tested_in_turn() {
     let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm", "--filter", "it comes round the disk"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
