@@ -68,7 +68,7 @@
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
 //! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`] |
-//! | many runs | [`study`], [`family`], [`sweep`] |
+//! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
 //!
@@ -131,6 +131,7 @@ pub mod solid;
 pub mod study;
 pub mod sweep;
 pub mod trial;
+pub mod tune;
 pub mod world;
 
 #[doc(hidden)]

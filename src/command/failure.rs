@@ -15,6 +15,7 @@ use crate::report::ChartTooLarge;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
+use crate::tune::{AxisError, CandidateError};
 use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::SetError;
@@ -78,6 +79,16 @@ pub(super) enum Failure {
     DrawnSpeed,
     #[error("--with: `{name}` of `{family}`: {cause}")]
     FamilyValue { family: &'static str, name: String, cause: String },
+    #[error("--param: {0}")]
+    Axis(#[from] AxisError),
+    #[error("the scene `{scene}` occurs twice; name each scene once")]
+    SceneTwice { scene: String },
+    #[error("the held-out scene `{scene}` is also a training scene; hold out others")]
+    NotHeldOut { scene: String },
+    #[error("no scene is held out; name scenarios or families with --held-out")]
+    NoHeldOut,
+    #[error("these are too few runs for one generation of the search; give at least --runs {needed}, or fewer scenes")]
+    FewRuns { needed: usize },
     #[error(transparent)]
     NoDraw(#[from] NoDraw),
     #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
@@ -181,6 +192,15 @@ impl Failure {
         match self {
             Self::Load(LoadError::Faults { source_text, faults }) => output::diagnostics(source_text, faults),
             other => output::error(other),
+        }
+    }
+}
+
+impl From<CandidateError> for Failure {
+    fn from(error: CandidateError) -> Self {
+        match error {
+            CandidateError::Draw(cause) => Self::NoDraw(cause),
+            CandidateError::Set(cause) => Self::FamilySetting(cause),
         }
     }
 }

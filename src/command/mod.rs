@@ -35,6 +35,7 @@ mod test;
 mod test_property;
 mod timing;
 mod trials;
+mod tune;
 mod values;
 mod watch;
 mod worker;
@@ -72,6 +73,8 @@ enum Command {
     Compare(compare::CompareArguments),
     /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
     Sweep(sweep::SweepArguments),
+    /// Tune parameters of a policy over scenes. An interrupted tuning can be resumed
+    Tune(tune::TuneArguments),
     /// Merge the results of the parts of a sweep
     Merge(merge::MergeArguments),
     /// Check policies and describe their machines
@@ -138,6 +141,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Families(arguments) => families::families(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
+        Command::Tune(arguments) => tune::tune(arguments),
         Command::Merge(arguments) => merge::merge(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),

@@ -67,6 +67,15 @@ pub(super) enum World {
     QuasiStatic,
 }
 
+impl World {
+    fn kind(self) -> WorldKind {
+        match self {
+            Self::Mujoco => WorldKind::Mujoco,
+            Self::QuasiStatic => WorldKind::QuasiStatic,
+        }
+    }
+}
+
 /// The world of a run.
 #[derive(Debug, Args)]
 pub(super) struct WorldOption {
@@ -78,11 +87,7 @@ pub(super) struct WorldOption {
 impl WorldOption {
     /// The world of a run of `scene`.
     pub(super) fn of(&self, scene: &Scene) -> WorldKind {
-        let asked = self.world.map(|world| match world {
-            World::Mujoco => WorldKind::Mujoco,
-            World::QuasiStatic => WorldKind::QuasiStatic,
-        });
-        asked.or(scene.world).unwrap_or_default()
+        self.world.map(World::kind).or(scene.world).unwrap_or_default()
     }
 }
 
@@ -104,6 +109,13 @@ pub(super) struct WorldOptions {
 }
 
 impl WorldOptions {
+    /// The options as text, for the header of results.
+    pub(super) fn text(&self) -> String {
+        let world = self.world.world.map(|world| world.kind().name());
+        let pruned = if self.prune.no_prune { ", not pruned" } else { "" };
+        format!("{}{pruned}", world.unwrap_or("of the scene"))
+    }
+
     /// The world of a run of `scene`.
     pub(super) fn of(&self, scene: &Scene) -> WorldSetup {
         WorldSetup { kind: self.world.of(scene), prune: !self.prune.no_prune }

@@ -15,6 +15,7 @@ use crate::study::stress::StressRow;
 use crate::study::timing::TimingRow;
 use crate::study::worlds::WorldsRow;
 use crate::sweep::{Header, SweepLine, SweepSummary};
+use crate::tune::{Tuning, TuningHeader, TuningLine};
 
 use super::calibrate::Printed;
 use super::check::Checked;
@@ -45,6 +46,9 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<Header>(),
         schema::<SweepLine>(),
         schema::<SweepSummary>(),
+        schema::<TuningHeader>(),
+        schema::<TuningLine>(),
+        schema::<Tuning>(),
         schema::<Checked>(),
         schema::<Tested>(),
         schema::<Printed<'static>>(),

@@ -13,6 +13,7 @@ mod artifact;
 mod ast;
 mod builtins;
 pub mod chart;
+mod defaults;
 mod description;
 mod foreign_syntax;
 mod format;
@@ -32,6 +33,7 @@ mod test;
 mod types;
 mod unit;
 
+pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
 pub use test::{Expectation, ParameterRange, PolicyTest, RunFigure, TestScenes};

@@ -47,8 +47,9 @@ pub(crate) fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Optio
     for path in paths {
         let file = files.open(path).map_err(ResultsError::file(path))?;
         let mut lines = Lines::new(path, &file);
-        let no_header = || ResultsError::NoResults { path: path.clone(), cause: "it is empty".to_owned() };
-        let header = lines.header()?.ok_or_else(no_header)?;
+        let no_header =
+            || ResultsError::NoResults { path: path.clone(), of: Header::FORMAT, cause: "it is empty".to_owned() };
+        let header: Header = lines.header()?.ok_or_else(no_header)?;
         let merged = match &mut merged {
             Some(merged) => {
                 if let Some(difference) = header.difference(&merged.header) {
@@ -81,6 +82,7 @@ impl Merged {
         let source = Source::new(path.display().to_string(), &*header.text);
         let sweep = Sweep::from_yaml(&source).map_err(|_| ResultsError::NoResults {
             path: path.to_owned(),
+            of: Header::FORMAT,
             cause: "this version of the program cannot read the sweep that it holds".to_owned(),
         })?;
         Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })

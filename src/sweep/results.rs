@@ -6,10 +6,11 @@ use std::fs::{File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
+
 use super::header::Header;
 use super::line::read_line;
 use super::lines::{LINE_LIMIT, Lines};
-use super::shard::Shard;
 use crate::file;
 use crate::results::Figures;
 use crate::sweep::Sweep;
@@ -26,20 +27,22 @@ pub(crate) enum ResultsError {
         cause: io::Error,
     },
     /// Another process writes to the file.
-    #[error("another sweep is writing to {}; wait for it, or choose another path with --out", path.display())]
+    #[error("another process is writing to {}; wait for it, or choose another path with --out", path.display())]
     Busy {
         /// The file.
         path: PathBuf,
     },
     /// The file has other content.
-    #[error("{} does not contain results of a sweep ({cause}); choose another path with --out", path.display())]
+    #[error("{} does not contain results of a {of} ({cause}); choose another path with --out", path.display())]
     NoResults {
         /// The file.
         path: PathBuf,
+        /// The expected format.
+        of: &'static str,
         /// The error of its first line.
         cause: String,
     },
-    /// The file has results of another sweep, or of an earlier version of the sweep.
+    /// The file has results of other inputs.
     #[error("{} holds results of {difference}; choose another path with --out, or remove that file", path.display())]
     Other {
         /// The file.
@@ -47,8 +50,8 @@ pub(crate) enum ResultsError {
         /// The difference.
         difference: String,
     },
-    /// A line is not a result of the sweep.
-    #[error("{}, line {line}: {cause}; remove that line, and resume the sweep", path.display())]
+    /// A line is not a result.
+    #[error("{}, line {line}: {cause}; remove that line, and give the same command again", path.display())]
     Line {
         /// The file.
         path: PathBuf,
@@ -108,23 +111,40 @@ impl Results {
         header: &Header,
         sweep: &Sweep,
     ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
-        let failed = ResultsError::file(path);
-        let file = locked(path)?;
         let indices = indices(sweep);
         let mut there = BTreeMap::new();
+        let differs = |found: &Header| difference(found, header);
+        let results = Self::open_with(path, header, differs, |line| {
+            let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
+            let index = indices.get(&key).filter(|_| header.shard.has(&key));
+            let index = *index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
+            let twice = there.insert(index, figures).is_some();
+            if twice { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
+        })?;
+        Ok((results, there))
+    }
+
+    /// Opens or creates the file of results at `path`, and passes every complete line after the header to `each`. An
+    /// incomplete last line is removed. No other process can write to the file until this is dropped. `differs` describes the difference of a
+    /// header from the expected one.
+    ///
+    /// # Errors
+    /// [`ResultsError`] if the file cannot be used, if `differs` has a difference, or if `each` refuses a line.
+    pub(crate) fn open_with<H: Document + DeserializeOwned>(
+        path: &Path,
+        header: &H,
+        differs: impl Fn(&H) -> Option<String>,
+        mut each: impl FnMut(&str) -> Result<(), String>,
+    ) -> Result<Self, ResultsError> {
+        let failed = ResultsError::file(path);
+        let file = locked(path)?;
         let mut lines = Lines::new(path, &file);
         let found = lines.header()?;
-        if let Some(found) = &found {
-            check(path, found, header)?;
+        if let Some(difference) = found.as_ref().and_then(differs) {
+            return Err(ResultsError::Other { path: path.to_owned(), difference });
         }
-        while let Some((number, line)) = lines.next()? {
-            let wrong = |cause: String| ResultsError::Line { path: path.to_owned(), line: number, cause };
-            let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
-            let index = indices.get(&key).filter(|_| header.shard.has(&key));
-            let index = *index.ok_or_else(|| wrong(format!("this part of the sweep has no run `{key}`")))?;
-            if there.insert(index, figures).is_some() {
-                return Err(wrong(format!("the run `{key}` occurs a second time")));
-            }
+        while let Some((line, text)) = lines.next()? {
+            each(&text).map_err(|cause| ResultsError::Line { path: path.to_owned(), line, cause })?;
         }
         let whole = lines.whole();
         file.set_len(whole).map_err(&failed)?;
@@ -134,7 +154,7 @@ impl Results {
             results.add(&header)?;
             file::sync_name(path).map_err(&failed)?;
         }
-        Ok((results, there))
+        Ok(results)
     }
 
     /// Adds the line of a run. It is on the disk when this returns.
@@ -163,8 +183,8 @@ pub(super) fn check_path(path: &Path, header: &Header) -> Result<Option<File>, R
     }
     let file = file::open(path).map_err(ResultsError::file(path))?;
     lock(path, &file)?;
-    if let Some(found) = Lines::new(path, &file).header()? {
-        check(path, &found, header)?;
+    if let Some(difference) = Lines::new(path, &file).header()?.and_then(|found| difference(&found, header)) {
+        return Err(ResultsError::Other { path: path.to_owned(), difference });
     }
     Ok(Some(file))
 }
@@ -190,9 +210,8 @@ fn lock(path: &Path, file: &File) -> Result<(), ResultsError> {
     })
 }
 
-fn check(path: &Path, found: &Header, header: &Header) -> Result<(), ResultsError> {
-    let other_shard = |shard: Shard| format!("the shard {shard}, this one is {}", header.shard);
-    let difference = found.difference(header);
-    let difference = difference.or_else(|| (found.shard != header.shard).then(|| other_shard(found.shard)));
-    difference.map_or(Ok(()), |difference| Err(ResultsError::Other { path: path.to_owned(), difference }))
+/// The difference of the results of `found` from those of `header`, if there is one.
+fn difference(found: &Header, header: &Header) -> Option<String> {
+    let other_shard = || format!("the shard {}, this one is {}", found.shard, header.shard);
+    found.difference(header).or_else(|| (found.shard != header.shard).then(other_shard))
 }

@@ -14,6 +14,7 @@ mod stress;
 mod sweep;
 mod tally;
 mod timing;
+mod tuning;
 mod worlds;
 
 pub use bench::{bench_table, pooled_tips};
@@ -29,4 +30,5 @@ pub use results::results_table;
 pub use stress::stress_tables;
 pub(crate) use sweep::summary_table;
 pub use timing::timing_table;
+pub(crate) use tuning::tuning_tables;
 pub use worlds::worlds_table;

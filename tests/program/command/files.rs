@@ -101,6 +101,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ),
     ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "scene.yaml", "scene-pareto.json", "--out"),
     ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-pareto.svg", "--out"),
+    ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @", "laws.fsm", "results.jsonl", "--out"),
+    ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @ --write @/OUT", "quick.fsm", "OUT", "--write"),
     ("sweep @/small.yaml --out @", "small.yaml", "results.jsonl", "--out"),
     ("sweep @/small.yaml --out @", "quick.fsm", "results.jsonl", "--out"),
     ("sweep @/small.yaml --out @", "laws.fsm", "results.jsonl", "--out"),

@@ -28,5 +28,6 @@ mod stress;
 #[cfg(feature = "sim")]
 mod sweep;
 mod test;
+mod tune;
 #[cfg(feature = "sim")]
 mod watch;

@@ -1,0 +1,369 @@
+//! `vibrissa tune`
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use sha2::Digest;
+use vibrissa_runtime::machine::Program;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::options::{Format, Jobs, Settings, WorldOptions};
+use super::output;
+use super::progress::{Kept, Progress};
+use super::trials::make_directory;
+use super::values::{parse_runs, parse_seed};
+use crate::family::Family;
+use crate::file::CommandFiles;
+use crate::load;
+use crate::policy::with_defaults;
+use crate::report::tuning_tables;
+use crate::sweep::Results;
+use crate::trial::{engine_version, short_hash, stream_in_parallel};
+use crate::tune::{
+    Axis, Candidate, Evolution, Objective, Term, TunedFigures, TunedParameter, TunedRun, TunedValues, Tuning,
+    TuningHeader, TuningLine, TuningScene,
+};
+
+const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param target --param light --scene polygon --world quasistatic\n  vibrissa tune mine.fsm --scene scenarios/box.yaml --held-out scenarios/octagon.yaml --write tuned.fsm\n\nExit status: 0 done; 1 a held-out run under the tuned values did not pass; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa tune`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct TuneArguments {
+    /// Policy or compiled machine
+    #[arg(value_name = "POLICY")]
+    policy: PathBuf,
+    /// Parameter to tune, within the range that the policy declares. The default is all parameters with a range
+    #[arg(long = "param", value_name = "NAME")]
+    parameters: Vec<String>,
+    /// Scenario file or family of the training scenes. May be given several times
+    #[arg(long = "scene", value_name = "FILE|FAMILY", required = true)]
+    scenes: Vec<PathBuf>,
+    /// Scenario file or family of the held-out scenes. The default is further scenes of the training families
+    #[arg(long = "held-out", value_name = "FILE|FAMILY")]
+    held_out: Vec<PathBuf>,
+    /// Number of scenes of each family, for training and again as held-out scenes
+    #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true, value_parser = parse_runs)]
+    count: u64,
+    /// Weight of a figure in the cost. The default is 10 for each millimetre of mean error and 0.01 for each second
+    #[arg(long = "weight", value_name = "FIGURE=WEIGHT", value_parser = Term::parse)]
+    weights: Vec<Term>,
+    /// Largest number of training runs
+    #[arg(long, value_name = "N", default_value_t = 500, allow_negative_numbers = true, value_parser = parse_runs)]
+    runs: u64,
+    /// Seed of the search and of the scenes of families
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: u64,
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    world: WorldOptions,
+    #[command(flatten)]
+    jobs: Jobs,
+    /// Directory of the results. The default is out/tune-NAME. Runs whose results are already in it are skipped
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write the policy with the tuned values as defaults into this file
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    #[command(flatten)]
+    format: Format,
+}
+
+pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let text = arguments.write.as_ref().map(|_| load::policy_text(&arguments.policy, &mut files)).transpose()?;
+    let policy = load::policy(&arguments.policy, &mut files)?;
+    output::warnings(&policy.value);
+    let own = policy.value.artifact.program.clone();
+    let policy = arguments.settings.of(policy)?;
+    let program = policy.value.artifact.program;
+    let axes = Axis::of(&program, &arguments.parameters)?;
+    let training = scenes(&arguments.scenes, 0, arguments, &mut files)?;
+    let held_out = held_out(arguments, &mut files)?;
+    if let Some(twice) = held_out.iter().find(|scene| training.iter().any(|one| one.name == scene.name)) {
+        return Err(Failure::NotHeldOut { scene: twice.name.clone() });
+    }
+    let objective = Objective::new(&arguments.weights);
+    let header = header(short_hash(&policy.hash.finalize()), &axes, [&training, &held_out], &objective, arguments);
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(format!("tune-{}", program.name)));
+    make_directory(Some(&directory))?;
+    let path = directory.join("results.jsonl");
+    files.growing("--out", &path)?;
+    let written = arguments.write.as_ref().map(|path| files.output("--write", path)).transpose()?;
+
+    let default = Candidate::new(&axes, |name| value(&own, name));
+    let given = Candidate::new(&axes, |name| value(&program, name));
+    let plan = Plan::new(&axes, training.len(), usize::from(given != default) + 1, arguments.runs)?;
+    let mut runs = Runs::open(path, &header, &axes, &program, &objective, arguments)?;
+    let references: Vec<&Candidate> = if given == default { vec![&given] } else { vec![&default, &given] };
+    runs.expect(plan.runs(training.len()) + (references.len() + 1) * held_out.len());
+    runs.run(&references, &training)?;
+    let mut best = (mean_cost(&runs.of(&given, &training)), given.clone());
+    let mut evolution = Evolution::new(&given.point(&axes), arguments.seed);
+    for _ in 0..plan.generations {
+        let generation: Vec<Candidate> = evolution.ask().iter().map(|point| Candidate::at(&axes, point)).collect();
+        runs.run(&generation.iter().collect::<Vec<_>>(), &training)?;
+        let costs: Vec<f64> = generation.iter().map(|one| mean_cost(&runs.of(one, &training))).collect();
+        for (candidate, &cost) in generation.iter().zip(&costs) {
+            if cost < best.0 {
+                best = (cost, candidate.clone());
+            }
+        }
+        evolution.tell(&costs);
+    }
+    let tuned = best.1;
+    let last: Vec<&Candidate> = references.iter().copied().chain([&tuned]).collect();
+    runs.run(&last, &held_out)?;
+
+    let figures = |of: &'static str, candidate: &Candidate| TunedValues {
+        of,
+        settings: candidate.settings(),
+        training: TunedFigures::new(&runs.of(candidate, &training)),
+        held_out: TunedFigures::new(&runs.of(candidate, &held_out)),
+    };
+    let mut values = vec![figures("given", &given), figures("tuned", &tuned)];
+    if given != default {
+        values.insert(0, figures("policy", &default));
+    }
+    let [own_values, given_values, tuned_values] = [&default, &given, &tuned].map(Candidate::settings);
+    let parameter = |axis: &Axis| {
+        let text = |values: &BTreeMap<String, String>| values.get(&axis.name).cloned().unwrap_or_default();
+        let [default, given, tuned] = [&own_values, &given_values, &tuned_values].map(text);
+        TunedParameter { name: axis.name.clone(), range: axis.range(), default, given, tuned }
+    };
+    let tuning = Tuning {
+        policy: program.name.clone(),
+        objective: objective.to_string(),
+        runs: plan.runs(training.len()),
+        resumed: runs.resumed,
+        parameters: axes.iter().map(parameter).collect(),
+        values,
+    };
+    if let (Some(file), Some(text)) = (written, text) {
+        let changed = with_defaults(&text, &tuned_values);
+        let faults = |faults| load::LoadError::Faults { source_text: Box::new(text.clone()), faults };
+        file.write(changed.map_err(faults)?)?;
+    }
+    let path = runs.finish();
+    output::document(arguments.format, &tuning, || tuning_tables(&tuning))?;
+    if !arguments.format.json {
+        let set = tuned_values.iter().map(|(name, value)| format!("--set \"{name}={value}\""));
+        output::result(set.collect::<Vec<_>>().join(" "))?;
+        output::result(format_args!("results: {}", path.display()))?;
+    }
+    let passed = tuning.values.last().is_some_and(|tuned| tuned.held_out.passed == tuned.held_out.runs);
+    Ok(if passed { Exit::Done } else { Exit::Unexpected })
+}
+
+/// The default or set value (SI) of a parameter.
+fn value(program: &Program, name: &str) -> Option<f64> {
+    let index = program.parameters.iter().position(|parameter| parameter.name == name)?;
+    program.initial_registers.get(index).copied()
+}
+
+fn mean_cost(runs: &[TunedRun]) -> f64 {
+    TunedFigures::new(runs).cost.unwrap_or(f64::INFINITY)
+}
+
+/// The family with this name.
+fn family(name: &Path) -> Option<Family> {
+    name.to_str().and_then(Family::named)
+}
+
+/// The scenes with these files and families. Numbers of families begin at `first`.
+fn scenes(
+    names: &[PathBuf],
+    first: u64,
+    arguments: &TuneArguments,
+    files: &mut CommandFiles,
+) -> Result<Vec<TuningScene>, Failure> {
+    let mut scenes = Vec::new();
+    for path in names {
+        let is_file = path.extension().is_some_and(|end| end == "yaml" || end == "yml");
+        match family(path) {
+            _ if is_file => scenes.push(TuningScene::scenario(load::scenario(path, files)?)),
+            Some(family) => {
+                for number in first..first + arguments.count {
+                    scenes.push(TuningScene::family(family, arguments.seed, number)?);
+                }
+            }
+            None => return Err(Failure::NoSuchFamily { name: path.display().to_string() }),
+        }
+    }
+    let mut names = BTreeSet::new();
+    if let Some(twice) = scenes.iter().find(|scene| !names.insert(scene.name.clone())) {
+        return Err(Failure::SceneTwice { scene: twice.name.clone() });
+    }
+    Ok(scenes)
+}
+
+/// The held-out scenes: those that were requested, or else further ones of the training families.
+fn held_out(arguments: &TuneArguments, files: &mut CommandFiles) -> Result<Vec<TuningScene>, Failure> {
+    let names = if arguments.held_out.is_empty() {
+        arguments.scenes.iter().filter(|path| family(path).is_some()).cloned().collect()
+    } else {
+        arguments.held_out.clone()
+    };
+    if names.is_empty() {
+        return Err(Failure::NoHeldOut);
+    }
+    scenes(&names, arguments.count, arguments, files)
+}
+
+fn header(
+    policy: String,
+    axes: &[Axis],
+    scenes: [&[TuningScene]; 2],
+    objective: &Objective,
+    arguments: &TuneArguments,
+) -> TuningHeader {
+    let parameters: Vec<String> = axes.iter().map(|axis| format!("{} in {}", axis.name, axis.range())).collect();
+    let all = scenes.into_iter().flatten();
+    let inputs = [
+        ("the program", engine_version()),
+        ("the policy", policy),
+        ("the parameters", parameters.join(", ")),
+        ("the objective", objective.to_string()),
+        ("the seed", arguments.seed.to_string()),
+        ("the world", arguments.world.text()),
+    ];
+    let inputs = inputs.into_iter().map(|(name, value)| (name.to_owned(), value));
+    TuningHeader {
+        inputs: inputs.chain(all.map(|scene| (format!("scene {}", scene.name), scene.hash.clone()))).collect(),
+    }
+}
+
+/// The size of a search.
+struct Plan {
+    references: usize,
+    samples: usize,
+    generations: usize,
+}
+
+impl Plan {
+    /// The generations that a number of training runs is sufficient for, after those of the reference values.
+    fn new(axes: &[Axis], scenes: usize, references: usize, runs: u64) -> Result<Self, Failure> {
+        let samples = Evolution::samples_of(axes.len());
+        let runs = usize::try_from(runs).unwrap_or(usize::MAX);
+        let generations = runs.saturating_sub(references * scenes) / (samples * scenes);
+        if generations == 0 {
+            return Err(Failure::FewRuns { needed: (references + samples) * scenes });
+        }
+        Ok(Self { references, samples, generations })
+    }
+
+    /// Number of training runs.
+    fn runs(&self, scenes: usize) -> usize {
+        (self.references + self.samples * self.generations) * scenes
+    }
+}
+
+/// The runs of a tuning, with their file.
+struct Runs<'a> {
+    axes: &'a [Axis],
+    program: &'a Program,
+    objective: &'a Objective,
+    arguments: &'a TuneArguments,
+    /// The speed (m/s) of scenes of families, if it is set.
+    speed: Option<f64>,
+    path: PathBuf,
+    results: Results,
+    done: BTreeMap<(BTreeMap<String, String>, String), TunedRun>,
+    resumed: usize,
+    progress: Option<Progress>,
+}
+
+impl<'a> Runs<'a> {
+    fn open(
+        path: PathBuf,
+        header: &TuningHeader,
+        axes: &'a [Axis],
+        program: &'a Program,
+        objective: &'a Objective,
+        arguments: &'a TuneArguments,
+    ) -> Result<Self, Failure> {
+        let mut done = BTreeMap::new();
+        let results = Results::open_with(
+            &path,
+            header,
+            |found| found.difference(header),
+            |line| {
+                let TuningLine { scene, settings, run } =
+                    serde_json::from_str(line).map_err(|cause| cause.to_string())?;
+                let twice = done.insert((settings, scene), run).is_some();
+                if twice { Err("the run occurs a second time".to_owned()) } else { Ok(()) }
+            },
+        )?;
+        let speed = arguments.settings.has("speed").then(|| value(program, "speed")).flatten();
+        let resumed = done.len();
+        Ok(Self { axes, program, objective, arguments, speed, path, results, done, resumed, progress: None })
+    }
+
+    /// Shows the progress of so many runs in all.
+    fn expect(&mut self, runs: usize) {
+        let left = runs.saturating_sub(self.resumed);
+        self.progress = Some(Progress::resumed(self.resumed as u64, left as u64, Kept::In(self.path.clone())));
+    }
+
+    /// Runs candidates in scenes, except those whose results are there.
+    fn run(&mut self, candidates: &[&Candidate], scenes: &[TuningScene]) -> Result<(), Failure> {
+        let mut keys = BTreeSet::new();
+        let pairs = candidates.iter().flat_map(|&candidate| scenes.iter().map(move |scene| (candidate, scene)));
+        let tasks: Vec<(&Candidate, &TuningScene)> = pairs
+            .filter(|(candidate, scene)| {
+                let key = (candidate.settings(), scene.name.clone());
+                // Rounded values may occur twice in a generation.
+                !self.done.contains_key(&key) && keys.insert(key)
+            })
+            .collect();
+        let (axes, program, objective, arguments, speed) =
+            (self.axes, self.program, self.objective, self.arguments, self.speed);
+        let work = |(candidate, scene): &(&Candidate, &TuningScene)| -> Result<TunedRun, Failure> {
+            let trial = scene.trial(candidate, axes, program, speed, |scene| arguments.world.of(scene))?;
+            let result =
+                trial.run().map_err(|cause| Failure::Execute { scenario: scene.name.clone().into(), cause })?;
+            Ok(TunedRun::new(objective, &result))
+        };
+        let (results, finished, progress) = (&mut self.results, &mut self.done, &mut self.progress);
+        let mut failure = None;
+        let mut keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
+            let run = run?;
+            let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
+            results.add(&output::json_line(&TuningLine::new(candidate, scene, run))?)?;
+            finished.insert((candidate.settings(), scene.name.clone()), run);
+            if let Some(progress) = progress {
+                progress.done(format_args!("{}: cost {:.3}", scene.name, run.cost));
+            }
+            Ok(())
+        };
+        stream_in_parallel(
+            &tasks,
+            arguments.jobs.threads(),
+            || (),
+            |(), task| work(task),
+            |index, run| {
+                failure = keep(index, run).err();
+                if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        );
+        failure.map_or(Ok(()), Err)
+    }
+
+    /// The runs of a candidate in scenes.
+    fn of(&self, candidate: &Candidate, scenes: &[TuningScene]) -> Vec<TunedRun> {
+        let run = |scene: &TuningScene| self.done.get(&(candidate.settings(), scene.name.clone())).copied();
+        scenes.iter().filter_map(run).collect()
+    }
+
+    /// Ends the progress, and returns the path of the results.
+    fn finish(self) -> PathBuf {
+        if let Some(progress) = self.progress {
+            progress.finish();
+        }
+        self.path
+    }
+}
