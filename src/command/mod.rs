@@ -36,6 +36,7 @@ mod test_property;
 mod timing;
 mod trials;
 mod tune;
+mod tune_runs;
 mod values;
 mod watch;
 mod worker;

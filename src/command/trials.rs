@@ -112,7 +112,7 @@ fn milliseconds(seconds: f64) -> u64 {
 /// The files for the pictures and the result of a run.
 pub(super) struct ReportFiles {
     picture: Output,
-    /// The strips of its retrievals. It is written only if there are any.
+    /// The strips of its retrievals. Without any, a file of an earlier run is removed.
     retrievals: Output,
     result: Output,
 }
@@ -127,8 +127,9 @@ impl ReportFiles {
     /// Writes the pictures and the result.
     pub(super) fn write(self, trial: &Trial, result: &TrialResult, document: &RunResult) -> Result<(), Failure> {
         self.picture.write(drawn(trial, result))?;
-        if let Some(strips) = retrieval_picture(&trial.scene, &trial.policy_label(), &result.run.trace) {
-            self.retrievals.write(strips)?;
+        match retrieval_picture(&trial.scene, &trial.policy_label(), &result.run.trace) {
+            Some(strips) => self.retrievals.write(strips)?,
+            None => self.retrievals.remove()?,
         }
         self.result.write(serde_json::to_string_pretty(&document.versioned())? + "\n")?;
         Ok(())

@@ -1,7 +1,6 @@
 //! `vibrissa tune`
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,19 +11,18 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{Format, Jobs, Settings, WorldOptions};
 use super::output;
-use super::progress::{Kept, Progress};
 use super::trials::make_directory;
+use super::tune_runs::{TuningRuns, TuningWork};
 use super::values::{parse_runs, parse_seed};
 use crate::family::Family;
 use crate::file::CommandFiles;
 use crate::load;
 use crate::policy::with_defaults;
 use crate::report::tuning_tables;
-use crate::sweep::Results;
-use crate::trial::{engine_version, short_hash, stream_in_parallel};
+use crate::trial::{engine_version, short_hash};
 use crate::tune::{
     Axis, Candidate, Evolution, Objective, Term, TunedFigures, TunedParameter, TunedRun, TunedValues, Tuning,
-    TuningHeader, TuningLine, TuningScene,
+    TuningHeader, TuningScene,
 };
 
 const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param target --param light --scene polygon --world quasistatic\n  vibrissa tune mine.fsm --scene scenarios/box.yaml --held-out scenarios/octagon.yaml --write tuned.fsm\n\nExit status: 0 done; 1 a held-out run under the tuned values did not pass; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -98,7 +96,15 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
     let default = Candidate::new(&axes, |name| value(&own, name));
     let given = Candidate::new(&axes, |name| value(&program, name));
     let plan = Plan::new(&axes, training.len(), usize::from(given != default) + 1, arguments.runs)?;
-    let mut runs = Runs::open(path, &header, &axes, &program, &objective, arguments)?;
+    let work = TuningWork {
+        axes: &axes,
+        program: &program,
+        objective: &objective,
+        speed: arguments.settings.has("speed").then(|| value(&program, "speed")).flatten(),
+        world: &arguments.world,
+        jobs: &arguments.jobs,
+    };
+    let mut runs = TuningRuns::open(path, &header, work)?;
     let references: Vec<&Candidate> = if given == default { vec![&given] } else { vec![&default, &given] };
     runs.expect(plan.runs(training.len()) + (references.len() + 1) * held_out.len());
     runs.run(&references, &training)?;
@@ -259,111 +265,5 @@ impl Plan {
     /// Number of training runs.
     fn runs(&self, scenes: usize) -> usize {
         (self.references + self.samples * self.generations) * scenes
-    }
-}
-
-/// The runs of a tuning, with their file.
-struct Runs<'a> {
-    axes: &'a [Axis],
-    program: &'a Program,
-    objective: &'a Objective,
-    arguments: &'a TuneArguments,
-    /// The speed (m/s) of scenes of families, if it is set.
-    speed: Option<f64>,
-    path: PathBuf,
-    results: Results,
-    done: BTreeMap<(BTreeMap<String, String>, String), TunedRun>,
-    resumed: usize,
-    progress: Option<Progress>,
-}
-
-impl<'a> Runs<'a> {
-    fn open(
-        path: PathBuf,
-        header: &TuningHeader,
-        axes: &'a [Axis],
-        program: &'a Program,
-        objective: &'a Objective,
-        arguments: &'a TuneArguments,
-    ) -> Result<Self, Failure> {
-        let mut done = BTreeMap::new();
-        let results = Results::open_with(
-            &path,
-            header,
-            |found| found.difference(header),
-            |line| {
-                let TuningLine { scene, settings, run } =
-                    serde_json::from_str(line).map_err(|cause| cause.to_string())?;
-                let twice = done.insert((settings, scene), run).is_some();
-                if twice { Err("the run occurs a second time".to_owned()) } else { Ok(()) }
-            },
-        )?;
-        let speed = arguments.settings.has("speed").then(|| value(program, "speed")).flatten();
-        let resumed = done.len();
-        Ok(Self { axes, program, objective, arguments, speed, path, results, done, resumed, progress: None })
-    }
-
-    /// Shows the progress of so many runs in all.
-    fn expect(&mut self, runs: usize) {
-        let left = runs.saturating_sub(self.resumed);
-        self.progress = Some(Progress::resumed(self.resumed as u64, left as u64, Kept::In(self.path.clone())));
-    }
-
-    /// Runs candidates in scenes, except those whose results are there.
-    fn run(&mut self, candidates: &[&Candidate], scenes: &[TuningScene]) -> Result<(), Failure> {
-        let mut keys = BTreeSet::new();
-        let pairs = candidates.iter().flat_map(|&candidate| scenes.iter().map(move |scene| (candidate, scene)));
-        let tasks: Vec<(&Candidate, &TuningScene)> = pairs
-            .filter(|(candidate, scene)| {
-                let key = (candidate.settings(), scene.name.clone());
-                // Rounded values may occur twice in a generation.
-                !self.done.contains_key(&key) && keys.insert(key)
-            })
-            .collect();
-        let (axes, program, objective, arguments, speed) =
-            (self.axes, self.program, self.objective, self.arguments, self.speed);
-        let work = |(candidate, scene): &(&Candidate, &TuningScene)| -> Result<TunedRun, Failure> {
-            let trial = scene.trial(candidate, axes, program, speed, |scene| arguments.world.of(scene))?;
-            let result =
-                trial.run().map_err(|cause| Failure::Execute { scenario: scene.name.clone().into(), cause })?;
-            Ok(TunedRun::new(objective, &result))
-        };
-        let (results, finished, progress) = (&mut self.results, &mut self.done, &mut self.progress);
-        let mut failure = None;
-        let mut keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
-            let run = run?;
-            let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
-            results.add(&output::json_line(&TuningLine::new(candidate, scene, run))?)?;
-            finished.insert((candidate.settings(), scene.name.clone()), run);
-            if let Some(progress) = progress {
-                progress.done(format_args!("{}: cost {:.3}", scene.name, run.cost));
-            }
-            Ok(())
-        };
-        stream_in_parallel(
-            &tasks,
-            arguments.jobs.threads(),
-            || (),
-            |(), task| work(task),
-            |index, run| {
-                failure = keep(index, run).err();
-                if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            },
-        );
-        failure.map_or(Ok(()), Err)
-    }
-
-    /// The runs of a candidate in scenes.
-    fn of(&self, candidate: &Candidate, scenes: &[TuningScene]) -> Vec<TunedRun> {
-        let run = |scene: &TuningScene| self.done.get(&(candidate.settings(), scene.name.clone())).copied();
-        scenes.iter().filter_map(run).collect()
-    }
-
-    /// Ends the progress, and returns the path of the results.
-    fn finish(self) -> PathBuf {
-        if let Some(progress) = self.progress {
-            progress.finish();
-        }
-        self.path
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::fs::File;
-use std::io::{Error, Write, stderr, stdout};
+use std::io::{Error, ErrorKind, Write, stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use super::replace::replace;
@@ -105,5 +105,17 @@ impl Output {
             Method::Stream(Stream::Error) => stderr().write_all(content),
         };
         written.map_err(|cause| OutputError::Unwritable { argument, path, cause })
+    }
+
+    /// Removes the regular file of an earlier run, for an output that this run does not have.
+    ///
+    /// # Errors
+    /// [`OutputError::Unwritable`].
+    pub(crate) fn remove(self) -> Result<(), OutputError> {
+        let Self { argument, path, method: Method::Replace } = self else { return Ok(()) };
+        match std::fs::remove_file(&path) {
+            Err(cause) if cause.kind() != ErrorKind::NotFound => Err(OutputError::Unwritable { argument, path, cause }),
+            _ => Ok(()),
+        }
     }
 }

@@ -304,6 +304,11 @@ proptest! {
     }
 }
 
+/// The number of frames of a retrieval.
+fn frames(strips: &str, retrieval: usize) -> usize {
+    strips.matches(&format!("id=\"frame-{retrieval}-")).count()
+}
+
 #[test]
 fn every_retrieval_has_a_strip_with_a_frame_for_the_edge_and_for_each_state() {
     let scene = scenario::read(&Source::new("disk.yaml", include_str!("../../scenarios/disk.yaml"))).unwrap();
@@ -318,9 +323,16 @@ fn every_retrieval_has_a_strip_with_a_frame_for_the_edge_and_for_each_state() {
         let radius = format!("radius {:.1} mm", 1e3 * retrieval.radius);
         assert!(strips.contains(&radius), "{radius}");
         // The state is the same throughout, so there is one frame besides that of the edge.
-        let frames = (0..3).filter(|index| strips.contains(&format!("id=\"frame-{}-{index}\"", number + 1)));
-        assert_eq!(frames.count(), 2);
+        assert_eq!(frames(&strips, number + 1), 2);
     }
+    // A whisker that records no tip at once goes on to do so in another state.
+    let mut late = run;
+    for tick in &mut late.trace.ticks[120..=150] {
+        tick.tips[0] = None;
+    }
+    late.trace.ticks[130..=160].iter_mut().for_each(|tick| tick.state = Some(1));
+    let strips = retrieval_picture(&scene, "thesis", &late.trace).unwrap();
+    assert_eq!([1, 2].map(|number| frames(&strips, number)), [3, 2]);
 }
 
 #[test]

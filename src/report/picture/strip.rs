@@ -6,7 +6,7 @@ use super::map::{DOT, MARK, Map, OUTLINE, mark_style};
 use crate::geometry::Point2;
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, px, text};
-use crate::run::{TickRecord, Trace};
+use crate::run::{MarkRecord, TickRecord, Trace};
 use crate::scene::Scene;
 use crate::score::{Retrieval, retrievals};
 use vibrissa_runtime::machine::Mark;
@@ -14,9 +14,9 @@ use vibrissa_runtime::machine::Mark;
 /// Width of a picture (px).
 const WIDTH: f64 = 1200.0;
 /// Frames in a row.
-const COLUMNS: usize = 6;
+const COLUMNS: usize = 4;
 /// Side of a frame (px).
-const SIDE: f64 = 184.0;
+const SIDE: f64 = 282.0;
 /// Space between frames, and around all (px).
 const GAP: f64 = 14.0;
 /// Height of the text under a frame (px).
@@ -30,8 +30,8 @@ const FARTHEST: f64 = 1.0;
 
 /// The steps of all retrievals of a run as a self-contained SVG. `None` without a retrieval.
 ///
-/// Each retrieval is a strip with a frame at the edge point and at the end of each state until the contact is found again, as in
-/// figure 4.2 of the baseline's report. A frame shows the exact outlines, the tips that the whisker has recorded until then,
+/// Each retrieval is a strip with a frame at the edge point and at the end of each state until the whisker records a tip again, as
+/// in figure 4.2 of the baseline's report. A frame shows the exact outlines, the tips that the whisker has recorded until then,
 /// platform and whiskers, and the circle around the edge point through the retrieved point.
 #[must_use]
 pub fn retrieval_picture(scene: &Scene, policy: &str, trace: &Trace) -> Option<String> {
@@ -53,15 +53,15 @@ pub fn retrieval_picture(scene: &Scene, policy: &str, trace: &Trace) -> Option<S
     Some(document.to_string())
 }
 
-/// The ticks of the frames: that of the edge point, and the last one of each state until the contact is found again.
+/// The ticks of the frames: that of the edge point, and the last one of each state until the whisker records a tip again.
 fn steps(trace: &Trace, retrieval: &Retrieval) -> Vec<usize> {
-    let range = retrieval.edge_tick..=retrieval.found_tick;
+    let end = end_tick(trace, retrieval);
     let mut steps = vec![retrieval.edge_tick];
     let mut since = retrieval.edge_tick;
-    for tick in range {
+    for tick in retrieval.edge_tick..=end {
         let state = |tick: usize| trace.ticks.get(tick).and_then(|tick| tick.state);
-        let is_last = tick == retrieval.found_tick || state(tick) != state(tick + 1);
-        if is_last && (tick + 1 - since >= LEAST_TICKS || tick == retrieval.found_tick) && tick > retrieval.edge_tick {
+        let is_last = tick == end || state(tick) != state(tick + 1);
+        if is_last && (tick + 1 - since >= LEAST_TICKS || tick == end) && tick > retrieval.edge_tick {
             steps.push(tick);
         }
         if is_last {
@@ -69,6 +69,17 @@ fn steps(trace: &Trace, retrieval: &Retrieval) -> Vec<usize> {
         }
     }
     steps
+}
+
+/// The first tick since the retrieved point at which the whisker recorded a tip. Without one before the end of the run or the next
+/// mark `lost` of the whisker, it is the tick before that.
+fn end_tick(trace: &Trace, retrieval: &Retrieval) -> usize {
+    let found = retrieval.found_tick;
+    let lost_again =
+        |mark: &&MarkRecord| mark.mark == Mark::Lost && mark.whisker == retrieval.whisker && mark.tick > found;
+    let limit = trace.marks.iter().find(lost_again).map_or(trace.ticks.len(), |mark| mark.tick);
+    let has_tip = |&tick: &usize| trace.ticks.get(tick).is_some_and(|tick| tick.tips[retrieval.whisker].is_some());
+    (found..limit).find(has_tip).unwrap_or_else(|| limit.saturating_sub(1).max(found))
 }
 
 fn strip(scene: &Scene, trace: &Trace, retrieval: &Retrieval, number: usize, top: f64) -> Group {
@@ -140,11 +151,11 @@ fn frame(
     inside = inside.add(dots.dots(colour, 0.6 * DOT));
     let diamond = |point: Point2, mark: Mark| {
         let mut diamond = Outline::default();
-        diamond.diamond(map.position(point), 0.8 * MARK);
+        diamond.diamond(map.position(point), 0.5 * MARK);
         mark_style(diamond, mark)
     };
     inside = inside.add(diamond(retrieval.edge_world, Mark::Lost));
-    if step == retrieval.found_tick {
+    if step >= retrieval.found_tick {
         inside = inside.add(diamond(retrieval.retrieved_world, Mark::Found));
     }
     Group::new()

@@ -183,3 +183,11 @@ pub(super) fn sweep_in(folder: &Path) -> String {
     fs::write(&path, text).unwrap();
     path.display().to_string()
 }
+
+/// The runs of a tuning of one generation: the given value and four others in a training scene, and the best one in a held-out scene.
+pub(super) const TUNE_RUNS: usize = 6;
+
+pub(super) fn tuned_in(folder: &Path) -> String {
+    policy(folder);
+    folder.join("quick.fsm").display().to_string()
+}

@@ -37,13 +37,14 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
     #[test]
-    fn the_contact_is_the_true_tip_and_is_recorded_only_if_the_tip_touches(
+    fn the_contact_is_the_true_tip_while_the_tip_touches(
         (x, y) in (-1.0..1.0_f64, -1.0..1.0_f64), base_angle in 5e-5..6e-4_f64, touches in any::<bool>(),
     ) {
         let point_world = Point2::new(x, y);
         let mut perception = told(-base_angle, Some(TrueTip { point_world, touches }));
-        prop_assert_eq!(perception.contact(0).unwrap().point_world, point_world);
-        prop_assert_eq!(perception.recorded_tip(0), touches.then_some(point_world));
+        let there = touches.then_some(point_world);
+        prop_assert_eq!(perception.contact(0).map(|contact| contact.point_world), there);
+        prop_assert_eq!(perception.recorded_tip(0), there);
         // At the present base angle, the tip is where it is; at others it moves as on a surface parallel to the heading.
         let tip_base = perception.whisker_vector(0, WhiskerVector::TipBase);
         let now = perception.base_angle(0);

@@ -12,11 +12,16 @@ use vibrissa::trial::Trial;
 
 /// `thesis.fsm` with another contact estimator on the disk, in the quasi-static world.
 fn trial(estimator: &str) -> Trial {
+    trial_in(0, estimator)
+}
+
+/// The same in another one of the ten scenes.
+fn trial_in(scene: usize, estimator: &str) -> Trial {
     let text = include_str!("../../../policies/thesis.fsm").replace("by one_channel", &format!("by {estimator}"));
     let source = Source::new("thesis.fsm", text);
     let program = compile(&gather(&source, &mut |path| Err(format!("{path} is not there")))).unwrap();
-    let disk = SCENARIOS[0];
-    let scene = scenario::read(&Source::new(disk.path, disk.text)).unwrap();
+    let scene = SCENARIOS[scene];
+    let scene = scenario::read(&Source::new(scene.path, scene.text)).unwrap();
     let mut trial = Trial::new(scene, Arc::new(program));
     trial.world = WorldKind::QuasiStatic.into();
     trial
@@ -37,6 +42,15 @@ fn every_recorded_tip_is_the_true_one_and_the_result_says_so() {
     assert!(table.contains("(true tips)"), "{table}");
     let picture = picture(&trial.scene, &trial.policy_label(), &result.run, &result.score);
     assert!(picture.contains("(true tips)"));
+}
+
+#[test]
+fn a_tip_that_springs_off_an_edge_is_not_taken_for_the_edge() {
+    for scene in 0..SCENARIOS.len() {
+        let trial = trial_in(scene, "truth");
+        let result = trial.run().unwrap();
+        assert_eq!(result.run.outcome, Outcome::Completed, "{}: {:?}", trial.scene.name, result.run.reason);
+    }
 }
 
 #[test]

@@ -46,14 +46,16 @@ impl ContactEstimator for Truth {
     fn contact(&mut self, base_angle: f64, base: Pose) -> Option<Contact> {
         let tip_base = |tip: TrueTip| (rotate(tip.point_world - base.position, -base.heading), base_angle);
         self.tip = self.newest.map(tip_base);
-        let TrueTip { point_world, touches } = self.newest?;
+        // The base angle is filtered, so it follows a tip that has left the surface some ticks later. Without a contact, the
+        // tip follows from the base angle, and both are of the same time.
+        let point_world = self.newest.filter(|tip| tip.touches)?.point_world;
         Some(Contact {
             point_world,
             // A true tip penetrates a compliant surface.
             covariance_world: Matrix2::identity() * math::square(CONTACT_DEVIATION),
             deviation: CONTACT_DEVIATION,
             recorded_deviation: CONTACT_DEVIATION,
-            is_recordable: touches,
+            is_recordable: true,
             contact_length: self.length,
         })
     }

@@ -1,0 +1,128 @@
+//! The runs of `vibrissa tune`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use vibrissa_runtime::machine::Program;
+
+use super::failure::Failure;
+use super::options::{Jobs, WorldOptions};
+use super::output;
+use super::progress::{Kept, Progress};
+use crate::sweep::Results;
+use crate::trial::stream_in_parallel;
+use crate::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
+
+/// All that the runs of a tuning have in common.
+#[derive(Clone, Copy)]
+pub(super) struct TuningWork<'a> {
+    /// The parameters that are tuned.
+    pub(super) axes: &'a [Axis],
+    /// The policy.
+    pub(super) program: &'a Program,
+    /// The cost of a run.
+    pub(super) objective: &'a Objective,
+    /// The speed (m/s) of scenes of families, if it is set.
+    pub(super) speed: Option<f64>,
+    /// The world.
+    pub(super) world: &'a WorldOptions,
+    /// The threads.
+    pub(super) jobs: &'a Jobs,
+}
+
+impl TuningWork<'_> {
+    fn run(&self, candidate: &Candidate, scene: &TuningScene) -> Result<TunedRun, Failure> {
+        let trial = scene.trial(candidate, self.axes, self.program, self.speed, |scene| self.world.of(scene))?;
+        let result = trial.run().map_err(|cause| Failure::Execute { scenario: scene.name.clone().into(), cause })?;
+        Ok(TunedRun::new(self.objective, &result))
+    }
+}
+
+/// The runs of a tuning, with their file.
+pub(super) struct TuningRuns<'a> {
+    work: TuningWork<'a>,
+    path: PathBuf,
+    results: Results,
+    done: BTreeMap<(BTreeMap<String, String>, String), TunedRun>,
+    /// Number of runs whose results an earlier tuning has written.
+    pub(super) resumed: usize,
+    progress: Option<Progress>,
+}
+
+impl<'a> TuningRuns<'a> {
+    /// Opens the file of results, and reads the runs that it has.
+    pub(super) fn open(path: PathBuf, header: &TuningHeader, work: TuningWork<'a>) -> Result<Self, Failure> {
+        let mut done = BTreeMap::new();
+        let results = Results::open_with(
+            &path,
+            header,
+            |found| found.difference(header),
+            |line| {
+                let TuningLine { scene, settings, run } =
+                    serde_json::from_str(line).map_err(|cause| cause.to_string())?;
+                let twice = done.insert((settings, scene), run).is_some();
+                if twice { Err("the run occurs a second time".to_owned()) } else { Ok(()) }
+            },
+        )?;
+        let resumed = done.len();
+        Ok(Self { work, path, results, done, resumed, progress: None })
+    }
+
+    /// Shows the progress of so many runs in all.
+    pub(super) fn expect(&mut self, runs: usize) {
+        let left = runs.saturating_sub(self.resumed);
+        self.progress = Some(Progress::resumed(self.resumed as u64, left as u64, Kept::In(self.path.clone())));
+    }
+
+    /// Runs candidates in scenes, except those whose results are there.
+    pub(super) fn run(&mut self, candidates: &[&Candidate], scenes: &[TuningScene]) -> Result<(), Failure> {
+        let mut keys = BTreeSet::new();
+        let pairs = candidates.iter().flat_map(|&candidate| scenes.iter().map(move |scene| (candidate, scene)));
+        let tasks: Vec<(&Candidate, &TuningScene)> = pairs
+            .filter(|(candidate, scene)| {
+                let key = (candidate.settings(), scene.name.clone());
+                // Rounded values may occur twice in a generation.
+                !self.done.contains_key(&key) && keys.insert(key)
+            })
+            .collect();
+        let work = self.work;
+        let (results, finished, progress) = (&mut self.results, &mut self.done, &mut self.progress);
+        let mut failure = None;
+        let mut keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
+            let run = run?;
+            let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
+            results.add(&output::json_line(&TuningLine::new(candidate, scene, run))?)?;
+            finished.insert((candidate.settings(), scene.name.clone()), run);
+            if let Some(progress) = progress {
+                progress.done(format_args!("{}: cost {:.3}", scene.name, run.cost));
+            }
+            Ok(())
+        };
+        stream_in_parallel(
+            &tasks,
+            work.jobs.threads(),
+            || (),
+            |(), (candidate, scene)| work.run(candidate, scene),
+            |index, run| {
+                failure = keep(index, run).err();
+                if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        );
+        failure.map_or(Ok(()), Err)
+    }
+
+    /// The runs of a candidate in scenes.
+    pub(super) fn of(&self, candidate: &Candidate, scenes: &[TuningScene]) -> Vec<TunedRun> {
+        let run = |scene: &TuningScene| self.done.get(&(candidate.settings(), scene.name.clone())).copied();
+        scenes.iter().filter_map(run).collect()
+    }
+
+    /// Ends the progress, and returns the path of the results.
+    pub(super) fn finish(self) -> PathBuf {
+        if let Some(progress) = self.progress {
+            progress.finish();
+        }
+        self.path
+    }
+}
