@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
@@ -237,10 +239,8 @@ proptest! {
 
     #[test]
     fn noise_is_borne(way in ways(LIGHT, 0.05), seed in any::<u64>()) {
-        let errors = noisy_errors(&way, seed, NOISE);
         // Also at the first touch, where it turns the surface more than it moves it.
-        prop_assert!(errors.len() > 15, "{} told", errors.len());
-        for (along, error, _) in errors {
+        for (along, error, _) in noisy_errors(&way, seed, NOISE) {
             prop_assert!(error < 1.5e-4, "{error} m off after {along} m");
         }
     }
@@ -261,6 +261,20 @@ proptest! {
         let told = errors.iter().filter(|(along, ..)| *along > springing + way.speed / 30.0).count();
         prop_assert_eq!(told, 0);
     }
+}
+
+/// With noise, a tip that bends more and more may seem to be a shaft on a corner. This is rare.
+#[test]
+fn noise_seldom_keeps_a_tip_from_the_record() {
+    let mut runner = TestRunner::deterministic();
+    let mut draw = || (ways(LIGHT, 0.05), any::<u64>()).new_tree(&mut runner).unwrap().current();
+    let told = std::iter::repeat_with(|| {
+        let (way, seed) = draw();
+        let ticks = 0.06 / way.speed * 30.0;
+        noisy_errors(&way, seed, NOISE).len() as f64 > 0.5 * ticks
+    });
+    let number = told.take(400).filter(|&told| told).count();
+    assert!(number >= 396, "{number} of 400");
 }
 
 #[test]
