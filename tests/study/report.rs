@@ -336,6 +336,20 @@ fn every_retrieval_has_a_strip_with_a_frame_for_the_edge_and_for_each_state() {
 }
 
 #[test]
+fn a_picture_shows_the_whiskers_that_the_policy_binds() {
+    let run = half_round();
+    let pictures = [vec!["r0".to_owned()], Vec::new()].map(|bound| {
+        let mut run = run.clone();
+        run.trace.whiskers = bound;
+        draw(&scene(), "thesis", &run)
+    });
+    // A shaft is a cubic curve. The rig has the whiskers `r0` and `l0`.
+    let is_number = |rest: &&str| rest.starts_with(|first: char| first.is_ascii_digit() || "-.".contains(first));
+    let [bound, unbound] = pictures.map(|picture| picture.split('C').skip(1).filter(is_number).count());
+    assert!(bound > 0 && unbound == 0, "{bound} {unbound}");
+}
+
+#[test]
 fn only_the_picture_of_a_tunnel_shows_its_axis() {
     let read = |text: &str| scenario::read(&Source::new("scene.yaml", text)).unwrap();
     let run = half_round();

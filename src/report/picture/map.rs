@@ -203,10 +203,12 @@ impl Map {
         group.add(path.stroked(style::PLATFORM, 1.0).set("stroke-dasharray", "5 3"))
     }
 
-    /// The outline of the platform and the shafts of its whiskers in a tick.
+    /// The outline of the platform and the shafts of its whiskers in a tick. A whisker that the policy does not bind has no known
+    /// bend. It is left out, because it would be drawn through objects.
     pub(super) fn pose(&self, rig: &Rig, trace: &Trace, tick: &TickRecord) -> (Outline, Outline) {
         let position = |point| self.position(tick.body.point_to_world(point));
-        let whiskers = rig.whiskers.iter().fold(Outline::default(), |mut shafts, whisker| {
+        let bound = rig.whiskers.iter().filter(|whisker| trace.whiskers.contains(&whisker.name));
+        let whiskers = bound.fold(Outline::default(), |mut shafts, whisker| {
             let [base, first, second, tip] = shaft_body(whisker, trace, tick).map(position);
             shafts.move_to(base);
             shafts.curve_to(first, second, tip);
