@@ -115,6 +115,7 @@ pub mod family;
 mod file;
 pub mod geometry;
 mod load;
+pub mod mismatch;
 pub mod mujoco;
 pub mod outline;
 pub mod physics;

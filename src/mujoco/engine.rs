@@ -264,8 +264,8 @@ impl Engine {
         let mut angles = self.angles(whisker);
         let mut start = body.point_to_world(*base_body);
         let mut direction = body.heading + direction_body + angles.next().unwrap_or(0.0);
-        angles.map(move |turn| {
-            direction += turn;
+        angles.zip(shaft.rest_angles()).map(move |(turn, rest)| {
+            direction += rest + turn;
             let link = (start, direction);
             start += length * unit(direction);
             link

@@ -240,12 +240,13 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &
         hinge.stiffness, hinge.damping, hinge.armature
     )?;
     writeln!(xml, r#"        <site name="{name}"/>"#)?;
-    for (link, stiffness) in shaft.joint_stiffnesses().enumerate() {
+    for (link, (stiffness, rest)) in shaft.joint_stiffnesses().zip(shaft.rest_angles()).enumerate() {
         let at = if link == 0 { 0.0 } else { length };
+        let turned = if rest == 0.0 { String::new() } else { format!(r#" euler="0 0 {rest}""#) };
         let (mass, inertia) = (shaft.link_mass(link), link_inertia(shaft, link));
         writeln!(
             xml,
-            r#"        <body pos="{at} 0 0"><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
+            r#"        <body pos="{at} 0 0"{turned}><inertial pos="{} 0 0" mass="{mass}" diaginertia="{inertia} {inertia} {inertia}"/>"#,
             length / 2.0
         )?;
         let damping = stiffness * shaft.damping;

@@ -27,7 +27,27 @@ pub struct Physics {
     pub penetration_limit: f64,
 }
 
+/// The longest step (s) and contact time constant (s) that suffice with friction. Up to a friction of 0.3 a tip slides
+/// steadily, and a tip that snaps off after sticking penetrates less than the limit.
+const FRICTION_STEP: f64 = 1.0 / 3600.0;
+const FRICTION_CONTACT_TIME: f64 = 1.25e-3;
+/// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
+const FRICTION_PENETRATION_LIMIT: f64 = 3e-3;
+
 impl Physics {
+    /// Sets the coefficient of friction. With friction, steps and contacts become as short as they must be for it. A
+    /// sample period at `sample_rate` (Hz) contains a whole number of steps.
+    pub(crate) fn set_friction(&mut self, friction: f64, sample_rate: f64) {
+        self.friction = friction;
+        if friction > 0.0 {
+            let period = sample_rate.recip();
+            let steps = (period / self.step.min(FRICTION_STEP) - 1e-9).ceil();
+            self.step = period / steps;
+            self.contact_time = self.contact_time.min(FRICTION_CONTACT_TIME);
+            self.penetration_limit = self.penetration_limit.max(FRICTION_PENETRATION_LIMIT);
+        }
+    }
+
     /// Shortens the step so that a sample period at `sample_rate` (Hz) contains a whole number of steps.
     pub(crate) fn fit_step(&mut self, sample_rate: f64) {
         let period = sample_rate.recip();

@@ -19,14 +19,16 @@ pub(super) struct Rod {
     end_radii: Vec<f64>,
     /// Mean radius (m) of every link.
     radii: Vec<f64>,
+    /// Directions of the links at rest, relative to the direction of the base (rad).
+    rest: Vec<f64>,
 }
 
 /// The configuration of a chain.
 #[derive(Debug)]
 pub(super) struct Shape {
-    /// The pose of the base, with the direction of the undeflected shaft as heading.
+    /// The pose of the base, with the direction of the undeflected shaft at its base as heading.
     pub(super) base: Pose,
-    /// Directions of the links relative to the undeflected shaft (rad).
+    /// Rotations of the links from their directions at rest (rad).
     pub(super) angles: Vec<f64>,
     /// Directions of the links in the world frame, as unit vectors, followed by their angles (rad).
     pub(super) tangents: Vec<Vector2>,
@@ -49,6 +51,13 @@ impl Rod {
             hinge_share: root / (hinge + root),
             end_radii: (1..=shaft.links).map(|end| shaft.radius_at(end as f64 / shaft.links as f64)).collect(),
             radii: (0..shaft.links).map(|link| shaft.link_radius(link)).collect(),
+            rest: shaft
+                .rest_angles()
+                .scan(0.0, |direction, turn| {
+                    *direction += turn;
+                    Some(*direction)
+                })
+                .collect(),
             stiffnesses,
         }
     }
@@ -72,6 +81,12 @@ impl Rod {
         self.radii[link]
     }
 
+    /// The far end of the chain (m, world frame) in a shape, also if its [ends](Shape::ends) are not updated.
+    pub(super) fn tip(&self, shape: &Shape) -> Point2 {
+        let directions = shape.angles.iter().zip(&self.rest).map(|(angle, rest)| shape.base.heading + rest + angle);
+        shape.base.position + self.link * directions.map(unit).sum::<Vector2>()
+    }
+
     /// Angle of the base hinge in equilibrium (rad).
     pub(super) fn base_angle(&self, shape: &Shape) -> f64 {
         self.hinge_share * shape.angles[0]
@@ -79,8 +94,8 @@ impl Rod {
 }
 
 impl Shape {
-    /// Creates a straight chain.
-    pub(super) fn straight(rod: &Rod, base: Pose) -> Self {
+    /// Creates a chain at rest.
+    pub(super) fn at_rest(rod: &Rod, base: Pose) -> Self {
         let links = rod.links();
         let mut shape = Self {
             base,
@@ -98,9 +113,9 @@ impl Shape {
         self.base = base;
         let mut end = base.position;
         self.ends[0] = end;
-        let links = self.angles.iter().zip(&mut self.tangents).zip(&mut self.world_angles);
-        for (((angle, tangent), previous_angle), place) in links.zip(&mut self.ends[1..]) {
-            let world_angle = base.heading + angle;
+        let links = self.angles.iter().zip(&rod.rest).zip(&mut self.tangents).zip(&mut self.world_angles);
+        for ((((angle, rest), tangent), previous_angle), place) in links.zip(&mut self.ends[1..]) {
+            let world_angle = base.heading + rest + angle;
             *tangent =
                 rotated_by_small_angle(*tangent, world_angle - *previous_angle).unwrap_or_else(|| unit(world_angle));
             *previous_angle = world_angle;
@@ -109,8 +124,8 @@ impl Shape {
         }
     }
 
-    /// True if all angles are zero.
-    pub(super) fn is_straight(&self) -> bool {
+    /// True if no link is rotated.
+    pub(super) fn is_at_rest(&self) -> bool {
         self.angles.iter().all(|&angle| angle == 0.0)
     }
 

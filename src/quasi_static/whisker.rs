@@ -1,6 +1,6 @@
 //! The quasi-static motion of one whisker.
 
-use crate::geometry::{Point2, Pose, Vector2, unit};
+use crate::geometry::{Point2, Pose, Vector2};
 use vibrissa_runtime::rig::Whisker;
 
 use super::base_path::BasePath;
@@ -66,7 +66,7 @@ impl QuasiStaticWhisker {
     pub(super) fn new(whisker: &Whisker, base: Pose) -> Self {
         let rod = Rod::new(whisker);
         Self {
-            shape: Shape::straight(&rod, base),
+            shape: Shape::at_rest(&rod, base),
             base_path: BasePath::default(),
             hinge: FirstOrderLag::new(whisker.hinge.damping / whisker.hinge.stiffness),
             solver: EquilibriumSolver::default(),
@@ -94,9 +94,8 @@ impl QuasiStaticWhisker {
 
     /// The position of the tip (m, world frame).
     pub(super) fn tip(&self) -> Point2 {
-        // The link ends of a straight whisker without contact are not updated.
-        let along = self.shape.angles.iter().map(|angle| unit(self.shape.base.heading + angle)).sum::<Vector2>();
-        self.shape.base.position + self.rod.link * along
+        // The link ends of a whisker at rest are not updated.
+        self.rod.tip(&self.shape)
     }
 
     /// The force (N, world frame) of the whisker on its base. Between two equilibria it is the force of the previous
@@ -129,15 +128,15 @@ impl QuasiStaticWhisker {
         }
         let base_motion =
             (base.position - from.position).norm() + self.rod.length() * (base.heading - from.heading).abs();
-        let is_straight = self.unsettled_samples == 0 && self.shape.is_straight();
-        if is_straight && self.pairs.is_empty() && self.clear > base_motion {
+        let is_at_rest = self.unsettled_samples == 0 && self.shape.is_at_rest();
+        if is_at_rest && self.pairs.is_empty() && self.clear > base_motion {
             self.clear -= base_motion;
             self.relative_motion = 0.0;
             self.shape.base = base;
             self.hinge.follow(0.0, period);
             return Ok(());
         }
-        if is_straight {
+        if is_at_rest {
             self.prediction = None;
         }
         self.previous_angles.copy_from_slice(&self.shape.angles);
@@ -201,7 +200,7 @@ impl QuasiStaticWhisker {
             }
             narrow_phase(&self.rod, &self.shape, surfaces, &mut self.pairs, &mut self.contacts);
             let is_free = self.contacts.iter().all(|contact| contact.gap >= 0.0 && contact.force == 0.0);
-            if is_free && self.shape.is_straight() {
+            if is_free && self.shape.is_at_rest() {
                 self.force = Vector2::zeros();
                 return Ok(true);
             }
@@ -243,7 +242,7 @@ impl QuasiStaticWhisker {
             self.pairs[contact.pair].force = contact.force;
             self.force += force * contact.normal;
         }
-        // A whisker without contact is straight.
+        // A whisker without contact is at rest.
         if step.is_newton && share >= 1.0 && active.is_empty() {
             self.shape.angles.fill(0.0);
         }
@@ -268,7 +267,7 @@ impl QuasiStaticWhisker {
             self.shape.angles.iter().zip(&self.previous_angles).map(|(now, previous_angles)| now - previous_angles),
         );
         self.relative_motion = self.predicted_motion();
-        if !settled || self.relative_motion > MAX_SMOOTH_RATIO * base_motion || self.shape.is_straight() {
+        if !settled || self.relative_motion > MAX_SMOOTH_RATIO * base_motion || self.shape.is_at_rest() {
             self.prediction = None;
         }
     }

@@ -12,6 +12,7 @@ pub(crate) mod fault;
 mod fields;
 mod file;
 mod key;
+mod mismatch;
 mod node;
 mod number;
 mod object;
@@ -30,6 +31,7 @@ mod timing;
 mod tunnel;
 mod whisker;
 
+pub use mismatch::read_mismatch;
 pub use calibration::{CalibrationError, read_calibration, write_calibration, write_robot_calibration};
 pub(crate) use change::{Change, quoted, read as read_changed};
 pub(crate) use fields::Fields;

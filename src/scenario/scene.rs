@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::node::{Entry, Node, Placed};
 use super::objects::Objects;
 use super::reader::Reader;
-use super::{expect, fault, file, object, rig, start, stop};
+use super::{expect, fault, file, mismatch, object, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::physics::Physics;
 use crate::scenario::Files;
@@ -47,6 +47,10 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         Some(entry) => rig::read(reader, entry),
         None => Some((Rig::default(), Physics::default())),
     };
+    let mismatch = match fields.entry("mismatch") {
+        Some(entry) => mismatch::read_section(reader, entry).map(|mismatch| Some((mismatch, entry.key.span))),
+        None => Some(None),
+    };
     let objects = fields.required("objects", object::EXAMPLE).and_then(|entry| object::read_all(reader, entry));
     let start = fields.required("start", "{position: [0 mm, 72 mm], heading: 90 deg}");
     let start = start.and_then(|entry| start::pose(reader, entry, "a start"));
@@ -73,6 +77,9 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
     fields.finish(reader);
 
     let objects = objects.and_then(|objects| Objects::of(reader, objects));
+    if let (Some((rig, _)), Some(Some((mismatch, place)))) = (&rig, &mismatch) {
+        mismatch::check(reader, mismatch, rig, *place);
+    }
     if let (Some((rig, _)), Some(stop)) = (&rig, &stop) {
         stop::check(reader, stop, rig.sensing.control_rate);
     }
@@ -82,6 +89,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         name: name?,
         description: description?,
         rig,
+        mismatch: mismatch?.map(|(mismatch, _)| mismatch),
         physics,
         truth: objects.truth()?,
         solids: objects.into_solids(),

@@ -6,6 +6,7 @@ use super::clearance::overlap;
 use super::{Expectation, Stop, WorldKind};
 use crate::diagnostic::Span;
 use crate::geometry::{Contour, ContourSet, Pose, TunnelAxis};
+use crate::mismatch::{Mismatch, TrueArray};
 use crate::physics::Physics;
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
@@ -17,8 +18,10 @@ pub struct Scene {
     pub name: String,
     /// A description for people, possibly empty.
     pub description: String,
-    /// The platform, its whiskers and its sensors.
+    /// The platform, its whiskers and its sensors, as control assumes them.
     pub rig: Rig,
+    /// The differences of the true array, which is simulated. `None` if it is the assumed one.
+    pub mismatch: Option<Mismatch>,
     /// The physics settings.
     pub physics: Physics,
     /// The solids, at least one. None overlaps another.
@@ -40,6 +43,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The true array, if it differs from the assumed one.
+    #[must_use]
+    pub fn true_array(&self) -> Option<TrueArray> {
+        self.mismatch.as_ref().map(|mismatch| mismatch.array(&self.rig))
+    }
+
     /// True if the rig at `start`, with undeflected whiskers, is clear of all solids.
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {

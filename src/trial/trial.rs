@@ -1,5 +1,6 @@
 //! A trial and its result.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -36,9 +37,9 @@ use crate::world::{TrueTips, World};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Trial {
-    /// The scene. Its rig is the one that is simulated.
+    /// The scene. Its rig with its mismatch is the one that is simulated.
     pub scene: Scene,
-    /// The rig that control assumes: that of the scene, unless a model error is studied.
+    /// The rig that control assumes: that of the scene, unless another one is studied.
     pub assumed_rig: Rig,
     /// The compiled policy.
     pub program: Arc<Program>,
@@ -135,9 +136,15 @@ impl Trial {
     pub fn world(&self) -> Result<Box<dyn World>, ExecuteError> {
         let world = build_world(&self.scene, self.world, self.seed)?;
         if self.true_tips || self.program.uses_true_tips() {
-            return Ok(Box::new(TrueTips::new(world, &self.scene.rig, self.scene.truth.surfaces.clone())));
+            let surfaces = self.scene.truth.surfaces.clone();
+            return Ok(Box::new(TrueTips::new(world, &self.true_rig(), surfaces)));
         }
         Ok(world)
+    }
+
+    /// The rig that is simulated.
+    fn true_rig(&self) -> Cow<'_, Rig> {
+        self.scene.true_array().map_or(Cow::Borrowed(&self.scene.rig), |array| Cow::Owned(array.rig))
     }
 
     /// The control loop of the trial. In a simulator, the policy may use true tips.
@@ -160,7 +167,7 @@ impl Trial {
 
     /// Scores a run of this trial.
     pub(crate) fn scored(&self, run: Run) -> TrialResult {
-        let score = Score::new(&run, &self.scene.truth, &self.scene.rig);
+        let score = Score::new(&run, &self.scene.truth, &self.true_rig());
         let expectations = self.scene.expect.iter();
         let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
         TrialResult { violations: violations.collect(), run, score }

@@ -2,13 +2,15 @@
 
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::control::BindError;
+use vibrissa_runtime::rig::Rig;
 
 #[cfg(feature = "sim")]
 use crate::mujoco::MujocoWorld;
 use crate::mujoco::mjcf;
+use crate::physics::Physics;
 use crate::quasi_static::{QuasiStaticError, QuasiStaticWorld};
 use crate::scene::{Scene, WorldKind, WorldSetup};
-use crate::world::World;
+use crate::world::{Disturbed, World};
 
 /// The error of a run that cannot begin.
 #[derive(Debug, thiserror::Error)]
@@ -26,17 +28,48 @@ pub enum ExecuteError {
     /// The quasi-static world could not be built.
     #[error(transparent)]
     QuasiStatic(#[from] QuasiStaticError),
+    /// The quasi-static world does not support the true friction.
+    #[error(
+        "the quasi-static world has no friction, and `mismatch.friction` is {friction}; set it to 0, or run in the world `mujoco`"
+    )]
+    MismatchFriction {
+        /// The coefficient of friction.
+        friction: f64,
+    },
     /// The program was built without the world.
     #[error("this build has no world `{0}`; build the program with the feature `sim`, or use the world `quasistatic`")]
     NoWorld(WorldKind),
 }
 
-/// Builds a world of a scene. `seed` fixes the sensor noise.
+/// Builds a world of the true array of a scene. `seed` fixes the noise of sensors and poses.
 ///
 /// # Errors
 /// [`ExecuteError`] if the world refuses the scene.
 pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result<Box<dyn World>, ExecuteError> {
-    let Scene { rig, physics, solids, start, .. } = scene;
+    let Some(array) = scene.true_array() else {
+        return simulator(scene, (&scene.rig, &scene.physics), world, seed);
+    };
+    if let Some(friction) = array.friction.filter(|&friction| friction > 0.0)
+        && world.kind == WorldKind::QuasiStatic
+    {
+        return Err(ExecuteError::MismatchFriction { friction });
+    }
+    let physics = array.physics(&scene.physics);
+    if array.is_measured_exactly() {
+        return simulator(scene, (&array.rig, &physics), world, seed);
+    }
+    let inner = simulator(scene, (&Disturbed::inner_rig(&array), &physics), world, seed)?;
+    Ok(Box::new(Disturbed::new(inner, array, seed)))
+}
+
+/// Builds a simulator of a rig among the solids of a scene.
+fn simulator(
+    scene: &Scene,
+    (rig, physics): (&Rig, &Physics),
+    world: WorldSetup,
+    seed: u64,
+) -> Result<Box<dyn World>, ExecuteError> {
+    let Scene { solids, start, .. } = scene;
     match world.kind {
         #[cfg(feature = "sim")]
         WorldKind::Mujoco => {
@@ -68,15 +101,25 @@ pub(crate) fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
 /// The versions of this program and of its simulator.
 #[must_use]
 pub fn engine_version() -> String {
-    format!("{} with {}", env!("CARGO_PKG_VERSION"), simulator())
+    format!("{} with {}", env!("CARGO_PKG_VERSION"), mujoco_version())
 }
 
 /// The version of MuJoCo, if this build has it and its library can be loaded.
-fn simulator() -> &'static str {
+fn mujoco_version() -> &'static str {
     #[cfg(feature = "sim")]
     return crate::mujoco::engine_version().unwrap_or("none");
     #[cfg(not(feature = "sim"))]
     return "none";
+}
+
+/// The MuJoCo model of the true array of a scene.
+#[must_use]
+pub(crate) fn model(scene: &Scene) -> String {
+    let Scene { rig, physics, solids, start, .. } = scene;
+    match scene.true_array() {
+        Some(array) => mjcf(&array.rig, &array.physics(physics), solids, *start),
+        None => mjcf(rig, physics, solids, *start),
+    }
 }
 
 /// A hash of everything except scenario and policy that a run in a world depends on: the versions of this program and
@@ -84,7 +127,7 @@ fn simulator() -> &'static str {
 #[must_use]
 pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     let engine = match world.kind {
-        WorldKind::Mujoco => simulator(),
+        WorldKind::Mujoco => mujoco_version(),
         WorldKind::QuasiStatic => world.kind.name(),
     };
     let mut hash = Sha256::new();
@@ -94,7 +137,7 @@ pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update([0]);
     // The model has the mechanics of the rig, the solids and the start, for every world. The values of the scenario that
     // are not in it are in the hash of the scenario, and their defaults change only with the version.
-    hash.update(mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start));
+    hash.update(model(scene));
     hash.update([u8::from(world.prune)]);
     hash.update(scene.physics.calm_step.to_le_bytes());
     hash.finalize().into()

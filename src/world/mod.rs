@@ -1,9 +1,11 @@
 //! The interface of the simulators: one command in, the samples of one control period out.
 
+mod disturbed;
 mod fault;
 mod sensors;
 mod true_tips;
 
+pub use disturbed::Disturbed;
 pub use fault::Fault;
 pub(crate) use sensors::{Sensors, whole};
 pub use true_tips::TrueTips;

@@ -49,11 +49,11 @@ impl Sensors {
 }
 
 /// Normal noise with this standard deviation; `None` for zero.
-fn normal(spread: f64) -> Option<Normal<f64>> {
+pub(super) fn normal(spread: f64) -> Option<Normal<f64>> {
     Normal::new(0.0, spread).ok().filter(|_| spread > 0.0)
 }
 
-fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
+pub(super) fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
     noise.map_or(0.0, |noise| noise.sample(random))
 }
 

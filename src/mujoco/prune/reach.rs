@@ -160,11 +160,12 @@ fn whole_links(way: f64, length: f64) -> usize {
     links
 }
 
-/// True if a whisker may become or remain rigid. `clearance` is the distance (m) of its base from all solids, `travel`
+/// True if a whisker may become or remain rigid. A curved one may not, because a rigid whisker is straight. `clearance` is the distance (m) of its base from all solids, `travel`
 /// the motion in the next tick (m).
 #[must_use]
 pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bool) -> bool {
-    clearance - travel - whisker.shaft.length > if is_rigid { FLEXIBLE } else { RIGID }
+    whisker.shaft.curvature == 0.0
+        && clearance - travel - whisker.shaft.length > if is_rigid { FLEXIBLE } else { RIGID }
 }
 
 /// True if a command changes the velocities (m/s, rad/s) so little that a whisker without contact reads nothing of it.

@@ -112,7 +112,7 @@ fn whisker() -> Whisker {
 /// The base and the far ends of all links (m, world frame).
 fn ends(chain: &QuasiStaticWhisker) -> Vec<Point2> {
     // The link ends of a straight whisker without contact are not updated.
-    let mut shape = Shape::straight(&chain.rod, chain.shape.base);
+    let mut shape = Shape::at_rest(&chain.rod, chain.shape.base);
     shape.angles.clone_from(&chain.shape.angles);
     shape.place(&chain.rod, chain.shape.base);
     shape.ends

@@ -17,13 +17,6 @@ pub struct Conditions {
     pub noise: bool,
 }
 
-/// The longest step (s) and contact time constant (s) that suffice with friction. Up to a friction of 0.3 a tip slides
-/// steadily, and a tip that snaps off after sticking penetrates less than the limit.
-const STEP: f64 = 1.0 / 3600.0;
-const CONTACT_TIME: f64 = 1.25e-3;
-/// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
-const PENETRATION_LIMIT: f64 = 3e-3;
-
 impl Conditions {
     /// True without friction and noise.
     #[must_use]
@@ -41,12 +34,8 @@ impl Conditions {
     pub fn apply(self, scene: &mut Scene) {
         let Scene { rig, physics, .. } = scene;
         if self.friction > 0.0 {
-            (physics.friction, rig.sensing.friction) = (self.friction, self.friction);
-            let period = rig.sensing.sample_rate.recip();
-            let steps = (period / physics.step.min(STEP) - 1e-9).ceil();
-            physics.step = period / steps;
-            physics.contact_time = physics.contact_time.min(CONTACT_TIME);
-            physics.penetration_limit = physics.penetration_limit.max(PENETRATION_LIMIT);
+            physics.set_friction(self.friction, rig.sensing.sample_rate);
+            rig.sensing.friction = self.friction;
         }
         if self.noise {
             rig.sensing.make_real();

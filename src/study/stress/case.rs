@@ -71,6 +71,7 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
         name: name.to_owned(),
         description: String::new(),
         rig: Rig::default(),
+        mismatch: None,
         physics: Physics::default(),
         solids: vec![Solid::inside(object.clone())?],
         truth: object.into(),

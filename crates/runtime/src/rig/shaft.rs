@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math;
 
-/// An elastic shaft of round wire, straight at rest, uniform or with a linear taper towards the tip.
+/// An elastic shaft of round wire, uniform or with a linear taper towards the tip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shaft {
@@ -22,6 +22,10 @@ pub struct Shaft {
     pub damping: f64,
     /// Number of rigid links in the chain of links.
     pub links: usize,
+    /// Curvature at rest (1/m), positive to the left seen from the base. Simulators bend the shaft by it. Perception
+    /// assumes a straight shaft.
+    #[serde(default)]
+    pub curvature: f64,
 }
 
 impl Shaft {
@@ -77,6 +81,13 @@ impl Shaft {
         self.radius_at((link as f64 + 0.5) / self.links as f64)
     }
 
+    /// Angles of the joints at rest (rad), from the base to the tip, each relative to the link before it. A joint bends
+    /// like the two half links beside it. The first joint has half a link.
+    pub fn rest_angles(&self) -> impl Iterator<Item = f64> {
+        let between = self.curvature * self.link_length();
+        (0..self.links).map(move |joint| if joint == 0 { 0.5 * between } else { between })
+    }
+
     /// Stiffness of every joint between links (N m/rad), from the base to the tip.
     ///
     /// It is the trapezoid rule for the bending energy. A joint bends like the two half links beside it: `EI / l` for
@@ -104,6 +115,7 @@ impl Default for Shaft {
             young_modulus: 100e9,
             damping: 1e-3,
             links: 16,
+            curvature: 0.0,
         }
     }
 }
@@ -142,6 +154,22 @@ mod tests {
             let mass: f64 = (0..shaft.links).map(|link| shaft.link_mass(link)).sum();
             let wire = integral(&shaft, 1.0, |radius| shaft.density * std::f64::consts::PI * radius * radius);
             assert!((mass / wire - 1.0).abs() < 1e-6, "{shaft:?}");
+        }
+    }
+
+    #[test]
+    fn a_chain_at_rest_ends_where_the_arc_of_its_curvature_ends() {
+        for (curvature, links) in [(0.2, 16), (-0.2, 16), (1.0, 64)] {
+            let shaft = Shaft { curvature, links, ..Shaft::default() };
+            let (mut direction, mut end) = (0.0, [0.0; 2]);
+            for turn in shaft.rest_angles() {
+                direction += turn;
+                end[0] += shaft.link_length() * math::cos(direction);
+                end[1] += shaft.link_length() * math::sin(direction);
+            }
+            let turn = curvature * shaft.length;
+            let arc = [math::sin(turn) / curvature, (1.0 - math::cos(turn)) / curvature];
+            assert!(math::hypot(end[0] - arc[0], end[1] - arc[1]) < 1e-5 * shaft.length, "{end:?} and {arc:?}");
         }
     }
 

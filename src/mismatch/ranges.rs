@@ -1,0 +1,68 @@
+//! Ranges by property.
+
+use std::collections::BTreeMap;
+
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardUniform};
+
+use super::{Property, Range};
+
+/// The ranges of some properties.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Ranges(BTreeMap<Property, Range>);
+
+impl Ranges {
+    /// Sets the range of a property.
+    pub fn set(&mut self, property: Property, range: impl Into<Range>) {
+        self.0.insert(property, range.into());
+    }
+
+    /// The range of a property, if it is given.
+    #[must_use]
+    pub fn get(&self, property: Property) -> Option<Range> {
+        self.0.get(&property).copied()
+    }
+
+    /// Adds the ranges of `other` for properties that have none.
+    pub(super) fn complete(&mut self, other: &Self) {
+        for (&property, &range) in &other.0 {
+            self.0.entry(property).or_insert(range);
+        }
+    }
+
+    /// Draws a value for every property that has a range. The value of a property depends on its own range alone.
+    pub(super) fn draw(&self, random: &mut ChaCha8Rng) -> Values {
+        let mut values = Values::default();
+        for property in Property::ALL {
+            let share: f64 = StandardUniform.sample(random);
+            if let Some(range) = self.get(property) {
+                values.0.insert(property, range.at(share));
+            }
+        }
+        values
+    }
+
+    /// The values at one end of every range, the least ones if `is_least` is true for the property.
+    pub(super) fn extreme(&self, is_least: impl Fn(Property) -> bool) -> Values {
+        let value = |(&property, range): (&Property, &Range)| {
+            (property, if is_least(property) { range.least } else { range.greatest })
+        };
+        Values(self.0.iter().map(value).collect())
+    }
+}
+
+/// The values of some properties.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Values(BTreeMap<Property, f64>);
+
+impl Values {
+    /// The value of a property, if it differs from the assumed one.
+    pub(super) fn get(&self, property: Property) -> Option<f64> {
+        self.0.get(&property).copied()
+    }
+
+    /// The value of a property for which 0 means no difference.
+    pub(super) fn or_zero(&self, property: Property) -> f64 {
+        self.get(property).unwrap_or(0.0)
+    }
+}
