@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{ConditionOptions, Format, Jobs, Policies, WorldOptions};
+use super::options::{ConditionOptions, Format, Jobs, MismatchOptions, Policies, WorldOptions};
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
 use crate::built_in::SCENARIOS;
@@ -46,6 +46,8 @@ pub(super) struct BenchTrials {
     conditions: ConditionOptions,
     #[command(flatten)]
     world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
 }
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
@@ -79,6 +81,7 @@ pub(super) fn bench_trials(
     files: &mut CommandFiles,
 ) -> Result<Vec<(Conditions, Trial)>, Failure> {
     let (policies, conditions) = (arguments.policies.load(files)?, arguments.conditions.all());
+    let mismatch = arguments.mismatch.load(files)?;
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, load::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
     let mut trials = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
@@ -91,8 +94,10 @@ pub(super) fn bench_trials(
                 if !conditions.are_ideal() {
                     scenario_hash.update(format!("\0{conditions}"));
                 }
+                let path = Path::new(file.path);
+                mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
                 let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
-                let inputs = inputs(Path::new(file.path), &hashes.0, &hashes.1);
+                let inputs = inputs(path, &hashes.0, &hashes.1);
                 let world = arguments.world.of(&scene);
                 let trial = Trial::new(scene, Arc::new(policy.value.artifact.program.clone()));
                 trials.push((conditions, Trial { world, inputs, ..trial }));

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, WorldOptions};
+use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
 use super::trials::{inputs, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
@@ -43,6 +43,8 @@ pub(super) struct CompareArguments {
     jitter_heading: f64,
     #[command(flatten)]
     world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
     #[command(flatten)]
     format: Format,
     #[command(flatten)]
@@ -125,9 +127,12 @@ fn settings(
             "--jitter does not affect the first run of a scenario; request more runs with --seeds"
         ));
     }
+    let mismatch = arguments.mismatch.load(read)?;
     let mut settings = Vec::new();
     for (path, Loaded { value: scene, hash }) in scenarios {
-        let differs = is_jittered || scene.rig.sensing.is_noisy();
+        let mut first = scene.clone();
+        mismatch.apply(&mut first, &mut hash.clone(), 0).map_err(Failure::mismatch(&path))?;
+        let differs = is_jittered || first.is_random();
         if !differs && arguments.seeds > 1 {
             output::message(format_args!(
                 "{}: without noise or --jitter all seeds give the same run, so only one is run",
@@ -137,6 +142,7 @@ fn settings(
         for number in 0..if differs { arguments.seeds } else { 1 } {
             let mut scene = Scene { seed: scene.seed.wrapping_add(number), ..scene.clone() };
             let mut hash = hash.clone();
+            mismatch.apply(&mut scene, &mut hash, number).map_err(Failure::mismatch(&path))?;
             if is_jittered && number > 0 {
                 scene.start = started(&path, &scene, &jitter)?;
                 let start = [scene.start.position.x, scene.start.position.y, scene.start.heading];

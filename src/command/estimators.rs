@@ -7,11 +7,12 @@ use clap::Args;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, WorldOption};
+use super::options::{Format, Jobs, MismatchOptions, WorldOption};
 use super::output;
 use super::progress::Progress;
 use crate::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
-use crate::load;
+use crate::file::CommandFiles;
+use crate::load::{self, Loaded};
 use crate::report::estimators_tables;
 use crate::study::estimators::evaluate_all;
 use crate::trial::in_parallel;
@@ -25,6 +26,8 @@ pub(super) struct EstimatorsArguments {
     #[command(flatten)]
     world: WorldOption,
     #[command(flatten)]
+    mismatch: MismatchOptions,
+    #[command(flatten)]
     format: Format,
     #[command(flatten)]
     jobs: Jobs,
@@ -32,8 +35,10 @@ pub(super) struct EstimatorsArguments {
 
 pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failure> {
     let program = Arc::new(load::built_in_policy(&DEFAULT_POLICY)?.value.artifact.program);
+    let mismatch = arguments.mismatch.load(&mut CommandFiles::new())?;
     let work = |file: &TextFile| {
-        let scene = load::built_in_scenario(file)?.value;
+        let Loaded { value: mut scene, mut hash } = load::built_in_scenario(file)?;
+        mismatch.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(file.path.as_ref()))?;
         let world = arguments.world.of(&scene);
         let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
         evaluate_all(&scene, Arc::clone(&program), world).map_err(failed)

@@ -51,7 +51,12 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
         .map_err(|cause| Failure::Execute { scenario: arguments.scenario.clone(), cause: cause.into() })?;
     let read: Vec<_> = fitted.into_iter().flatten().map(|index| scene.rig.whiskers[index].name.clone()).collect();
     let world = arguments.world.of(&scene);
-    let pruning = Pruning::new(&scene.rig, &scene.physics, &scene.solids, scene.start, &read, world);
+    // The rig that is simulated.
+    let (rig, physics) = match scene.true_array() {
+        Some(array) => (array.rig.clone(), array.physics(&scene.physics)),
+        None => (scene.rig.clone(), scene.physics.clone()),
+    };
+    let pruning = Pruning::new(&rig, &physics, &scene.solids, scene.start, &read, world);
     if arguments.json {
         output::json(&pruning)?;
     } else {

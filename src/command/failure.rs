@@ -9,6 +9,7 @@ use crate::emulated::EmulatedError;
 use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
 use crate::load::LoadError;
+use crate::mismatch::MismatchError;
 use crate::policy::chart::UnknownState;
 use crate::property::RegressionsError;
 use crate::report::ChartTooLarge;
@@ -89,6 +90,8 @@ pub(super) enum Failure {
     NoHeldOut,
     #[error("these are too few runs for one generation of the search; give at least --runs {needed}, or fewer scenes")]
     FewRuns { needed: usize },
+    #[error("{}: --mismatch: {cause}", scenario.display())]
+    Mismatch { scenario: PathBuf, cause: MismatchError },
     #[error(transparent)]
     NoDraw(#[from] NoDraw),
     #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
@@ -170,6 +173,12 @@ impl Failure {
         |cause| Self::Execute { scenario, cause }
     }
 
+    /// The error of a mismatch that does not fit to the rig of a scenario.
+    pub(super) fn mismatch(scenario: &Path) -> impl FnOnce(MismatchError) -> Self {
+        let scenario = scenario.to_owned();
+        |cause| Self::Mismatch { scenario, cause }
+    }
+
     pub(super) fn folder(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         |cause| Self::Folder { path, cause }
@@ -210,6 +219,7 @@ impl From<PlanError> for Failure {
         match error {
             PlanError::Load(cause) => Self::Load(cause),
             PlanError::Draw(cause) => Self::NoDraw(cause),
+            PlanError::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
             PlanError::Execute { scenario, cause } => Self::Execute { scenario, cause },
         }
     }

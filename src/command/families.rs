@@ -9,14 +9,14 @@ use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{FamilyValues, Format, Jobs, Settings, WorldOptions};
+use super::options::{FamilyValues, Format, Jobs, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
 use super::values::{parse_runs, parse_seed};
 use crate::built_in::DEFAULT_POLICY;
 use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, Loaded, Policy, with_settings};
+use crate::load::{self, GivenMismatch, Loaded, Policy, with_settings};
 use crate::report::families_table;
 use crate::scene::Violation;
 use crate::trial::{Trial, in_parallel};
@@ -48,6 +48,8 @@ pub(super) struct FamiliesArguments {
     trial: Option<u64>,
     #[command(flatten)]
     world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
     print: bool,
@@ -85,7 +87,9 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     };
     output::warnings(&policy.value);
     let policy = arguments.settings.of(policy)?;
-    let trials = scenes.iter().map(|scene| trial(scene, &policy, arguments)).collect::<Result<Vec<_>, Failure>>()?;
+    let mismatch = arguments.mismatch.load(&mut files)?;
+    let trials =
+        scenes.iter().map(|scene| trial(scene, &policy, &mismatch, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
@@ -119,13 +123,20 @@ fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
     Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
 }
 
-fn trial(drawn: &Drawn, policy: &Loaded<Policy>, arguments: &FamiliesArguments) -> Result<Trial, Failure> {
+fn trial(
+    drawn: &Drawn,
+    policy: &Loaded<Policy>,
+    mismatch: &GivenMismatch,
+    arguments: &FamiliesArguments,
+) -> Result<Trial, Failure> {
     let Draw { text, scene, speed } = &drawn.draw;
+    let (path, mut scene, mut scenario_hash) = (Path::new(&scene.name), scene.clone(), Sha256::new_with_prefix(text));
+    mismatch.apply(&mut scene, &mut scenario_hash, drawn.number).map_err(Failure::mismatch(path))?;
     let mut program = policy.value.artifact.program.clone();
     program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
     let policy_hash = with_settings(policy.hash.clone(), [("speed", *speed)].into_iter()).finalize();
-    let inputs = inputs(Path::new(&scene.name), &Sha256::digest(text), &policy_hash);
-    Ok(Trial { world: arguments.world.of(scene), inputs, ..Trial::new(scene.clone(), Arc::new(program)) })
+    let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash);
+    Ok(Trial { world: arguments.world.of(&scene), inputs, ..Trial::new(scene, Arc::new(program)) })
 }
 
 /// Prints a scenario and the command that runs it.

@@ -8,7 +8,8 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use crate::file::CommandFiles;
-use crate::{load, mujoco};
+use crate::load;
+use crate::trial::model;
 
 const EXAMPLE: &str = "Example:\n  vibrissa mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -23,7 +24,7 @@ pub(super) struct MjcfArguments {
 
 pub(super) fn mjcf(arguments: &MjcfArguments) -> Result<Exit, Failure> {
     let scene = load::scenario(&arguments.scenario, &mut CommandFiles::new())?.value;
-    let model = mujoco::mjcf(&scene.rig, &scene.physics, &scene.solids, scene.start);
+    let model = model(&scene);
     output::result(model.trim_end())?;
     Ok(Exit::Done)
 }

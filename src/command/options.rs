@@ -1,6 +1,7 @@
 //! Groups of options that several commands share.
 
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Once;
@@ -11,11 +12,11 @@ use vibrissa_runtime::units::{Quantity, parse_quantity};
 
 use super::failure::Failure;
 use super::output;
-use super::values::{parse_friction, parse_jobs};
+use super::values::{parse_friction, parse_jobs, parse_seed};
 use crate::built_in::{POLICIES, TextFile};
 use crate::family::{Family, Values};
 use crate::file::CommandFiles;
-use crate::load::{self, Loaded, Policy, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
 use crate::scene::{Scene, WorldKind, WorldSetup};
 use crate::study::bench::Conditions;
 use crate::trial::{Threads, processors};
@@ -119,6 +120,32 @@ impl WorldOptions {
     /// The world of a run of `scene`.
     pub(super) fn of(&self, scene: &Scene) -> WorldSetup {
         WorldSetup { kind: self.world.of(scene), prune: !self.prune.no_prune }
+    }
+}
+
+/// The array that is simulated.
+#[derive(Debug, Args)]
+pub(super) struct MismatchOptions {
+    /// Simulate an array that differs from the one that control assumes, by this file. A key in `mismatch` of the scenario precedes the
+    /// same key of the file
+    #[arg(long = "mismatch", value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Seed of the values that a mismatch draws from ranges. The array of each further run has the next seed
+    #[arg(long = "mismatch-seed", value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: Option<u64>,
+}
+
+impl MismatchOptions {
+    /// Reads the mismatch.
+    pub(super) fn load(&self, files: &mut CommandFiles) -> Result<GivenMismatch, LoadError> {
+        GivenMismatch::read(self.file.as_deref(), self.seed, files)
+    }
+
+    /// The arguments that give another process the same mismatch.
+    pub(super) fn arguments(&self) -> impl Iterator<Item = OsString> {
+        let file = self.file.iter().flat_map(|file| ["--mismatch".into(), file.clone().into()]);
+        let seed = self.seed.iter().flat_map(|seed| ["--mismatch-seed".into(), seed.to_string().into()]);
+        file.chain(seed)
     }
 }
 

@@ -10,13 +10,13 @@ use sha2::Digest;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Settings, WorldOptions};
+use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::trials::{ReportFiles, extended, inputs, make_directory, report_events, run_with_bar};
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::file::CommandFiles;
-use crate::load::{self, Loaded};
+use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::results_table;
 use crate::results::{RunResult, tick_lines};
 use crate::trial::{Inputs, Trial, TrialResult};
@@ -37,6 +37,8 @@ pub(super) struct RunArguments {
     settings: Settings,
     #[command(flatten)]
     world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
     /// Seed of the sensor noise. Overrides the seed of the scenario, and has no effect without noise
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
@@ -86,7 +88,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
 /// trial runs.
 pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
     let mut warned = BTreeSet::new();
-    let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, files, &mut warned));
+    let mismatch = arguments.mismatch.load(files)?;
+    let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, &mismatch, files, &mut warned));
     let trials = trials.collect::<Result<Vec<_>, _>>()?;
     // Reports are named after scenarios.
     for (index, trial) in trials.iter().enumerate() {
@@ -101,12 +104,14 @@ pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Resu
 fn trial(
     path: &Path,
     arguments: &RunArguments,
+    mismatch: &GivenMismatch,
     files: &mut CommandFiles,
     warned: &mut BTreeSet<String>,
 ) -> Result<Trial, Failure> {
     let before = Instant::now();
     let source = load::read(path, files)?;
-    let Loaded { value: scene, hash: scenario_hash } = load::scenario_in(&source, files)?;
+    let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
+    mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
     let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
     if let Some(text) = &policy.value.text
         && warned.insert(text.source.name.clone())

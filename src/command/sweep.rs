@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, PruneOption};
+use super::options::{Format, Jobs, MismatchOptions, PruneOption};
 use super::output;
 use super::progress::{Kept, Progress};
 use super::trials::make_directory;
@@ -28,6 +28,8 @@ pub(super) struct SweepArguments {
     file: PathBuf,
     #[command(flatten)]
     prune: PruneOption,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
     /// Run only the K-th of N parts. The part of a run depends only on its key
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     shard: Shard,
@@ -42,7 +44,8 @@ pub(super) struct SweepArguments {
 
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let plan = Plan::read(&arguments.file, !arguments.prune.no_prune, &mut files)?;
+    let mismatch = arguments.mismatch.load(&mut files)?;
+    let plan = Plan::read(&arguments.file, !arguments.prune.no_prune, mismatch, &mut files)?;
     plan.analysed_policies(&mut files)?.iter().for_each(output::warnings);
     plan.check(output::message)?;
     let sweep = &plan.sweep;
@@ -93,6 +96,7 @@ fn worker(arguments: &SweepArguments, fingerprint: &str) -> Result<Worker, Start
     if arguments.prune.no_prune {
         command.arg("--no-prune");
     }
+    command.args(arguments.mismatch.arguments());
     Worker::start(&mut command, fingerprint)
 }
 

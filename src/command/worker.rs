@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::PruneOption;
+use super::options::{MismatchOptions, PruneOption};
 use super::output;
 use super::trials::finished;
 use crate::diagnostic::{Colour, terminal};
@@ -27,6 +27,8 @@ pub(super) struct WorkerArguments {
     file: Option<PathBuf>,
     #[command(flatten)]
     prune: PruneOption,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
 }
 
 /// Prints the fingerprint of the sweep, and then the line of each run whose index is read. Without a sweep it prints
@@ -39,7 +41,9 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
             task.map(|task| serde_json::to_string(&task.run()))
         });
     };
-    let plan = Plan::read(file, !arguments.prune.no_prune, &mut CommandFiles::new())?;
+    let mut files = CommandFiles::new();
+    let mismatch = arguments.mismatch.load(&mut files)?;
+    let plan = Plan::read(file, !arguments.prune.no_prune, mismatch, &mut files)?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
         plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run).versioned()))
     })

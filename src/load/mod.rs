@@ -1,12 +1,14 @@
 //! Reading the files that a command names: scenarios, policies, contact sets, recordings.
 
 mod error;
+mod mismatch;
 mod policy;
 mod recording;
 mod scenario;
 mod text;
 
 pub(crate) use error::LoadError;
+pub(crate) use mismatch::GivenMismatch;
 #[cfg(feature = "lsp")]
 pub(crate) use policy::library_for_editor;
 pub(crate) use policy::{

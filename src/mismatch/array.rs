@@ -76,6 +76,15 @@ impl TrueArray {
             && self.command_latency == 0.0
     }
 
+    /// True if measurements have noise that perception does not know, or lost readings.
+    #[must_use]
+    pub fn is_noisy(&self) -> bool {
+        let PoseErrors { noise, wander, .. } = self.pose;
+        let poses = [noise.0, noise.1, wander.0, wander.1].into_iter();
+        let sensors = self.sensors.iter().map(|sensor| sensor.noise);
+        poses.chain(sensors).chain([self.lost]).any(|spread| spread > 0.0)
+    }
+
     /// The physics settings for the true friction.
     #[must_use]
     pub fn physics(&self, assumed: &Physics) -> Physics {

@@ -57,7 +57,9 @@ pub enum MismatchError {
         length: f64,
     },
     /// A whisker could be too light for a simulation.
-    #[error("the links of the true whisker `{name}` could be too light to be simulated; use fewer `links`, or a greater `radius`")]
+    #[error(
+        "the links of the true whisker `{name}` could be too light to be simulated; use fewer `links`, or a greater `radius`"
+    )]
     Light {
         /// The whisker.
         name: String,
@@ -96,6 +98,12 @@ impl Mismatch {
             command_latency: values.or_zero(Property::CommandLatency),
             friction: values.get(Property::Friction),
         }
+    }
+
+    /// True if the array depends on the seed.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.common.are_drawn() || self.whiskers.values().any(Ranges::are_drawn)
     }
 
     /// Adds the ranges and settings of `other` as far as they are not given here.

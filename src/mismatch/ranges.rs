@@ -23,6 +23,12 @@ impl Ranges {
         self.0.get(&property).copied()
     }
 
+    /// True if a range has a width, so that its value is drawn.
+    #[must_use]
+    pub fn are_drawn(&self) -> bool {
+        self.0.values().any(|range| range.least < range.greatest)
+    }
+
     /// Adds the ranges of `other` for properties that have none.
     pub(super) fn complete(&mut self, other: &Self) {
         for (&property, &range) in &other.0 {

@@ -25,6 +25,8 @@ pub struct RunResult {
     pub world: String,
     /// Seed of the sensor noise.
     pub seed: u64,
+    /// The mismatch between the simulated array and the assumed one. `None` without one.
+    pub mismatch: Option<MismatchIdentity>,
     /// Outcome of the run.
     pub outcome: Outcome,
     /// Reason of the outcome. `None` for a completed run.
@@ -96,8 +98,20 @@ pub struct Identity {
     pub world: String,
     /// Seed of the sensor noise.
     pub seed: u64,
+    /// The mismatch between the simulated array and the assumed one. `None` without one.
+    pub mismatch: Option<MismatchIdentity>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
+}
+
+/// The mismatch between the simulated array and the assumed one. Its ranges are part of the scenario's hash.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MismatchIdentity {
+    /// Path of its file. `None` if the scenario alone has it.
+    pub file: Option<String>,
+    /// Seed of the values that are drawn from ranges.
+    pub seed: u64,
 }
 
 /// Hashes of everything that a run depends on. Runs with equal hashes and seed have equal results.
@@ -274,7 +288,7 @@ impl RunResult {
     /// The result of `run` with this `score`.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, hash } = identity;
         let millimetres = |metres: f64| metres * 1e3;
         let microseconds = |seconds: f64| seconds * 1e6;
         let (error, latency) = (score.error, score.latency);
@@ -286,6 +300,7 @@ impl RunResult {
             true_tips,
             world,
             seed,
+            mismatch,
             outcome: run.outcome,
             reason: run.reason.clone(),
             final_state: run.final_state.clone(),

@@ -208,7 +208,8 @@ fn range(reader: &mut Reader<'_>, node: &Placed<Node>, key: &Key) -> Option<Rang
     let Node::List(items) = &node.value else { return reader.number(node, key).map(|number| number.value.into()) };
     let [least, greatest] = items.as_slice() else {
         let message = format!("expected 2 numbers, found {}", items.len());
-        let fault = Diagnostic::error(fault::TYPE, message, reader.extent(node), "must be a least and a greatest value");
+        let fault =
+            Diagnostic::error(fault::TYPE, message, reader.extent(node), "must be a least and a greatest value");
         reader.report(fault.hint(format!("for example `{0}: {1}` or `{0}: [0, {1}]`", key.name, key.example)));
         return None;
     };

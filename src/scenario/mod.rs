@@ -31,12 +31,12 @@ mod timing;
 mod tunnel;
 mod whisker;
 
-pub use mismatch::read_mismatch;
 pub use calibration::{CalibrationError, read_calibration, write_calibration, write_robot_calibration};
 pub(crate) use change::{Change, quoted, read as read_changed};
 pub(crate) use fields::Fields;
 pub(crate) use file::reference;
 pub(crate) use file::unreadable;
+pub use mismatch::read_mismatch;
 pub(crate) use node::{Entry, Node, Placed};
 pub(crate) use reader::Reader;
 pub(crate) use scene::{name, root_place};

@@ -49,6 +49,13 @@ impl Scene {
         self.mismatch.as_ref().map(|mismatch| mismatch.array(&self.rig))
     }
 
+    /// True if the seed of a run changes it: measurements have noise, or the true array is drawn.
+    #[must_use]
+    pub fn is_random(&self) -> bool {
+        let is_drawn = self.mismatch.as_ref().is_some_and(Mismatch::is_drawn);
+        self.rig.sensing.is_noisy() || is_drawn || self.true_array().is_some_and(|array| array.is_noisy())
+    }
+
     /// True if the rig at `start`, with undeflected whiskers, is clear of all solids.
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {

@@ -13,7 +13,8 @@ use crate::catalogue::common::SPEED;
 use crate::diagnostic::Source;
 use crate::family::{NoDraw, Values};
 use crate::file::CommandFiles;
-use crate::load::{self, LoadError, Loaded, Policy, beside, outline_file, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, beside, outline_file, with_settings};
+use crate::mismatch::MismatchError;
 use crate::scenario::unreadable;
 use crate::scene::{FileReference, WorldSetup};
 use crate::trial::{ExecuteError, Inputs, Trial, check_world, engine_version, short_hash};
@@ -27,6 +28,14 @@ pub(crate) enum PlanError {
     /// A family has no scene.
     #[error(transparent)]
     Draw(#[from] NoDraw),
+    /// The mismatch does not fit to the rig of a scenario.
+    #[error("{}: --mismatch: {cause}", scenario.display())]
+    Mismatch {
+        /// The scenario of the run.
+        scenario: PathBuf,
+        /// The cause.
+        cause: MismatchError,
+    },
     /// A run cannot begin.
     #[error("{}: {cause}", scenario.display())]
     Execute {
@@ -50,14 +59,20 @@ pub(crate) struct Plan {
     files: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
     inputs: BTreeMap<String, String>,
     prune: bool,
+    mismatch: GivenMismatch,
 }
 
 impl Plan {
-    /// Reads a sweep and the files that it names. Its runs are pruned if `prune`.
+    /// Reads a sweep and the files that it names. Its runs are pruned if `prune`, and have the `mismatch`.
     ///
     /// # Errors
     /// [`PlanError`] if a file cannot be used.
-    pub(crate) fn read(path: &Path, prune: bool, files: &mut CommandFiles) -> Result<Self, PlanError> {
+    pub(crate) fn read(
+        path: &Path,
+        prune: bool,
+        mismatch: GivenMismatch,
+        files: &mut CommandFiles,
+    ) -> Result<Self, PlanError> {
         let source = load::read(path, files)?;
         let sweep = match Sweep::from_yaml(&source) {
             Ok(sweep) => sweep,
@@ -66,6 +81,12 @@ impl Plan {
         let mut inputs = BTreeMap::from([("the program".to_owned(), engine_version())]);
         if !prune {
             inputs.insert("pruning".to_owned(), "none".to_owned());
+        }
+        if let Some(seed) = mismatch.seed() {
+            inputs.insert("the seed of the mismatch".to_owned(), seed.to_string());
+        }
+        if let Some(hash) = mismatch.hash() {
+            inputs.insert("the mismatch".to_owned(), short_hash(&hash.finalize()));
         }
         let mut hashed = |kind: &str, path: &Path, hash: Sha256| {
             inputs.insert(format!("{kind} {}", path.display()), short_hash(&hash.finalize()));
@@ -87,7 +108,8 @@ impl Plan {
             scenarios.push(Some(text));
         }
         let path = path.to_owned();
-        let mut plan = Self { path, source, sweep, policies, scenarios, files: BTreeMap::new(), inputs, prune };
+        let mut plan =
+            Self { path, source, sweep, policies, scenarios, files: BTreeMap::new(), inputs, prune, mismatch };
         plan.read_files(files);
         Ok(plan)
     }
@@ -143,7 +165,7 @@ impl Plan {
             let trial = self.trial(&run)?;
             check_world(trial.world.kind)
                 .map_err(|cause| PlanError::Execute { scenario: trial.inputs.scenario.clone(), cause })?;
-            let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !trial.scene.rig.sensing.is_noisy();
+            let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !trial.scene.is_random();
             if is_same && run.scenes().trials > 1 && noted.insert(run.scenes) {
                 let name = run.scenes().name();
                 note(format!("{name}: without noise all trials are the same run"));
@@ -181,10 +203,13 @@ impl Plan {
             scenario_hash.update(&bytes);
             Ok(bytes)
         });
-        let scene =
+        let mut scene =
             scene.map_err(|(source_text, faults)| PlanError::Load(LoadError::Faults { source_text, faults }))?;
         let changes = run.settings().map(|(name, value)| format!("\0{name}={value}"));
-        let scenario_hash = changes.fold(scenario_hash, Sha256::chain_update);
+        let mut scenario_hash = changes.fold(scenario_hash, Sha256::chain_update);
+        self.mismatch
+            .apply(&mut scene, &mut scenario_hash, run.trial)
+            .map_err(|cause| PlanError::Mismatch { scenario: PathBuf::from(&text.name), cause })?;
         let policy_hash = with_settings(policy.hash.clone(), settings.into_iter());
         let seed = match &run.scenes().of {
             ScenesOf::Family(_) => scene.seed,

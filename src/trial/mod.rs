@@ -21,4 +21,5 @@ pub use trial::{Inputs, Trial, TrialResult};
 pub use worker::{Answer, StartError, Worker, answer};
 pub(crate) use worlds::build_world;
 pub(crate) use worlds::check_world;
+pub(crate) use worlds::model;
 pub use worlds::{ExecuteError, engine_version};

@@ -13,7 +13,7 @@ use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
-use crate::results::{Hashes, Identity, RunResult, policy_label};
+use crate::results::{Hashes, Identity, MismatchIdentity, RunResult, policy_label};
 use crate::run::{Run, Trace, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
@@ -193,6 +193,11 @@ impl Trial {
             true_tips: self.program.uses_true_tips(),
             world: self.world.kind.to_string(),
             seed: self.seed,
+            mismatch: self
+                .scene
+                .mismatch
+                .as_ref()
+                .map(|mismatch| MismatchIdentity { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) }),
             hash: Hashes {
                 scenario: self.inputs.scenario_hash.clone(),
                 policy: self.inputs.policy_hash.clone(),

@@ -233,7 +233,11 @@ impl MeasuredPose {
     /// The measured pose of the sample with this index.
     fn measure(&mut self, exact: &VecDeque<Sample>, index: usize, random: &mut ChaCha8Rng) -> Pose {
         let at = |of: fn(&Sample) -> f64| past(exact, index, self.errors.latency, of);
-        let pose = [at(|sample| sample.body.position.x), at(|sample| sample.body.position.y), at(|sample| sample.body.heading)];
+        let pose = [
+            at(|sample| sample.body.position.x),
+            at(|sample| sample.body.position.y),
+            at(|sample| sample.body.heading),
+        ];
         let noises = [self.noise.0, self.noise.0, self.noise.1];
         let [x, y, turn] = std::array::from_fn(|part| self.wander[part].next(random) + drawn(noises[part], random));
         Pose { position: Point2::new(pose[0], pose[1]) + Vector2::new(x, y), heading: pose[2] + turn }
@@ -244,12 +248,7 @@ impl Wander {
     /// A wander with this standard deviation and this correlation `time` (s), sampled every `period` (s).
     fn new(spread: f64, period: f64, time: f64) -> Self {
         let decay = if time > 0.0 { (-period / time).exp() } else { 0.0 };
-        Self {
-            decay,
-            innovation: normal(spread * (1.0 - decay * decay).sqrt()),
-            initial: normal(spread),
-            value: None,
-        }
+        Self { decay, innovation: normal(spread * (1.0 - decay * decay).sqrt()), initial: normal(spread), value: None }
     }
 
     fn next(&mut self, random: &mut ChaCha8Rng) -> f64 {

@@ -39,6 +39,7 @@ fn identity() -> Identity {
         true_tips: false,
         world: "mujoco".to_owned(),
         seed: 7,
+        mismatch: None,
         hash: Hashes { scenario, policy, engine },
     }
 }
