@@ -129,22 +129,22 @@ pub(super) struct MismatchOptions {
     /// Simulate an array that differs from the one that control assumes, by this file. A key in `mismatch` of the scenario precedes the
     /// same key of the file
     #[arg(long = "mismatch", value_name = "FILE")]
-    file: Option<PathBuf>,
+    mismatch_file: Option<PathBuf>,
     /// Seed of the values that a mismatch draws from ranges. The array of each further run has the next seed
-    #[arg(long = "mismatch-seed", value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
-    seed: Option<u64>,
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    mismatch_seed: Option<u64>,
 }
 
 impl MismatchOptions {
     /// Reads the mismatch.
     pub(super) fn load(&self, files: &mut CommandFiles) -> Result<GivenMismatch, LoadError> {
-        GivenMismatch::read(self.file.as_deref(), self.seed, files)
+        GivenMismatch::read(self.mismatch_file.as_deref(), self.mismatch_seed, files)
     }
 
     /// The arguments that give another process the same mismatch.
     pub(super) fn arguments(&self) -> impl Iterator<Item = OsString> {
-        let file = self.file.iter().flat_map(|file| ["--mismatch".into(), file.clone().into()]);
-        let seed = self.seed.iter().flat_map(|seed| ["--mismatch-seed".into(), seed.to_string().into()]);
+        let file = self.mismatch_file.iter().flat_map(|file| ["--mismatch".into(), file.clone().into()]);
+        let seed = self.mismatch_seed.iter().flat_map(|seed| ["--mismatch-seed".into(), seed.to_string().into()]);
         file.chain(seed)
     }
 }
