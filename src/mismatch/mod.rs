@@ -18,3 +18,6 @@ pub use mismatch::{Mismatch, MismatchError};
 pub use property::Property;
 pub use range::Range;
 pub use ranges::Ranges;
+
+#[cfg(test)]
+mod tests;

@@ -154,6 +154,10 @@ pub struct TipErrorMm {
     pub along: MeanP95Max,
     /// Perpendicular to the contour.
     pub across: MeanP95Max,
+    /// Mean magnitude of the mean error of each whisker perpendicular to the contour.
+    pub bias: f64,
+    /// Standard deviation of that error about the mean of its whisker. `None` if no whisker has two tips.
+    pub scatter: Option<f64>,
 }
 
 /// Passage of the platform through a tunnel.
@@ -323,7 +327,12 @@ impl RunResult {
                     p95: millimetres(distance.p95),
                     max: millimetres(distance.max),
                 };
-                Some(TipErrorMm { along: figures(error.along?), across: figures(error.across?) })
+                Some(TipErrorMm {
+                    along: figures(error.along?),
+                    across: figures(error.across?),
+                    bias: millimetres(error.bias?),
+                    scatter: error.scatter.map(millimetres),
+                })
             }),
             coverage: score.coverage,
             object_coverage: score.object_coverage,

@@ -148,6 +148,7 @@ fn every_key_of_a_rig_can_be_set() {
                 young_modulus: 7e9,
                 damping: 8e-3,
                 links: 9,
+                ..Shaft::default()
             },
             hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
             calibration: None,

@@ -1,5 +1,7 @@
 //! The errors of a run's tip estimates.
 
+use std::collections::BTreeMap;
+
 use super::{Statistics, Tip, TipOffset};
 
 /// The distances of a run's tip estimates from the nearest surface, over all whiskers, in metres.
@@ -22,6 +24,12 @@ pub struct ErrorFigures {
     pub along: Option<TipDistance>,
     /// Their distances from the true tips perpendicular to the outline.
     pub across: Option<TipDistance>,
+    /// Bias (m): the mean magnitude of the bias of the tips, where the bias of a tip is the mean signed distance of its
+    /// whisker's tips from the true tips, perpendicular to the outline.
+    pub bias: Option<f64>,
+    /// Scatter (m): the standard deviation of the tips of a whisker about its bias. `None` also if no whisker has two
+    /// tips.
+    pub scatter: Option<f64>,
     /// Number of estimates.
     pub count: usize,
 }
@@ -48,9 +56,11 @@ impl ErrorFigures {
         let share =
             |counts: &dyn Fn(&Tip) -> bool| tips.iter().filter(|tip| counts(tip)).count() as f64 / tips.len() as f64;
         let distance = |part: fn(&TipOffset) -> f64| {
-            let statistics = Statistics::of(tips.iter().filter_map(|tip| tip.offset.as_ref()).map(part).collect())?;
+            let distances = tips.iter().filter_map(|tip| Some(part(tip.offset.as_ref()?).abs()));
+            let statistics = Statistics::of(distances.collect())?;
             Some(TipDistance { mean: statistics.mean(), p95: statistics.percentile(95.0), max: statistics.max() })
         };
+        let (bias, scatter) = bias_and_scatter(tips);
         Some(Self {
             mean: statistics.mean(),
             std: statistics.std(),
@@ -60,7 +70,27 @@ impl ErrorFigures {
             outliers: share(&Tip::is_outlier),
             along: distance(|offset| offset.along),
             across: distance(|offset| offset.across),
+            bias,
+            scatter,
             count: statistics.count(),
         })
     }
+}
+
+/// The [bias](ErrorFigures::bias) and the [scatter](ErrorFigures::scatter) of tips.
+fn bias_and_scatter(tips: &[Tip]) -> (Option<f64>, Option<f64>) {
+    let mut of_whiskers = BTreeMap::<usize, Vec<f64>>::new();
+    for tip in tips {
+        if let Some(offset) = &tip.offset {
+            of_whiskers.entry(tip.whisker).or_default().push(offset.across);
+        }
+    }
+    let whiskers: Vec<Statistics> = of_whiskers.into_values().filter_map(Statistics::of).collect();
+    let count: usize = whiskers.iter().map(Statistics::count).sum();
+    let bias: f64 = whiskers.iter().map(|whisker| whisker.count() as f64 * whisker.mean().abs()).sum();
+    // Each mean takes one degree of freedom.
+    let squares = |whisker: &Statistics| Some((whisker.count() - 1) as f64 * whisker.std()?.powi(2));
+    let squares: f64 = whiskers.iter().filter_map(squares).sum();
+    let freedom = count - whiskers.len();
+    ((count > 0).then(|| bias / count as f64), (freedom > 0).then(|| (squares / freedom as f64).sqrt()))
 }

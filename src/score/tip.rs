@@ -22,13 +22,12 @@ pub struct Tip {
     pub offset: Option<TipOffset>,
 }
 
-/// The distance (m) of a tip estimate from the point of the true tip that is nearest to the outline. Both components
-/// are non-negative.
+/// The position (m) of a tip estimate relative to the point of the true tip that is nearest to the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipOffset {
     /// Along the tangent of the outline at its point nearest to the true tip.
     pub along: f64,
-    /// Along the normal at that point.
+    /// Along the outward normal at that point.
     pub across: f64,
 }
 
@@ -71,7 +70,7 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
 fn offset(tip_world: Point2, end: Point2, radius: f64, surfaces: &ContourSet) -> Option<TipOffset> {
     let outwards = (end - surfaces.nearest(end).point).try_normalize(0.0)?;
     let error = tip_world - (end - radius * outwards);
-    let (along, across) = (error.dot(&perpendicular(outwards)).abs(), error.dot(&outwards).abs());
+    let (along, across) = (error.dot(&perpendicular(outwards)), error.dot(&outwards));
     (along.is_finite() && across.is_finite()).then_some(TipOffset { along, across })
 }
 

@@ -279,3 +279,6 @@ fn past(exact: &VecDeque<Sample>, index: usize, latency: f64, of: impl Fn(&Sampl
         (_, None) => of(newest),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
 mod calibration;
+mod curved;
 mod mujoco;
 mod quasi_static;
 #[path = "../common/snapshots.rs"]

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::{circle, polygon};
+use crate::geometry::{circle, polygon, unit};
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
 
@@ -111,7 +111,7 @@ fn whisker() -> Whisker {
 
 /// The base and the far ends of all links (m, world frame).
 fn ends(chain: &QuasiStaticWhisker) -> Vec<Point2> {
-    // The link ends of a straight whisker without contact are not updated.
+    // The link ends of a whisker at rest are not updated.
     let mut shape = Shape::at_rest(&chain.rod, chain.shape.base);
     shape.angles.clone_from(&chain.shape.angles);
     shape.place(&chain.rod, chain.shape.base);

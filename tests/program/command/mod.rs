@@ -17,6 +17,7 @@ mod inputs;
 mod interrupt;
 #[cfg(all(target_os = "linux", feature = "sim"))]
 mod library;
+mod mismatch;
 #[cfg(target_os = "linux")]
 mod names;
 pub(crate) mod program;

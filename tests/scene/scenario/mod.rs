@@ -2,6 +2,7 @@
 
 mod corners;
 mod errors;
+mod mismatch;
 mod near;
 mod page;
 mod scenes;

@@ -31,9 +31,9 @@ impl Followed {
         let force = reading.axial.unwrap() * unit(angle) + reading.shear.unwrap() * unit(angle + PI / 2.0);
         let mut moment = whisker.hinge.stiffness * reading.base_angle;
         let (mut ends, mut along, mut moments) = (vec![base.position], Vec::new(), Vec::new());
-        for stiffness in whisker.shaft.joint_stiffnesses() {
+        for (stiffness, rest) in whisker.shaft.joint_stiffnesses().zip(whisker.shaft.rest_angles()) {
             moments.push(moment);
-            angle += moment / stiffness;
+            angle += rest + moment / stiffness;
             along.push(unit(angle));
             moment -= whisker.shaft.link_length() * unit(angle).perp(&force);
             ends.push(ends[ends.len() - 1] + whisker.shaft.link_length() * unit(angle));
@@ -48,7 +48,7 @@ fn base(whisker: &Whisker, body: Pose) -> Pose {
 }
 
 /// Whether the moment comes down to nothing just where something without friction touches, and the whisker is outside of all.
-/// `None` where more than one thing seems to touch. A whisker without a force is straight, but for what its hinge's damper is late
+/// `None` where more than one thing seems to touch. A whisker without a force has the shape at rest, but for what its hinge's damper is late
 /// by: that fades from the sample before.
 fn check(rig: &Rig, outlines: &[Contour], [before, sample]: [&Sample; 2]) -> Result<Option<()>, String> {
     let whisker = &rig.whiskers[0];
@@ -92,10 +92,13 @@ fn check(rig: &Rig, outlines: &[Contour], [before, sample]: [&Sample; 2]) -> Res
         }
         (touched, share * link)
     };
-    // Behind the touch it is straight.
+    // Behind the touch it has the shape at rest.
     let mut ends = followed.ends[..=touched].to_vec();
-    let rest = (followed.along.len() - touched) as f64 * link;
-    ends.push(followed.ends[touched] + rest * followed.along[touched]);
+    let mut direction = followed.along[touched].y.atan2(followed.along[touched].x);
+    for (behind, rest) in whisker.shaft.rest_angles().skip(touched).enumerate() {
+        direction += if behind == 0 { 0.0 } else { rest };
+        ends.push(ends[ends.len() - 1] + link * unit(direction));
+    }
     for (from, to) in ends.iter().zip(&ends[1..]) {
         for step in 0..=20 {
             let place = from + (to - from) * (f64::from(step) / 20.0);
@@ -119,8 +122,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
     #[test]
-    fn a_whisker_that_has_come_to_rest_is_in_balance_and_outside_of_all(commands in commands(), which in 0..11_usize) {
-        let rig = one_whisker();
+    fn a_whisker_that_has_come_to_rest_is_in_balance_and_outside_of_all(
+        commands in commands(), which in 0..11_usize, curvature in prop_oneof![Just(0.0), -0.4..0.4_f64],
+    ) {
+        let mut rig = one_whisker();
+        rig.whiskers[0].shaft.curvature = curvature;
         let (name, outline) = outlines().swap_remove(which);
         let outlines = [outline];
         let mut world = QuasiStaticWorld::new(&rig, &Physics::default(), &solids(outlines.clone()), START, 0).unwrap();

@@ -3,5 +3,5 @@
 mod balance;
 mod body;
 mod minimum;
-mod scene;
+pub(crate) mod scene;
 mod world;

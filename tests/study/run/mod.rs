@@ -1,6 +1,7 @@
 //! The control loop in a world.
 
 mod hostile;
+mod mismatch;
 mod ticks;
 mod true_tips;
 mod way;

@@ -1,0 +1,126 @@
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+use proptest::prelude::*;
+
+use super::*;
+use crate::physics::Physics;
+use vibrissa_runtime::rig::Rig;
+
+fn with(property: Property, range: impl Into<Range>) -> Mismatch {
+    let mut mismatch = Mismatch::default();
+    mismatch.common.set(property, range);
+    mismatch
+}
+
+#[test]
+fn an_empty_mismatch_is_the_assumed_array() {
+    let array = Mismatch::default().array(&Rig::default());
+    assert_eq!(array.rig, Rig::default());
+    assert_eq!(array.physics(&Physics::default()), Physics::default());
+    assert!(array.is_measured_exactly() && !array.is_noisy());
+}
+
+#[test]
+fn values_of_a_whisker_replace_those_of_all() {
+    let mut mismatch = with(Property::Length, 1e-3);
+    mismatch.whiskers.entry("l0".to_owned()).or_default().set(Property::Length, 2e-3);
+    let [right, left] = [0, 1].map(|index: usize| mismatch.array(&Rig::default()).rig.whiskers[index].shaft.length);
+    assert!((right - 0.101).abs() < 1e-12 && (left - 0.102).abs() < 1e-12);
+}
+
+#[test]
+fn a_value_is_symmetric_for_both_sides() {
+    let mut mismatch = with(Property::Direction, 0.1);
+    for property in [Property::BaseForward, Property::BaseOutward, Property::TipAside] {
+        mismatch.common.set(property, 1e-3);
+    }
+    let assumed = Rig::default();
+    for (true_whisker, assumed) in mismatch.array(&assumed).rig.whiskers.iter().zip(&assumed.whiskers) {
+        assert!((true_whisker.direction_body.abs() - assumed.direction_body.abs() - 0.1).abs() < 1e-12);
+        assert!((true_whisker.base_body.x - assumed.base_body.x - 1e-3).abs() < 1e-12);
+        assert!((true_whisker.base_body.y.abs() - assumed.base_body.y.abs() - 1e-3).abs() < 1e-12);
+        let aside = true_whisker.shaft.curvature * true_whisker.shaft.length.powi(2) / 2.0;
+        assert!((aside - assumed.side() * 1e-3).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_radius_scales_the_whole_taper_and_the_tip_radius_the_tip_alone() {
+    let mut assumed = Rig::default();
+    assumed.whiskers[0].shaft.tip_radius = Some(0.05e-3);
+    let mut mismatch = with(Property::Radius, 0.1);
+    mismatch.common.set(Property::TipRadius, -0.2);
+    let rig = mismatch.array(&assumed).rig;
+    let [tapered, uniform] = [0, 1].map(|whisker| &rig.whiskers[whisker].shaft);
+    assert!((tapered.radius / 0.125e-3 - 1.1).abs() < 1e-12);
+    assert!((tapered.tip_radius.unwrap() / 0.05e-3 - 0.88).abs() < 1e-12);
+    assert!((uniform.tip_radius.unwrap() / 0.125e-3 - 0.88).abs() < 1e-12);
+    assert_eq!(with(Property::Radius, 0.1).array(&assumed).rig.whiskers[1].shaft.tip_radius, None);
+}
+
+#[test]
+fn friction_shortens_the_steps_of_the_simulation() {
+    let array = with(Property::Friction, 0.1).array(&Rig::default());
+    let physics = array.physics(&Physics::default());
+    let steps = physics.step.recip() / array.rig.sensing.sample_rate;
+    assert!(physics.friction == 0.1 && steps >= 12.0 - 1e-9 && (steps - steps.round()).abs() < 1e-9);
+    assert_eq!(array.rig.sensing.friction, 0.0, "perception does not know it");
+}
+
+#[test]
+fn a_mismatch_that_cannot_be_simulated_is_refused() {
+    let rig = Rig::default();
+    let mut other = Mismatch::default();
+    other.whiskers.insert("r7".to_owned(), Ranges::default());
+    assert_eq!(other.check(&rig).unwrap_err().to_string(), "the rig has no whisker `r7`; it has `r0`, `l0`");
+    let short = with(Property::Length, Range { least: -0.1, greatest: 0.0 });
+    assert!(matches!(short.check(&rig), Err(MismatchError::Short { .. })));
+    let mut light = with(Property::Links, 64.0);
+    light.common.set(Property::Radius, -0.9);
+    light.common.set(Property::Length, -0.02);
+    assert!(matches!(light.check(&rig), Err(MismatchError::Light { .. })));
+    assert_eq!(with(Property::Length, Range { least: -1e-3, greatest: 1e-3 }).check(&rig), Ok(()));
+}
+
+#[test]
+fn what_is_given_precedes_what_completes_it() {
+    let mut own = with(Property::Length, 1e-3);
+    let mut other = with(Property::Length, 5e-3);
+    other.common.set(Property::Stiffness, 0.1);
+    (other.seed, other.loss, other.file) = (Some(3), Some(Loss::Stale), Some("a.yaml".to_owned()));
+    own.complete(&other);
+    assert_eq!(own.common.get(Property::Length), Some(1e-3.into()));
+    assert_eq!(own.common.get(Property::Stiffness), Some(0.1.into()));
+    assert_eq!((own.seed, own.loss, own.file.as_deref()), (Some(3), Some(Loss::Stale), Some("a.yaml")));
+}
+
+proptest! {
+    #[test]
+    fn drawn_values_are_in_their_range_and_do_not_depend_on_other_ranges(seed in any::<u64>()) {
+        let range = Range { least: -0.5e-3, greatest: 0.5e-3 };
+        let mut alone = with(Property::Length, range);
+        alone.seed = Some(seed);
+        let mut together = alone.clone();
+        together.common.set(Property::Stiffness, Range { least: -0.1, greatest: 0.1 });
+        together.common.set(Property::Servo, 0.1);
+        let lengths = |mismatch: &Mismatch| {
+            mismatch.array(&Rig::default()).rig.whiskers.iter().map(|whisker| whisker.shaft.length).collect::<Vec<_>>()
+        };
+        prop_assert_eq!(lengths(&alone), lengths(&together));
+        prop_assert!(lengths(&alone).iter().all(|length| (length - 0.1).abs() <= 0.5e-3 + 1e-15));
+        prop_assert!(lengths(&alone)[0] != lengths(&alone)[1], "whiskers are independent");
+    }
+}
+
+#[test]
+fn drawn_values_are_uniform_over_seeds() {
+    let mut mismatch = with(Property::Stiffness, Range { least: -0.05, greatest: 0.05 });
+    let assumed = Rig::default();
+    let mut counts = [0_usize; 10];
+    for seed in 0..5000 {
+        mismatch.seed = Some(seed);
+        let stiffness = mismatch.array(&assumed).rig.whiskers[0].shaft.young_modulus;
+        let share = (stiffness / assumed.whiskers[0].shaft.young_modulus - 0.95) / 0.1;
+        counts[((share * 10.0) as usize).min(9)] += 1;
+    }
+    assert!(counts.iter().all(|count| count.abs_diff(500) < 120), "{counts:?}");
+}
