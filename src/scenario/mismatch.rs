@@ -210,7 +210,9 @@ fn range(reader: &mut Reader<'_>, node: &Placed<Node>, key: &Key) -> Option<Rang
         let message = format!("expected 2 numbers, found {}", items.len());
         let fault =
             Diagnostic::error(fault::TYPE, message, reader.extent(node), "must be a least and a greatest value");
-        reader.report(fault.hint(format!("for example `{0}: {1}` or `{0}: [0, {1}]`", key.name, key.example)));
+        reader.report(
+            fault.hint(format!("write one value, such as `{}: {}`, or the ends of a range", key.name, key.example)),
+        );
         return None;
     };
     let (least, greatest) = (reader.number(least, key), reader.number(greatest, key));
