@@ -1,5 +1,6 @@
 //! The pages of measured figures, `docs/results`, each made of the output of commands of the program.
 
+mod mismatch;
 mod pages;
 mod reproduction;
 mod sums;

@@ -116,3 +116,24 @@ fn a_section_can_start_from_a_file() {
     (expected.seed, expected.file) = (Some(5), Some("mismatch/plausible.yaml".to_owned()));
     assert_eq!(scene.mismatch, Some(expected));
 }
+
+#[test]
+fn the_scenario_of_the_page_is_one() {
+    let page = include_str!("../../../docs/mismatch.md");
+    let block = page.split("```yaml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let scene = read_with(&Source::new("docs/mismatch.md", block), &mut |_| Err("no files".to_owned())).unwrap();
+    let mismatch = scene.mismatch.unwrap();
+    assert!(mismatch.is_drawn() && mismatch.seed == Some(3));
+}
+
+/// A table of the page has every key, so that none can be added without a word about it.
+#[test]
+fn the_page_names_every_key() {
+    let page = include_str!("../../../docs/mismatch.md");
+    let Err(faults) = read_mismatch(&Source::new("mismatch.yaml", "nothing: 1\n")) else { panic!("a key was accepted") };
+    let keys = faults[0].hints.join(" ");
+    let named = keys.split('`').skip(1).step_by(2);
+    for key in named {
+        assert!(page.contains(&format!("| `{key}")) || page.contains(&format!("`{key}`")), "{key}");
+    }
+}

@@ -1,7 +1,7 @@
 //! The pages: what each says, and the commands that it is made of.
 
 use super::table::NoKey;
-use super::{reproduction, sums, tables};
+use super::{mismatch, reproduction, sums, tables};
 use crate::json::Json;
 
 /// A page of results.
@@ -56,7 +56,7 @@ pub(crate) const FAMILIES: [&str; 2] = [
 ];
 
 /// All pages.
-pub(super) const PAGES: [Page; 13] = [
+pub(super) const PAGES: [Page; 14] = [
     Page {
         name: "bench",
         title: "Results of the bench",
@@ -98,6 +98,15 @@ pub(super) const PAGES: [Page; 13] = [
         has_times: false,
         is_slow: true,
         body: sums::families,
+    },
+    Page {
+        name: "mismatch",
+        title: "Results with mismatches",
+        about: "The scenes of [the bench](../bench.md) in MuJoCo with one [mismatch](../mismatch.md) at a time between the true array and the assumed one.",
+        commands: &["sweep sweeps/mismatch.yaml --out out/mismatch --json"],
+        has_times: false,
+        is_slow: true,
+        body: mismatch::page,
     },
     Page {
         name: "estimators",
