@@ -7,7 +7,7 @@ const PERIOD: f64 = 1.0 / 300.0;
 /// A world in which everything is linear in time, and which keeps the commands that reach it.
 struct Ramp {
     count: u32,
-    samples_per_tick: u32,
+    samples_per_tick: usize,
     commands: std::rc::Rc<std::cell::RefCell<Vec<f64>>>,
     samples: Vec<Sample>,
 }
@@ -55,7 +55,7 @@ fn disturbed(values: &[(Property, f64)], loss: Loss) -> (Disturbed, std::rc::Rc<
     let array = mismatch.array(&Rig::default());
     let commands = std::rc::Rc::default();
     let inner = Disturbed::inner_rig(&array).sensing;
-    let samples_per_tick = (inner.sample_rate / inner.control_rate).round() as u32;
+    let samples_per_tick = whole(inner.sample_rate / inner.control_rate);
     let ramp = Ramp { count: 0, samples_per_tick, commands: std::rc::Rc::clone(&commands), samples: Vec::new() };
     (Disturbed::new(Box::new(ramp), array, 7), commands)
 }

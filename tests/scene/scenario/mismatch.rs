@@ -25,7 +25,7 @@ fn disk(section: &str) -> Scene {
 /// The value of a property without a width.
 fn value(mismatch: &Mismatch, property: Property) -> Option<f64> {
     let Range { least, greatest } = mismatch.common.get(property)?;
-    assert!(least == greatest, "{property:?}");
+    assert!(greatest - least < f64::MIN_POSITIVE, "{property:?}");
     Some(least)
 }
 
@@ -73,7 +73,7 @@ fn every_key_of_a_section_reaches_the_array() {
         |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9 * expected.abs(), "{found} {expected}");
     let [right, left] = [0, 1].map(|index: usize| &array.rig.whiskers[index]);
     near(right.shaft.young_modulus, 1.05 * assumed.whiskers[0].shaft.young_modulus);
-    assert_eq!(left.shaft.young_modulus, assumed.whiskers[1].shaft.young_modulus);
+    near(left.shaft.young_modulus, assumed.whiskers[1].shaft.young_modulus);
     near(right.shaft.radius, 1.01 * 0.125e-3);
     near(right.shaft.tip_radius.unwrap(), 0.95 * 1.01 * 0.125e-3);
     near(right.shaft.length, 0.101);
@@ -130,7 +130,9 @@ fn the_scenario_of_the_page_is_one() {
 #[test]
 fn the_page_names_every_key() {
     let page = include_str!("../../../docs/mismatch.md");
-    let Err(faults) = read_mismatch(&Source::new("mismatch.yaml", "nothing: 1\n")) else { panic!("a key was accepted") };
+    let Err(faults) = read_mismatch(&Source::new("mismatch.yaml", "nothing: 1\n")) else {
+        panic!("a key was accepted")
+    };
     let keys = faults[0].hints.join(" ");
     let named = keys.split('`').skip(1).step_by(2);
     for key in named {

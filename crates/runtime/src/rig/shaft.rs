@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn a_chain_at_rest_ends_where_the_arc_of_its_curvature_ends() {
         for (curvature, links) in [(0.2, 16), (-0.2, 16), (1.0, 64)] {
-            let shaft = Shaft { curvature, links, ..Shaft::default() };
+            let shaft = Shaft { links, curvature, ..Shaft::default() };
             let (mut direction, mut end) = (0.0, [0.0; 2]);
             for turn in shaft.rest_angles() {
                 direction += turn;
