@@ -107,7 +107,7 @@ pub(super) fn bench_trials(
     Ok(trials)
 }
 
-/// Reports the reason of an incomplete run, and the expectations that do not hold without friction and noise.
+/// Reports the reason of an incomplete run, and the expectations that do not hold without friction, noise and mismatch.
 fn report_row(row: &BenchRow, violations: &[Violation]) {
     let RunResult { policy, outcome, reason, .. } = &row.result;
     let scene = row.scene();
@@ -115,7 +115,7 @@ fn report_row(row: &BenchRow, violations: &[Violation]) {
         let reason = reason.as_deref().unwrap_or("unknown reason");
         output::message(format_args!("{scene}, {policy}: {outcome}: {reason}"));
     }
-    for violation in violations.iter().filter(|_| row.conditions.are_ideal()) {
+    for violation in violations.iter().filter(|_| row.is_ideal()) {
         output::message(format_args!("{scene}, {policy}: {violation}"));
     }
 }

@@ -46,8 +46,8 @@ pub struct BenchRow {
     pub baseline: Option<BaselineFigures>,
     /// The verdicts.
     pub verdicts: Verdicts,
-    /// True if the run completed, no figure is worse than the baseline's, and all expectations hold. With friction or
-    /// noise, a completed run suffices.
+    /// True if the run completed, no figure is worse than the baseline's, and all expectations hold. With friction,
+    /// noise or a mismatch, a completed run suffices.
     pub passed: bool,
 }
 
@@ -80,14 +80,22 @@ impl BenchRow {
     /// The same row for a run under `conditions`.
     #[must_use]
     pub fn under(self, conditions: Conditions) -> Self {
-        let passed = if conditions.are_ideal() { self.passed } else { self.result.outcome == Outcome::Completed };
-        Self { conditions, passed, ..self }
+        let row = Self { conditions, ..self };
+        let passed = if row.is_ideal() { row.passed } else { row.result.outcome == Outcome::Completed };
+        Self { passed, ..row }
     }
 
-    /// The scene followed by the conditions.
+    /// True without friction, noise and mismatch.
+    #[must_use]
+    pub(crate) fn is_ideal(&self) -> bool {
+        self.conditions.are_ideal() && self.result.mismatch.is_none()
+    }
+
+    /// The scene followed by the conditions, and by `mismatch` if there is one.
     #[must_use]
     pub fn scene(&self) -> String {
-        self.conditions.named(&self.result.scenario)
+        let scene = self.conditions.named(&self.result.scenario);
+        if self.result.mismatch.is_some() { format!("{scene}, mismatch") } else { scene }
     }
 
     /// The figures that the baseline reports too: the measured one, the baseline's, and the verdict.

@@ -55,7 +55,7 @@ fn what_does_not_fit_is_refused_with_the_key() {
 
 /// The mismatch of every run of a sweep, in the order of runs.
 fn mismatches(directory: &Path) -> Vec<Value> {
-    let text = fs::read_to_string(directory.join("runs.jsonl")).unwrap();
+    let text = fs::read_to_string(directory.join("results.jsonl")).unwrap();
     let mut runs: Vec<Value> = text.lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect();
     runs.sort_by_key(|run| run["key"].to_string());
     runs.into_iter().map(|mut run| run["mismatch"].take()).collect()

@@ -7,7 +7,7 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{bench_page, bench_table, pooled_tips};
-use vibrissa::results::{Hashes, Identity, MeanStd, Retrieval, RunResult};
+use vibrissa::results::{Hashes, Identity, MeanStd, MismatchIdentity, Retrieval, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
@@ -95,6 +95,16 @@ fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
     assert!(hard.passed && bench_table(&[hard]).wide().contains("disk, friction 0.3, noise"));
     let failed = BenchRow { result: RunResult { outcome: Outcome::Failed, ..worse.result.clone() }, ..worse };
     assert!(!failed.under(conditions).passed);
+}
+
+#[test]
+fn a_run_with_a_mismatch_has_only_to_complete_and_says_so() {
+    let mut bent = result("disk", 5e-3);
+    bent.mismatch = Some(MismatchIdentity { file: None, seed: 0 });
+    let row = BenchRow::new(bent.clone(), false).under(Conditions::default());
+    assert!(row.passed && row.scene() == "disk, mismatch");
+    bent.outcome = Outcome::Failed;
+    assert!(!BenchRow::new(bent, false).under(Conditions::default()).passed);
 }
 
 #[test]
