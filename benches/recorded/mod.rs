@@ -118,5 +118,11 @@ impl Senses for Felt<'_> {
         self.vector(self.recorded.whiskers[whisker].way)
     }
 
+    fn loop_closed(&self, _: usize, _: f64, _: f64) -> bool {
+        false
+    }
+
     fn record(&mut self, _: usize) {}
+
+    fn record_position(&mut self, _: usize, _: Vector2) {}
 }

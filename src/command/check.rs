@@ -275,6 +275,7 @@ fn needs(needs: &Needs) -> NeedsSummary {
 fn name(program: &Program, target: &Target) -> String {
     match target {
         Target::State { state, .. } => program.states[*state].name.to_string(),
+        Target::Success(reason) => format!("Success(\"{reason}\")"),
         Target::Failure(reason) => format!("Failure(\"{reason}\")"),
     }
 }

@@ -84,7 +84,7 @@ fn outline(document: &Document) -> Vec<DocumentSymbol> {
 /// The nearest kind of the protocol. `None` for names that are not in an outline.
 fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
     Some(match kind {
-        SymbolKind::Whisker => LspSymbolKind::Field,
+        SymbolKind::Whisker | SymbolKind::Contour => LspSymbolKind::Field,
         SymbolKind::Parameter => LspSymbolKind::Constant,
         SymbolKind::Derived => LspSymbolKind::Variable,
         SymbolKind::Law => LspSymbolKind::Function,

@@ -24,6 +24,9 @@ pub(super) struct File {
     /// For each whisker, true if it is optional: `if fitted`.
     pub(super) optional: Vec<bool>,
     pub(super) needs: Vec<Need>,
+    /// `contour of … points … apart`: the keypoints of the whiskers' contours.
+    pub(super) keypoints: Vec<Keypoints>,
+    pub(super) contours: Vec<Contour>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
@@ -74,6 +77,22 @@ impl Need {
     pub(super) fn range(&self) -> Span {
         self.low.span.to(self.high.span)
     }
+}
+
+/// `contour name of count points spacing apart`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Contour {
+    pub(super) name: Name,
+    pub(super) keypoints: Option<Keypoints>,
+}
+
+/// `of count points spacing apart`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Keypoints {
+    /// The number of keypoints, as in the text.
+    pub(super) count: Name,
+    pub(super) spacing: Bound,
+    pub(super) span: Span,
 }
 
 /// `param name = value in low .. high`
@@ -241,6 +260,11 @@ pub(super) enum Statement {
         span: Span,
     },
     Record(Expression),
+    /// `record position in contour`
+    RecordPosition {
+        position: Expression,
+        contour: Name,
+    },
     /// `mark name whisker`
     Mark {
         name: Name,

@@ -50,8 +50,8 @@ pub(super) fn advice_for(word: &str) -> Option<&'static str> {
 /// Advice for a target that other languages use for a successful end.
 pub(super) fn target_advice(state: &str) -> Option<&'static str> {
     ["success", "succeeded", "done", "end", "finish", "finished", "completed", "exit"].contains(&state.to_lowercase().as_str()).then_some(
-        "a run is completed by the condition `stop` of the scenario; a policy can end it only by `Failure(\"reason\")`, or stop the platform \
-         in a state: `state Done { stop }`",
+        "a policy completes a run by `Success(\"reason\")`, and ends it otherwise by `Failure(\"reason\")`; `state Done { stop }` only stops \
+         the platform",
     )
 }
 

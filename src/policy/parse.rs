@@ -13,8 +13,8 @@ use std::borrow::Cow;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Bound, Derived, File, From, Guard, Law, Name, Need, Parameter, Quantity, Statement, Steer, Transition,
-    Turn, TypeName, Use,
+    Argument, Bound, Contour, Derived, File, From, Guard, Keypoints, Law, Name, Need, Parameter, Quantity, Statement,
+    Steer, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
@@ -37,6 +37,8 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         tip_models: Vec::new(),
         optional: Vec::new(),
         needs: Vec::new(),
+        keypoints: Vec::new(),
+        contours: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -73,6 +75,15 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 low: bound(reader.take(Rule::bound)?)?,
                 high: bound(reader.take(Rule::bound)?)?,
             }),
+            Rule::contour if reader.has(Rule::keypoints) => {
+                file.keypoints.push(keypoints(reader.take(Rule::keypoints)?)?);
+            }
+            Rule::contour => {
+                let name = reader.name()?;
+                let given = reader.has(Rule::keypoints);
+                let keypoints = if given { Some(keypoints(reader.take(Rule::keypoints)?)?) } else { None };
+                file.contours.push(Contour { name, keypoints });
+            }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),
             Rule::derived => file.derived.push(Derived {
@@ -134,6 +145,12 @@ fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
         None
     };
     Ok(Parameter { name, value, range })
+}
+
+fn keypoints(pair: Pair<'_>) -> Parsed<Keypoints> {
+    let span = pair.span();
+    let mut reader = Reader::new(pair);
+    Ok(Keypoints { count: named(reader.take(Rule::number)?), spacing: bound(reader.take(Rule::bound)?)?, span })
 }
 
 fn bound(pair: Pair<'_>) -> Parsed<Bound> {
@@ -219,7 +236,14 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
             Statement::If { branches, otherwise }
         }
         Rule::apply => Statement::Do { law: reader.name()?, values: reader.values()?.unwrap_or_default(), span },
-        Rule::record => Statement::Record(reader.expression()?),
+        Rule::record => {
+            let recorded = reader.expression()?;
+            if reader.has(Rule::name) {
+                Statement::RecordPosition { position: recorded, contour: reader.name()? }
+            } else {
+                Statement::Record(recorded)
+            }
+        }
         Rule::mark => Statement::Mark { name: reader.name()?, whisker: reader.expression()? },
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);

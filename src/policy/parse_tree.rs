@@ -153,6 +153,9 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_test
             | Rule::kw_property
             | Rule::spanning
+            | Rule::contour_word
+            | Rule::points
+            | Rule::apart
             | Rule::kw_expect
             | Rule::open
             | Rule::close

@@ -23,6 +23,8 @@ const ITEM_WORDS: [&str; 14] = [
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
+/// A word that begins an item and is a name anywhere else.
+const CONTEXTUAL_WORD: &str = "contour";
 /// Keywords that begin a statement or a memory declaration, in a state or outside.
 const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
 /// Keywords that can begin a continuation line of an item.
@@ -183,7 +185,7 @@ fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, hig
     let behind = starts.iter().copied().find(|&start| start > at).unwrap_or(high);
     let word: &str = text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default();
     let is_start = starts.contains(&at);
-    if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word)) {
+    if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word) || word == CONTEXTUAL_WORD) {
         // Either the previous part lacks its end, or this part is misplaced.
         vec![Span::new(before, at), Span::new(at, behind)]
     } else if is_start || indent(text, at).is_some_and(|own| Some(own) <= indent(text, before)) {

@@ -9,7 +9,7 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
+const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
@@ -150,7 +150,7 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         "^" => "multiply instead: `x * x`".to_owned(),
         "%" => "write the share as a plain number, such as 0.95".to_owned(),
         "'" => "a text is in double quotes".to_owned(),
-        "\"" => "a text can only be the reason of `Failure`, a path after `use`, or the title or scenario of a test".to_owned(),
+        "\"" => "a text can only be the reason of `Failure` or `Success`, a path after `use`, or the title or scenario of a test".to_owned(),
         "." => "a number has digits before and after its decimal point".to_owned(),
         "for" if rules.contains(&Rule::kw_do) => {
             "there are no loops: a state executes its statements in every tick; write one statement for each whisker, or a `law` that is called by \
@@ -240,9 +240,11 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_turning => (0, "`turning`"),
         Rule::kw_for => (1, "`for`"),
         Rule::kw_in => (1, "`in`"),
-        Rule::kw_of => (1, "`of`"),
+        Rule::kw_of | Rule::keypoints => (1, "`of`"),
         Rule::kw_else => (4, "`else`"),
         Rule::fitted => (0, "`fitted`"),
+        Rule::points => (0, "`points`"),
+        Rule::apart => (0, "`apart`"),
         Rule::spanning => (0, "`over`"),
         Rule::family => (0, "a family of scenes such as `convex-corner`"),
         Rule::name | Rule::argument | Rule::range => (0, "a name"),
@@ -279,6 +281,9 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_use => "use",
         Rule::kw_whisker => "whisker",
         Rule::fitted => "fitted",
+        Rule::contour_word => "contour",
+        Rule::points => "points",
+        Rule::apart => "apart",
         Rule::kw_needs => "needs",
         Rule::kw_param => "param",
         Rule::kw_var => "var",

@@ -206,9 +206,15 @@ impl Senses for NoSenses {
         Vector2::repeat(f64::NAN)
     }
 
+    fn loop_closed(&self, _: usize, _: f64, _: f64) -> bool {
+        false
+    }
+
     fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
         Vector2::repeat(f64::NAN)
     }
 
     fn record(&mut self, _: usize) {}
+
+    fn record_position(&mut self, _: usize, _: Vector2) {}
 }

@@ -1,7 +1,6 @@
 //! The control loop in a world, and its trace.
 
 mod drive;
-mod loop_watch;
 mod monitor;
 mod stall_watch;
 mod trace;

@@ -7,11 +7,10 @@ use crate::scene::{Outcome, Reached, Stop};
 use crate::world::{Fault, World};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Fallback, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
-use vibrissa_runtime::percept::Perception;
+use vibrissa_runtime::percept::{LoopWatch, Perception};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 use super::drive::Run;
-use super::loop_watch::LoopWatch;
 use super::stall_watch::StallWatch;
 use super::trace::{Contact, MarkRecord, TickRecord, Trace};
 
@@ -107,9 +106,14 @@ impl Monitor {
         if ticked.status == Status::Failed {
             return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
         }
+        if ticked.status == Status::Succeeded {
+            return Some(Ending::COMPLETED);
+        }
         if let Some(aim) = &self.stop.loop_closed {
-            let mut watches = self.loops.iter_mut().zip(tick.tips);
-            if watches.any(|(watch, tip)| watch.closes(tick.time, tip, tick.body.position, aim)) {
+            for (watch, tip) in self.loops.iter_mut().zip(tick.tips) {
+                watch.update(tick.time, tip, tick.body.position);
+            }
+            if self.loops.iter().any(|watch| watch.is_closed(aim.within, aim.after)) {
                 return Some(Ending::COMPLETED);
             }
         }

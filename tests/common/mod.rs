@@ -39,11 +39,21 @@ pub struct Script {
     pub ticks: Vec<Vec<Feel>>,
     pub recorded: Vec<usize>,
     pub marked: Vec<(usize, Mark)>,
+    /// Positions with their contours, as bits. All numbers that are none are alike.
+    pub positions: Vec<(usize, [u64; 2])>,
 }
 
 impl Script {
     pub fn new(ticks: Vec<Vec<Feel>>) -> Self {
-        Self { period: 1.0 / 30.0, now: 0, late: Vec::new(), ticks, recorded: Vec::new(), marked: Vec::new() }
+        Self {
+            period: 1.0 / 30.0,
+            now: 0,
+            late: Vec::new(),
+            ticks,
+            recorded: Vec::new(),
+            marked: Vec::new(),
+            positions: Vec::new(),
+        }
     }
 
     /// One whisker that touches at the ticks marked `x`.
@@ -113,8 +123,17 @@ impl Senses for Script {
         }
     }
 
+    fn loop_closed(&self, whisker: usize, within: f64, after: f64) -> bool {
+        self.feel(whisker).sense > within - after
+    }
+
     fn record(&mut self, whisker: usize) {
         self.recorded.push(whisker);
+    }
+
+    fn record_position(&mut self, contour: usize, position: Vector2) {
+        let bits = |part: f64| if part.is_nan() { u64::MAX } else { part.to_bits() };
+        self.positions.push((contour, [bits(position.x), bits(position.y)]));
     }
 
     fn mark(&mut self, whisker: usize, mark: Mark) {

@@ -202,7 +202,13 @@ impl Senses for Told {
         Vector2::new(f64::NAN, f64::NAN)
     }
 
+    fn loop_closed(&self, _: usize, _: f64, _: f64) -> bool {
+        false
+    }
+
     fn record(&mut self, _: usize) {}
+
+    fn record_position(&mut self, _: usize, _: Vector2) {}
 }
 
 /// A random condition over what can be felt.

@@ -27,7 +27,7 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 101] = [
+const TOKENS: [&str; 105] = [
     "var",
     "set",
     "entry",
@@ -92,6 +92,10 @@ const TOKENS: [&str; 101] = [
     "T",
     "w",
     "Failure",
+    "Success",
+    "contour",
+    "points",
+    "apart",
     "time",
     "abs",
     "clamp",

@@ -48,7 +48,8 @@ impl Control {
     pub fn simulated(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
         Ok(Self {
-            perception: Perception::new(rig, &whiskers, &program.contact_estimators)?,
+            perception: Perception::new(rig, &whiskers, &program.contact_estimators)?
+                .with_contours(program.keypoints, &program.contours),
             steering: Steering::new(rig, &whiskers),
             machine: Machine::new(program),
         })

@@ -51,7 +51,7 @@ impl<'m> Bounds<'m> {
         self.cells.get(usize::from(register)).map_or(Interval::ANYTHING, |&(_, value)| value)
     }
 
-    /// The whisker to which a register refers, if it is only one.
+    /// The whisker or the contour to which a register refers, if it is only one.
     pub(super) fn whisker(&self, register: Register, region: &mut Region<'_>) -> Option<usize> {
         let mut whiskers = self.whiskers(register, region);
         whiskers.next().filter(|_| whiskers.next().is_none())
@@ -181,6 +181,11 @@ impl<'m> Bounds<'m> {
                 let value = values.reduce(|[x, y], [u, v]| [x.join(u), y.join(v)]).unwrap_or([Interval::ANYTHING; 2]);
                 self.put_vector(to, value);
             }
+            Op::LoopClosed { to, .. } => {
+                // A loop depends on previous ticks.
+                region.is_partial = true;
+                self.put(to, Interval::new(0.0, 1.0));
+            }
             Op::TipAt { to, .. } | Op::ContourAt { to, .. } => {
                 // The positions of tips depend on the rig's whiskers, and the course of a contour on the object.
                 region.is_partial = true;
@@ -197,6 +202,7 @@ impl<'m> Bounds<'m> {
             | Op::JumpUnlessBoth { .. }
             | Op::Jump { .. }
             | Op::Record { .. }
+            | Op::RecordPosition { .. }
             | Op::Mark { .. }
             | Op::SteerBodyFacing { .. }
             | Op::SteerBodyTurning { .. }
@@ -277,9 +283,11 @@ impl<'m> Bounds<'m> {
         Some(())
     }
 
-    /// The whiskers to which a register can refer.
+    /// The whiskers or contours to which a register can refer.
     fn whiskers(&self, register: Register, region: &mut Region<'_>) -> impl Iterator<Item = usize> + use<> {
         let range = self.at(register, region);
-        (0..self.model.program.whiskers.len()).filter(move |&index| (range.low..=range.high).contains(&(index as f64)))
+        let program = self.model.program;
+        (0..program.whiskers.len() + program.contours.len())
+            .filter(move |&index| (range.low..=range.high).contains(&(index as f64)))
     }
 }

@@ -84,7 +84,7 @@ pub(super) fn immediate_cycles<'a>(model: &'a Model<'_>) -> Vec<Vec<Step<'a>>> {
 /// The goals for a transition to be taken in a state: its guard holds, and no preceding transition prevents it.
 ///
 /// All preceding transitions of its own state must fail. Those of outer states must fail if they would be taken. A
-/// transition whose target is already active pre-empts the later ones of its state, except failures.
+/// transition whose target is already active pre-empts the later ones of its state, except those that end the run.
 pub(super) fn goals<'a>(model: &Model<'a>, (state, edge): Step<'a>) -> Vec<Goal<'a>> {
     let mut goals: Vec<Goal<'_>> = edge.condition().map(Goal::holds).into_iter().collect();
     let before = model.tried_before(edge, state);

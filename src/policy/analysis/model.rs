@@ -68,7 +68,7 @@ impl<'a> Edge<'a> {
         self.guard_span().to(self.written.target.span)
     }
 
-    /// The target state. `None` for a failure.
+    /// The target state. `None` for the end of the run.
     pub(super) fn leads_to(&self) -> Option<usize> {
         leads_to(self.target)
     }
@@ -88,17 +88,17 @@ impl<'a> Edge<'a> {
 }
 
 impl Node<'_> {
-    /// The targets of the state's own transitions and of its fallback transition. `None` is a failure.
+    /// The targets of the state's own transitions and of its fallback transition. `None` is the end of the run.
     pub(super) fn exits(&self) -> impl Iterator<Item = Option<usize>> {
         self.edges.iter().map(Edge::leads_to).chain(self.failsafe.map(leads_to))
     }
 }
 
-/// The state of a target. `None` for a failure.
+/// The state of a target. `None` for the end of the run.
 fn leads_to(target: &machine::Target) -> Option<usize> {
     match target {
         machine::Target::State { state, .. } => Some(*state),
-        machine::Target::Failure(_) => None,
+        machine::Target::Failure(_) | machine::Target::Success(_) => None,
     }
 }
 
@@ -158,7 +158,7 @@ impl<'a> Model<'a> {
     }
 
     /// The innermost state that a transition enters while `innermost` is the innermost active state, or the state that
-    /// it resumes. `None` for a failure, and if the target is already active.
+    /// it resumes. `None` for the end of the run, and if the target is already active.
     pub(super) fn leads_to_one(&self, edge: &Edge<'_>, innermost: usize) -> Option<usize> {
         if edge.leads_to().is_some_and(|state| self.program.is_target_active(edge.from, state, innermost)) {
             return None;
@@ -166,7 +166,7 @@ impl<'a> Model<'a> {
         self.begins_in(edge.target)
     }
 
-    /// The innermost state that a target enters, or the state that it resumes. `None` for a failure.
+    /// The innermost state that a target enters, or the state that it resumes. `None` for the end of the run.
     pub(super) fn begins_in(&self, target: &machine::Target) -> Option<usize> {
         let machine::Target::State { state, resume, .. } = *target else { return None };
         let inner = |&state: &usize| self.program.states[state].initial.as_ref().map(|&(inner, _)| inner);
@@ -210,13 +210,17 @@ impl<'a> Model<'a> {
         let values = self.flow.values(self.program, register);
         Some(match (values, self.named(register).map(|named| named.r#type)) {
             (Some(values), _) => Domain::Values(values),
-            (None, Some(Type::Whisker | Type::Contour)) => {
-                Domain::Values((0..self.program.whiskers.len()).map(|index| index as f64).collect())
-            }
+            (None, Some(Type::Whisker)) => indices(self.program.whiskers.len()),
+            (None, Some(Type::Contour)) => indices(self.program.whiskers.len() + self.program.contours.len()),
             (None, Some(Type::Truth)) => Domain::Values(vec![0.0, 1.0]),
             (None, _) => Domain::Range(Interval::ANYTHING),
         })
     }
+}
+
+/// The domain of an index into so many things.
+fn indices(count: usize) -> Domain {
+    Domain::Values((0..count).map(|index| index as f64).collect())
 }
 
 fn edges<'a>(

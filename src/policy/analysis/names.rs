@@ -72,6 +72,8 @@ impl<'a> Names<'a> {
                     self.used.insert(&law.text);
                     self.expressions(values);
                 }
+                // A contour that is only recorded is not used.
+                Statement::RecordPosition { position, .. } => self.expression(position),
                 Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
                 Statement::Steer(steer) => {
                     self.expressions(&steer.whisker);

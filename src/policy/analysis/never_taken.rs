@@ -60,7 +60,7 @@ pub(super) fn report_never_taken(
 /// True if a transition, of the same state or of an outer one, is taken before another whenever both are due.
 ///
 /// A transition with an already active target is not taken again. One of an outer state then does not precede, and one
-/// of the same state does not precede a failure.
+/// of the same state does not precede an end of the run.
 pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     if edge.leads_to().is_none() && before.from == edge.from && !leaves(program, before) {
         return false;

@@ -13,7 +13,7 @@ use super::search::{Goal, Search};
 /// Global transitions and those of outer states precede all of `edges`. Those of outer states monitor their inner
 /// states on purpose.
 ///
-/// There is no warning if the first transition leads to a failure, because limits are deliberately checked first. There
+/// There is no warning if the first transition ends the run, because limits are deliberately checked first. There
 /// is none if both have the same target, or if the second guard holds wherever the first does. Points at which a third
 /// transition precedes both do not count.
 pub(super) fn overlap(
@@ -59,7 +59,7 @@ fn is_watch(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     before.from != edge.from && (before.from.is_some() || !comes_first(program, before, edge))
 }
 
-/// True if two transitions have the same target with the same values, as far as names show, or both are failures.
+/// True if two transitions have the same target with the same values, as far as names show, or both end the run.
 fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
     let same_value = |(a, b): (&Expression, &Expression)| match (&a.kind, &b.kind) {
         (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,

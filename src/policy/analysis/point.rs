@@ -173,10 +173,17 @@ impl Senses for Point {
         Vector2::new(f64::NAN, f64::NAN)
     }
 
+    fn loop_closed(&self, _: usize, _: f64, _: f64) -> bool {
+        // As for `tip_at`.
+        false
+    }
+
     fn contour_at(&self, _: usize, _: f64, _: ContourVector) -> Vector2 {
         // As for `tip_at`.
         Vector2::new(f64::NAN, f64::NAN)
     }
 
     fn record(&mut self, _: usize) {}
+
+    fn record_position(&mut self, _: usize, _: Vector2) {}
 }

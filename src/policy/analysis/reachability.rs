@@ -1,4 +1,4 @@
-//! Reachability: states that cannot be reached or left, and states that cannot lead to a failure.
+//! Reachability: states that cannot be reached or left, and states that cannot lead to the end of the run.
 
 use crate::diagnostic::Diagnostic;
 
@@ -51,8 +51,8 @@ pub(super) fn unreachable(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
 
 /// Warns about states that a run cannot leave, and about those from which it cannot fail.
 pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
-    let fails = |edge: &&Edge<'_>| edge.leads_to().is_none();
-    if model.always.iter().any(|edge| fails(&edge)) {
+    let ends = |edge: &&Edge<'_>| edge.leads_to().is_none();
+    if model.always.iter().any(|edge| ends(&edge)) {
         return;
     }
     let program = model.program;
@@ -62,14 +62,14 @@ pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
     if pairs.sum::<usize>() > PAIR_LIMIT {
         return;
     }
-    // A backward search from the failures. A state that is resumed may continue in any of its inner states.
+    // A backward search from the ends of the run. A state that is resumed may continue in any of its inner states.
     let mut sources: Vec<Vec<usize>> = vec![Vec::new(); model.states.len()];
     let (mut is_left, mut open) = (vec![false; model.states.len()], Vec::new());
     for (index, node) in model.innermost() {
         let edges = model.active_edges(index);
-        let can_fail = edges.iter().any(fails) || node.exits().any(|target| target.is_none());
-        open.extend(can_fail.then_some(index));
-        program.outward(index).for_each(|state| is_left[state] |= can_fail);
+        let can_end = edges.iter().any(ends) || node.exits().any(|target| target.is_none());
+        open.extend(can_end.then_some(index));
+        program.outward(index).for_each(|state| is_left[state] |= can_end);
         let failsafe = node.failsafe.and_then(|target| model.begins_in(target));
         let led = edges.into_iter().chain(&model.always).filter_map(|edge| model.leads_to_one(edge, index));
         for target in led.chain(failsafe) {
@@ -79,12 +79,12 @@ pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
             program.outward(index).for_each(|state| is_left[state] |= leads_out(state));
         }
     }
-    let has_failure = !open.is_empty();
-    let mut fallible = vec![false; model.states.len()];
+    let has_end = !open.is_empty();
+    let mut ending = vec![false; model.states.len()];
     while let Some(innermost) = open.pop() {
         // An outer state can be left if one of its inner states can.
         for state in program.outward(innermost) {
-            if !std::mem::replace(&mut fallible[state], true) {
+            if !std::mem::replace(&mut ending[state], true) {
                 open.extend(&sources[state]);
             }
         }
@@ -100,19 +100,19 @@ pub(super) fn without_exit(model: &Model<'_>, warnings: &mut Vec<Diagnostic>) {
             warnings.push(Diagnostic::warning("P0502", message, state.name.span, "no transition leaves it").hint(
                 "write a transition, such as `after 60 s -> Failure(\"nothing more to do\")`, or an `always` rule",
             ));
-        } else if has_failure && !fallible[index] && !reported[index] {
+        } else if has_end && !ending[index] && !reported[index] {
             reported[index] = true;
-            let message = format!("the state `{name}` cannot reach `Failure`");
-            warnings.push(no_failure(message, state.name.span));
+            let message = format!("the state `{name}` cannot reach `Failure` or `Success`");
+            warnings.push(no_end(message, state.name.span));
         }
     }
-    if !has_failure && !warnings.iter().any(|warning| warning.code == "P0502") {
-        let message = "no state can reach `Failure`".to_owned();
-        warnings.push(no_failure(message, model.file.name.span));
+    if !has_end && !warnings.iter().any(|warning| warning.code == "P0502") {
+        let message = "no state can reach `Failure` or `Success`".to_owned();
+        warnings.push(no_end(message, model.file.name.span));
     }
 }
 
-fn no_failure(message: String, span: crate::diagnostic::Span) -> Diagnostic {
-    Diagnostic::warning("P0503", message, span, "cannot end in failure")
+fn no_end(message: String, span: crate::diagnostic::Span) -> Diagnostic {
+    Diagnostic::warning("P0503", message, span, "cannot end")
         .hint("add a transition to `Failure`, such as `always when time > 300 s -> Failure(\"it takes too long\")`")
 }

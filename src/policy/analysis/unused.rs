@@ -87,9 +87,10 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     }
     let parameters = file.parameters.iter().map(|parameter| ("P0504", "parameter", &parameter.name));
     let whiskers = file.whiskers.iter().map(|whisker| ("P0505", "whisker", whisker));
+    let contours = file.contours.iter().map(|contour| ("P0505", "contour", &contour.name));
     let laws = file.laws.iter().map(|law| ("P0506", "law", &law.name));
     let derived = file.derived.iter().map(|derived| ("P0506", "derived value", &derived.name));
-    for (code, kind, name) in parameters.chain(whiskers).chain(laws).chain(derived) {
+    for (code, kind, name) in parameters.chain(whiskers).chain(contours).chain(laws).chain(derived) {
         if !used.has(&name.text) {
             warnings.push(never_used(code, kind, name, "use it or leave it out"));
         }

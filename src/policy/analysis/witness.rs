@@ -136,7 +136,7 @@ fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
             continue;
         }
         let shown = match named.r#type {
-            Type::Whisker | Type::Contour => whisker_name(model.program, value).to_owned(),
+            Type::Whisker | Type::Contour => index_name(model.program, value).to_owned(),
             Type::Vector(_) => {
                 let part = |register| point.value(Unknown::Register(register));
                 show(named.r#type, [part(named.first), part(named.first + 1)])
@@ -151,10 +151,10 @@ fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
     words
 }
 
-fn whisker_name(program: &Program, index: f64) -> &str {
-    let names = program.whiskers.iter().enumerate();
-    let mut names = names.filter(|&(known, _)| (known as f64 - index).abs() < 0.5);
-    names.next().map_or("?", |(_, name)| name)
+fn index_name(program: &Program, index: f64) -> &str {
+    let count = program.whiskers.len() + program.contours.len();
+    let known = (0..count).find(|&known| (known as f64 - index).abs() < 0.5);
+    known.and_then(|index| program.contour_name(index)).unwrap_or("?")
 }
 
 /// A number as text that can be read back exactly. It has a suitable unit if the digits suffice.
@@ -187,8 +187,10 @@ fn reading_text(program: &Program, point: &Point, reading: Reading) -> Option<St
             (Some(whisker), MemberSource::Vector(quantity), point.whisker_vector(whisker, quantity).into())
         }
     };
-    let owner = whisker.map_or(String::new(), |whisker| format!("{}.", whisker_name(program, whisker as f64)));
+    let owner = whisker.map_or(String::new(), |whisker| format!("{}.", index_name(program, whisker as f64)));
     let (prefix, member) = member(source)?;
+    // A contour of positions belongs to no whisker.
+    let prefix = if whisker.is_some_and(|index| index >= program.whiskers.len()) { "" } else { prefix };
     let is_number = value.iter().all(|part| part.is_finite());
     is_number.then(|| format!("{owner}{prefix}{} = {}", member.name, show(member.r#type, value)))
 }

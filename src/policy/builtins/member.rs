@@ -11,7 +11,7 @@ pub(in crate::policy) struct Member {
     pub(in crate::policy) name: &'static str,
     pub(in crate::policy) r#type: Type,
     pub(in crate::policy) source: MemberSource,
-    /// The vector that the member returns for an argument, if it takes one.
+    /// The value that the member returns for arguments, if it takes some.
     pub(in crate::policy) at: Option<At>,
     /// The meaning, for hover texts and the reference page.
     pub(in crate::policy) meaning: &'static str,
@@ -26,7 +26,7 @@ pub(in crate::policy) enum MemberSource {
     Contour,
     Body(BodyScalar),
     BodyPosition,
-    /// Only with an argument.
+    /// Only with arguments.
     At,
     Run(RunFigure),
     /// Number of entries of a state, which is the argument.
@@ -35,21 +35,24 @@ pub(in crate::policy) enum MemberSource {
     TimeIn,
 }
 
-/// A vector that a member returns for an argument.
+/// A value that a member returns for arguments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::policy) enum At {
     /// Position of the tip at a base angle.
     Tip,
     /// A vector of the contour at a distance from its newest end.
     Contour(ContourVector),
+    /// True if a loop is closed within a distance, after a time.
+    LoopClosed,
 }
 
 impl At {
-    /// The name of the argument, its type, and an example.
-    pub(in crate::policy) fn takes(self) -> (&'static str, Type, &'static str) {
+    /// The names of the arguments, their types, and examples.
+    pub(in crate::policy) fn takes(self) -> &'static [(&'static str, Type, &'static str)] {
         match self {
-            Self::Tip => ("base angle", Type::ANGLE, "300 urad"),
-            Self::Contour(_) => ("distance behind the end", Type::LENGTH, "5 mm"),
+            Self::Tip => &[("base angle", Type::ANGLE, "300 urad")],
+            Self::Contour(_) => &[("distance behind the end", Type::LENGTH, "5 mm")],
+            Self::LoopClosed => &[("largest distance", Type::LENGTH, "5 mm"), ("least time", Type::TIME, "5 s")],
         }
     }
 }
@@ -66,7 +69,7 @@ const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static
     member(name, Type::POSITION, MemberSource::Vector(quantity), meaning)
 }
 
-const WHISKER: [Member; 13] = [
+const WHISKER: [Member; 14] = [
     scalar(
         "deflection",
         Type::ANGLE,
@@ -121,6 +124,15 @@ const WHISKER: [Member; 13] = [
             "the position of the tip at a given base angle, relative to the base",
         )
     },
+    Member {
+        at: Some(At::LoopClosed),
+        ..member(
+            "loop_closed",
+            Type::Truth,
+            MemberSource::At,
+            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around",
+        )
+    },
     member(
         "contour",
         Type::Contour,
@@ -134,7 +146,7 @@ const CONTOUR: [Member; 6] = [
         "ready",
         Type::Truth,
         WhiskerScalar::ContourReady,
-        "true if a point was recorded in this tick or the one before, and there are seven points with at least a millimetre between them. The curve is fitted to the newest seven",
+        "true if a point was recorded in this tick or the one before, and there are enough points for a curve: seven, unless the policy states another number",
     ),
     Member {
         at: Some(At::Contour(ContourVector::Tangent)),
@@ -151,7 +163,7 @@ const CONTOUR: [Member; 6] = [
             "normal",
             Type::Vector(Dimension::NUMBER),
             MemberSource::Vector(WhiskerVector::ContourNormal),
-            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded",
+            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded. A contour of positions has it on the left",
         )
     },
     position("end", WhiskerVector::ContourEnd, "the newest point of the contour"),

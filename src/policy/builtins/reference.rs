@@ -153,6 +153,7 @@ fn value(at: At) -> &'static str {
     match at {
         At::Tip => "base_angle",
         At::Contour(_) => "back",
+        At::LoopClosed => "within, after",
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::diagnostic::{Source, Span};
 use crate::policy::ast::{self, File};
+use crate::policy::lower::SUCCESS;
 
 use super::{Argument, Chart, Guard, Origin, State, Target, Transition};
 
@@ -85,6 +86,9 @@ impl Builder<'_> {
 
     fn target(&self, target: &ast::Target) -> Option<Target> {
         Some(match target {
+            ast::Target { text: Some(reason), name, .. } if name.text == SUCCESS => {
+                Target::Success(reason.text.clone())
+            }
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
             ast::Target { resume, outer, name, values, .. } => {
                 let outer = outer

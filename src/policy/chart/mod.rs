@@ -45,6 +45,12 @@ impl Chart {
     pub fn has_failure(&self) -> bool {
         self.transitions.iter().any(|transition| matches!(transition.target, Target::Failure(_)))
     }
+
+    /// True if a transition leads to success.
+    #[must_use]
+    pub fn has_success(&self) -> bool {
+        self.transitions.iter().any(|transition| matches!(transition.target, Target::Success(_)))
+    }
 }
 
 /// A state.
@@ -130,4 +136,6 @@ pub enum Target {
     },
     /// The end of the run as a failure, with this reason.
     Failure(String),
+    /// The end of the run as a success, with this reason.
+    Success(String),
 }

@@ -108,7 +108,7 @@ impl Selection<'_> {
         }
     }
 
-    /// The visible ends of a transition, if it is visible. An end is a state, or `None` for every state or for failure.
+    /// The visible ends of a transition, if it is visible. An end is a state, or `None` for every state or for the end of the run.
     fn shown<'t>(&self, transition: &'t Transition) -> Option<(&'t Transition, Option<usize>, Option<usize>)> {
         let from = match transition.origin {
             Origin::AnyState if self.root.is_some() => return None,

@@ -59,6 +59,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
             '#' => (Kind::Comment, rest.find('\n').unwrap_or(rest.len())),
             '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
             '0'..='9' => (Kind::Number, number(rest)),
+            _ if let Some(length) = word_of_contour(rest, &tokens) => (Kind::Keyword, length),
             _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
             _ if is_family_due(&tokens) && is_word(first) => (Kind::Name, family(rest)),
             _ if is_word(first) => {
@@ -77,6 +78,26 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
         let line_ends = blanks.bytes().filter(|&blank| blank == b'\n').count();
         tokens.push(Token { kind, text, start, apart: !blanks.is_empty(), line_ends });
     }
+}
+
+/// Length of a word of a contour's declaration at the beginning of `text`, which is a name anywhere else: `contour`
+/// before a name or `of`, `points` after a number behind `of`, `apart` after a unit.
+fn word_of_contour(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
+    let word = text.split(|letter| !is_word(letter)).next().unwrap_or_default();
+    let mut before = tokens.iter().rev().filter(|token| token.kind != Kind::Comment);
+    let is_word = match (word, before.next()) {
+        ("contour", Some(last)) if !last.is(".") && !last.is(":") => {
+            let next = text[word.len()..].trim_start().split(|letter| !is_word(letter)).next().unwrap_or_default();
+            next == "of"
+                || next.starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && !is_keyword(next)
+        }
+        ("points", Some(last)) => {
+            last.kind == Kind::Number && before.next().is_some_and(|of| of.kind == Kind::Keyword && of.text == "of")
+        }
+        ("apart", Some(last)) => last.kind == Kind::Unit,
+        _ => false,
+    };
+    is_word.then_some(word.len())
 }
 
 /// True if the next word is the name of a family: after `property "title" over`.

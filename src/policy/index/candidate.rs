@@ -99,6 +99,7 @@ impl Index {
                 states.map(|state| Candidate { snippet: state.name.clone(), ..self.symbol(state) }).collect()
             }
             Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
+            Expected::Contour => of_kind(&[SymbolKind::Contour]).collect(),
             Expected::Mark => keywords_at(Position::Mark).map(of_keyword).collect(),
             Expected::Need => keywords_at(Position::Need).map(of_keyword).collect(),
             Expected::TipModel => keywords_at(Position::TipModel).map(of_keyword).collect(),
@@ -209,17 +210,19 @@ pub(super) fn of_keyword(word: &'static Keyword) -> Candidate {
 
 fn members(owner: Type) -> impl Iterator<Item = Candidate> {
     builtins::members(owner).iter().map(move |member| {
-        let value = match (member.source, member.at) {
-            (MemberSource::At, Some(at)) => Some(at.takes().0),
-            (MemberSource::Visits | MemberSource::TimeIn, _) => Some("State"),
-            _ => None,
+        let values: Vec<&str> = match (member.source, member.at) {
+            (MemberSource::At, Some(at)) => at.takes().iter().map(|&(value, ..)| value).collect(),
+            (MemberSource::Visits | MemberSource::TimeIn, _) => vec!["State"],
+            _ => Vec::new(),
         };
+        let fields = (1..).zip(values).map(|(number, value)| format!("${{{number}:{value}}}"));
+        let fields = fields.collect::<Vec<_>>().join(", ");
         Candidate {
             label: member.name.to_owned(),
             kind: CandidateKind::Member,
             detail: member.r#type.to_string(),
             meaning: member.meaning.to_owned(),
-            snippet: value.map_or_else(|| member.name.to_owned(), |value| format!("{}(${{1:{value}}})", member.name)),
+            snippet: if fields.is_empty() { member.name.to_owned() } else { format!("{}({fields})", member.name) },
         }
     })
 }

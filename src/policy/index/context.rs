@@ -27,6 +27,8 @@ pub(super) enum Expected {
     Parameter,
     /// The kind of a mark.
     Mark,
+    /// A contour of positions.
+    Contour,
     /// A rate or an age after `needs`.
     Need,
     TipModel,
@@ -177,6 +179,7 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "|") if closes_a_norm(statement) => more(statement, level),
         (TokenKind::Mark, _) => Expected::Value,
         // A unit is on the same line as its number.
+        (TokenKind::Number, _) if head == Some("contour") && behind(known, 1) == Some("of") => Expected::Only("points"),
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
         (TokenKind::Name, "lost" | "found") if behind(known, 1) == Some("mark") => Expected::Value,
@@ -197,7 +200,10 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
 }
 
 fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
+    let head = statement.first().map(|token| token.text);
     match word {
+        "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
+        "in" if head == Some("record") => Expected::Contour,
         "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
         | "test" | "property" => Expected::Nothing,
         "initial" => Expected::Initial,
@@ -213,8 +219,8 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "of" => Expected::Dimension,
         "always" => Expected::Only("when"),
         "else" => Expected::Only("if"),
-        "if" if statement.first().is_some_and(|token| token.text == "whisker") => Expected::Only("fitted"),
-        "true" | "false" | "body" | "hold" | "stop" => more(statement, level),
+        "if" if head == Some("whisker") => Expected::Only("fitted"),
+        "true" | "false" | "body" | "hold" | "stop" | "apart" => more(statement, level),
         _ => Expected::Value,
     }
 }
@@ -254,7 +260,9 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("when" | "always") if !has("->") && has("for") => &["->"],
         Some("when" | "always") if !has("->") => &["for", "->", "and", "or"],
         Some("after") if !has("->") => &["->"],
-        Some("param" | "needs") if !has("in") => &["in"],
+        Some("param" | "needs" | "record") if !has("in") => &["in"],
+        Some("contour") if !has("of") => &["of"],
+        Some("contour") if !has("apart") => &["apart"],
         Some("if") if has("}") => &["else"],
         Some("set") if level == Level::Test => &[],
         Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],

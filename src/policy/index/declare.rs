@@ -120,6 +120,7 @@ impl<'t> Declared<'t> {
             "state" => SymbolKind::State,
             "var" => SymbolKind::Memory,
             "whisker" => SymbolKind::Whisker,
+            "contour" => SymbolKind::Contour,
             "let" if outside => SymbolKind::Derived,
             "let" => SymbolKind::Local,
             _ => return,
@@ -143,7 +144,11 @@ impl<'t> Declared<'t> {
     fn declare(&mut self, tokens: &[Token<'t>], name: usize, start: usize, kind: SymbolKind) -> usize {
         let token = tokens[name];
         let span = span_of(token);
-        let is_whisker = kind == SymbolKind::Whisker;
+        let r#type = match kind {
+            SymbolKind::Whisker => Some(Type::Whisker),
+            SymbolKind::Contour => Some(Type::Contour),
+            _ => None,
+        };
         let index = self.symbols.len();
         let owner = self.frames.iter().rev().find_map(|frame| frame.owner);
         self.symbols.push(Symbol {
@@ -154,7 +159,7 @@ impl<'t> Declared<'t> {
             arguments: Vec::new(),
             owner,
             visible: span,
-            r#type: is_whisker.then_some(Type::Whisker),
+            r#type,
         });
         if let Some(frame) = self.frame() {
             frame.pending.push(index);

@@ -123,7 +123,10 @@ fn unit_line(unit: &str, dimension: Dimension) -> String {
 /// The notations of a member.
 fn usages(owner: Type, member: &Member) -> Vec<String> {
     let plain = format!("{}.{}", owner_name(owner), member.name);
-    let with_value = member.at.map(|at| format!("{plain}({})", at.takes().0));
+    let with_value = member.at.map(|at| {
+        let values: Vec<&str> = at.takes().iter().map(|&(value, ..)| value).collect();
+        format!("{plain}({})", values.join(", "))
+    });
     match member.source {
         MemberSource::At => with_value.into_iter().collect(),
         MemberSource::Visits | MemberSource::TimeIn => vec![format!("{plain}(State)")],

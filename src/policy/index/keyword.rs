@@ -89,7 +89,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 61] = [
+pub(super) const KEYWORDS: [Keyword; 65] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -116,6 +116,14 @@ pub(super) const KEYWORDS: [Keyword; 61] = [
         "fitted",
         "After `whisker a if`: these whiskers are optional. A missing whisker never touches, and its `a.fitted` is false.",
     ),
+    entry(
+        "contour",
+        ITEM,
+        "contour ${1:middle} of ${2:7} points ${3:5 mm} apart",
+        "A contour of positions, fed by `record position in name`. Without a name, the keypoints of the contours of all whiskers.",
+    ),
+    entry("points", INSIDE, "points", "The number of the newest points to which the curve of a contour is fitted."),
+    entry("apart", INSIDE, "apart", "The minimum distance between two points of a contour."),
     entry(
         "needs",
         ITEM,
@@ -220,7 +228,7 @@ pub(super) const KEYWORDS: [Keyword; 61] = [
         "record",
         STATEMENT,
         "record ${1:w}",
-        "Records the tip of a whisker in contact as a point of the estimated contour.",
+        "Records the tip of a whisker in contact as a point of the estimated contour. With `in`, records a position in a contour of positions.",
     ),
     entry(
         "mark",
@@ -242,9 +250,14 @@ pub(super) const KEYWORDS: [Keyword; 61] = [
         "in",
         INSIDE,
         "in ${1:low} .. ${2:high}",
-        "The range of a parameter or a need. In a test, the file of the scenario.",
+        "The range of a parameter or a need. In a test, the file of the scenario. After `record`, a contour of positions.",
     ),
-    entry("of", INSIDE, "of ${1:length}", "The dimension of a vector's components."),
+    entry(
+        "of",
+        INSIDE,
+        "of ${1:length}",
+        "The dimension of a vector's components. In a contour, the number of its points.",
+    ),
     entry("along", INSIDE, "along ${1:direction}", "The direction of the motion, a vector of any length."),
     entry("at", INSIDE, "at ${1:speed}", "The speed of the motion."),
     entry("facing", INSIDE, "facing ${1:angle}", "The heading to which the body rotates, in the shorter direction."),
@@ -310,6 +323,7 @@ pub(super) const KEYWORDS: [Keyword; 61] = [
     ),
     entry("lost", MARK, "lost", "The whisker has lost the contour at an edge."),
     entry("found", MARK, "found", "The whisker has found contact again."),
+    entry("Success", TARGET, "Success(\"${1:reason}\")", "Ends the run as completed. The platform stops."),
     entry("Failure", TARGET, "Failure(\"${1:reason}\")", "Ends the run as failed. The platform stops."),
 ];
 

@@ -13,6 +13,8 @@ pub enum SymbolKind {
     Machine,
     /// A whisker of the rig.
     Whisker,
+    /// A contour of positions.
+    Contour,
     /// A parameter.
     Parameter,
     /// A derived value.

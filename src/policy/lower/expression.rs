@@ -198,18 +198,34 @@ impl<'f> Compiler<'f> {
     ) -> Option<Value> {
         let whisker = owner.register;
         let register = match (member.source, member.at, values) {
-            (_, Some(at), Some([value])) => {
-                let a = self.expect(scope, value, at.takes().1)?.register;
-                self.code.vector(|to| match at {
-                    At::Tip => Op::TipAt { to, whisker, a },
-                    At::Contour(quantity) => Op::ContourAt { to, whisker, a, quantity },
-                })
+            (_, Some(at), Some(values)) if values.len() == at.takes().len() => {
+                let values = values.iter().zip(at.takes()).map(|(value, &(_, r#type, _))| {
+                    // An error in one value does not hide those in the others.
+                    self.expect(scope, value, r#type).map(|value| value.register)
+                });
+                match (at, values.collect::<Vec<_>>().as_slice()) {
+                    (At::Tip, &[Some(a)]) => self.code.vector(|to| Op::TipAt { to, whisker, a }),
+                    (At::Contour(quantity), &[Some(a)]) => {
+                        self.code.vector(|to| Op::ContourAt { to, contour: whisker, a, quantity })
+                    }
+                    (At::LoopClosed, &[Some(a), Some(b)]) => {
+                        self.code.scalar(|to| Op::LoopClosed { to, whisker, a, b })
+                    }
+                    _ => return None,
+                }
             }
             (source, Some(at), given) if given.is_some() || source == MemberSource::At => {
-                let (value, _, example) = at.takes();
-                let message = format!("`{}` needs one value, the {value}", name.text);
-                let diagnostic = Diagnostic::error("P0304", message, name.span, format!("which {value}?"));
-                self.report(diagnostic.hint(format!("write `{}({example})`", name.text)));
+                let list = |part: fn(&(&'static str, Type, &'static str)) -> &'static str, separator| {
+                    at.takes().iter().map(part).collect::<Vec<_>>().join(separator)
+                };
+                let (needed, examples) = (list(|&(name, ..)| name, " and the "), list(|&(.., example)| example, ", "));
+                let (count, label) = match at.takes() {
+                    [_] => ("one value", format!("which {needed}?")),
+                    _ => ("two values", "which values?".to_owned()),
+                };
+                let message = format!("`{}` needs {count}, the {needed}", name.text);
+                let diagnostic = Diagnostic::error("P0304", message, name.span, label);
+                self.report(diagnostic.hint(format!("write `{}({examples})`", name.text)));
                 return None;
             }
             (MemberSource::Visits, ..) => self.run_of_state(RunFigure::Visits, name, values)?,

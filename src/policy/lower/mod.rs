@@ -4,6 +4,7 @@
 //! arguments. Its errors are reported there, and not again where it is used.
 
 mod code;
+mod contour;
 mod expression;
 mod function;
 mod hierarchy;
@@ -34,6 +35,7 @@ use names::Names;
 use scope::{Meaning, Scope};
 
 pub(super) use scope::is_reserved;
+pub(super) use structure::SUCCESS;
 
 /// A program, and the further results of lowering.
 pub(super) struct Lowered {

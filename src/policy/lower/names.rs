@@ -17,8 +17,10 @@ pub(super) struct Names<'f> {
     pub(super) items: HashMap<&'f str, Span>,
     /// Names of the machine's memory, which laws and derived values do not know.
     pub(super) memory: HashSet<&'f str>,
-    /// Parameters and whiskers.
+    /// Parameters, whiskers and contours.
     pub(super) globals: HashMap<&'f str, Meaning>,
+    /// Contours of positions, by their indices among these.
+    pub(super) contours: HashMap<&'f str, u16>,
     /// Derived values and laws, each with the number of its file.
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
@@ -72,7 +74,17 @@ impl<'f> Compiler<'f> {
         let laws = file.laws.iter().map(|law| &law.name);
         let states = file.states.iter().map(|state| &state.name);
         let memory = file.memory.iter().map(|(name, _)| name);
-        for name in file.whiskers.iter().chain(parameters).chain(derived).chain(laws).chain(states).chain(memory) {
+        let contours = file.contours.iter().map(|contour| &contour.name);
+        for name in file
+            .whiskers
+            .iter()
+            .chain(contours)
+            .chain(parameters)
+            .chain(derived)
+            .chain(laws)
+            .chain(states)
+            .chain(memory)
+        {
             if is_reserved(&name.text) {
                 self.report(reserved(name));
             } else if let Some(&before) = self.names().items.get(name.text.as_str()) {

@@ -11,6 +11,7 @@ use vibrissa_runtime::units::parse_unit;
 use vibrissa_runtime::units::suggest;
 
 use super::Compiler;
+use super::structure::{FAILURE, SUCCESS};
 
 /// The meaning of a name: a value, or `None` if the value has an error that has been reported.
 pub(super) type Meaning = Option<Value>;
@@ -150,7 +151,7 @@ pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Dia
 
 /// True if the language reserves a name.
 pub(in crate::policy) fn is_reserved(name: &str) -> bool {
-    builtins::function(name).is_some() || ["time", "run", super::structure::FAILURE].contains(&name)
+    builtins::function(name).is_some() || ["time", "run", FAILURE, SUCCESS].contains(&name)
 }
 
 /// The diagnostic for a reserved name.

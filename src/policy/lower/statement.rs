@@ -37,11 +37,26 @@ impl<'f> Compiler<'f> {
                 let whisker = self.expect(scope, whisker, Type::Whisker)?.register;
                 self.code.push(Op::Record { whisker });
             }
+            Statement::RecordPosition { position, contour } => self.record_position(scope, position, contour)?,
             Statement::Mark { name, whisker } => self.mark(scope, name, whisker)?,
             Statement::Steer(steer) => self.steer(scope, steer)?,
             Statement::Hold(span) => self.command(*span, Op::Hold)?,
             Statement::Stop(span) => self.command(*span, Op::Stop)?,
         }
+        Some(())
+    }
+
+    fn record_position(&mut self, scope: &Scope<'f>, position: &'f Expression, contour: &Name) -> Option<()> {
+        let position = self.expect(scope, position, Type::POSITION);
+        let Some(&contour) = self.names().contours.get(contour.text.as_str()) else {
+            let message = format!("there is no contour `{}`", contour.text);
+            let diagnostic = Diagnostic::error("P0201", message, contour.span, "unknown contour");
+            let known = self.names().contours.keys().copied();
+            let hint = format!("declare it in the policy's own file: `contour {}`", contour.text);
+            self.report(did_you_mean(diagnostic, &contour.text, known).hint(hint));
+            return None;
+        };
+        self.code.push(Op::RecordPosition { contour, a: position?.register });
         Some(())
     }
 

@@ -14,8 +14,9 @@ use super::hierarchy::Hierarchy;
 use super::scope::{Meaning, Scope};
 use super::{Commandless, Compiler, StateEntry};
 
-/// The target that ends a run in failure. No state may have this name.
-pub(super) const FAILURE: &str = "Failure";
+/// The targets that end a run. No state may have these names.
+pub(in crate::policy) const FAILURE: &str = "Failure";
+pub(in crate::policy) const SUCCESS: &str = "Success";
 /// Advice for a command in `entry` or `exit`, which cannot give commands.
 const COMMAND_ADVICE: &str =
     "move it to the statements of the state, which the tick that enters the state also executes";
@@ -26,6 +27,7 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
     compiler.gather_names(files);
     let parameters = compiler.parameters(&files.main);
     compiler.whiskers(&files.main);
+    compiler.declare_contours(&files.main);
     for (number, file) in files.libraries.iter().chain([&files.main]).enumerate() {
         // The policy has the number 0 and is checked last.
         compiler.current_file = (number + 1) % (files.libraries.len() + 1);
@@ -68,6 +70,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let states = compiler.states(file, &scope, declared, &mut timers);
     let initial = compiler.initial(file);
     let contact_estimators = compiler.contact_estimators(file);
+    let (keypoints, contours) = compiler.contours(file);
     let needs = compiler.needs(file);
     compiler.check_whisker_arguments(file);
     compiler.tests(file, &parameters);
@@ -78,6 +81,8 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         whiskers: file.whiskers.iter().map(|whisker| whisker.text.clone()).collect(),
         contact_estimators,
         optional: file.optional.clone(),
+        keypoints,
+        contours,
         needs,
         parameters,
         states,

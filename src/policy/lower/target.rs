@@ -11,7 +11,7 @@ use vibrissa_runtime::machine::{self, Block};
 
 use super::function::count;
 use super::scope::{Meaning, Scope};
-use super::structure::FAILURE;
+use super::structure::{FAILURE, SUCCESS};
 use super::{Compiler, StateEntry};
 
 /// The values for a state, and its arguments.
@@ -25,12 +25,16 @@ impl<'f> Compiler<'f> {
         from: Option<usize>,
         target: &'f Target,
     ) -> Option<machine::Target> {
-        if target.name.text == FAILURE && target.outer.is_empty() && target.resume.is_none() {
+        let end = [(FAILURE, "what went wrong"), (SUCCESS, "what was done")];
+        let end = end.into_iter().find(|(name, _)| target.name.text == *name);
+        if let Some((name, example)) = end
+            && target.outer.is_empty()
+            && target.resume.is_none()
+        {
             let Some(reason) = &target.text else {
-                self.report(
-                    Diagnostic::error("P0304", "`Failure` needs a reason", target.span, "without a reason")
-                        .hint("write `Failure(\"what went wrong\")`"),
-                );
+                let message = format!("`{name}` needs a reason");
+                let diagnostic = Diagnostic::error("P0304", message, target.span, "without a reason");
+                self.report(diagnostic.hint(format!("write `{name}(\"{example}\")`")));
                 return None;
             };
             if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
@@ -41,12 +45,17 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.hint("write a space instead, or leave it out"));
                 return None;
             }
-            return Some(machine::Target::Failure(Arc::from(reason.text.as_str())));
+            let reason = Arc::from(reason.text.as_str());
+            return Some(if name == SUCCESS {
+                machine::Target::Success(reason)
+            } else {
+                machine::Target::Failure(reason)
+            });
         }
-        if target.name.text == FAILURE {
-            let message = "`Failure` is not in a state and has no history";
+        if let Some((name, example)) = end {
+            let message = format!("`{name}` is not in a state and has no history");
             let diagnostic = Diagnostic::error("P0408", message, target.span, "ends the run in any state");
-            self.report(diagnostic.hint("write `Failure(\"what went wrong\")` alone"));
+            self.report(diagnostic.hint(format!("write `{name}(\"{example}\")` alone")));
             return None;
         }
         let Some(StateEntry { index: state, arguments }) = self.states.get(target.name.text.as_str()).cloned() else {
@@ -59,7 +68,8 @@ impl<'f> Compiler<'f> {
         };
         if let Some(text) = &target.text {
             let message = format!("the state `{}` takes no reason", target.name.text);
-            let diagnostic = Diagnostic::error("P0304", message, text.span, "only `Failure` takes a reason");
+            let diagnostic =
+                Diagnostic::error("P0304", message, text.span, "only `Failure` and `Success` take a reason");
             self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
             return None;
         }

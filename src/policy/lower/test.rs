@@ -144,6 +144,7 @@ fn reads_a_tick(op: &Op) -> bool {
             | Op::Whisker { .. }
             | Op::WhiskerVector { .. }
             | Op::TipAt { .. }
+            | Op::LoopClosed { .. }
             | Op::ContourAt { .. }
             | Op::LowPass { .. }
             | Op::Pid { .. }

@@ -78,7 +78,8 @@ impl KnownValues {
 
     /// The first register that an operation reads. The number of registers if it reads none.
     fn first(&self, operands: &Operands) -> usize {
-        let read = operands.whisker.map(usize::from).or_else(|| operands.reads[0].registers().next());
+        let read =
+            operands.index.map(|(_, register)| usize::from(register)).or_else(|| operands.reads[0].registers().next());
         read.unwrap_or(self.sources.len())
     }
 
@@ -86,7 +87,7 @@ impl KnownValues {
     fn with_sources(&self, mut op: Op) -> Op {
         op.visit(|role, register| {
             let source = match role {
-                Role::Read(1) | Role::Whisker => self.source(*register),
+                Role::Read(1) | Role::Index(_) => self.source(*register),
                 Role::Read(2) => {
                     self.source(*register).filter(|&x| self.source(*register + 1).is_some_and(|y| y == x + 1))
                 }
@@ -120,7 +121,7 @@ impl KnownValues {
         match op {
             Op::Copy { to, a } => self.copy(number, to, a),
             Op::CopyVector { to, a } => [0, 1].into_iter().for_each(|axis| self.copy(number, to + axis, a + axis)),
-            Op::Record { .. } => self.recorded = number,
+            Op::Record { .. } | Op::RecordPosition { .. } => self.recorded = number,
             _ => {
                 if let Some(op) = canonical {
                     let first = self.first(&operands);

@@ -83,7 +83,7 @@ impl Draft {
 fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
     let of_target = |target: &Target| match target {
         Target::State { arguments, .. } => arguments.clone(),
-        Target::Failure(_) => 0..0,
+        Target::Failure(_) | Target::Success(_) => 0..0,
     };
     let of_list = |list: &[Transition]| {
         let guards = list.first().zip(list.last());
@@ -109,7 +109,7 @@ fn blocks(program: &mut Program) -> Vec<&mut Block> {
     fn of_target(target: &mut Target) -> Option<&mut Block> {
         match target {
             Target::State { arguments, .. } => Some(arguments),
-            Target::Failure(_) => None,
+            Target::Failure(_) | Target::Success(_) => None,
         }
     }
     fn of_list(list: &mut [Transition]) -> impl Iterator<Item = &mut Block> {

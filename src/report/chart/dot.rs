@@ -1,6 +1,6 @@
 //! The chart as text for Graphviz.
 
-use super::label::{ANY_STATE, FAILURE, LINE, Label, titled};
+use super::label::{ANY_STATE, FAILURE, LINE, Label, SUCCESS, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
@@ -9,7 +9,7 @@ use crate::report::style::printable;
 const START: &str = "start of the run";
 
 /// The chart in Graphviz's language, for the layout program `dot`. The text of a transition is on its arrow. The reason
-/// of a failure, or the arguments of a state, follow a `/`.
+/// of an end, or the arguments of a state, follow a `/`.
 #[must_use]
 pub fn chart_dot(chart: &Chart) -> String {
     let mut lines = Lines::default();
@@ -23,6 +23,9 @@ pub fn chart_dot(chart: &Chart) -> String {
         if chart.has_failure() {
             lines.push(&format!("{} [peripheries=2]", quoted(FAILURE)));
         }
+        if chart.has_success() {
+            lines.push(&format!("{} [peripheries=2]", quoted(SUCCESS)));
+        }
         for (index, transition) in chart.transitions.iter().enumerate() {
             let from = match transition.origin {
                 Origin::AnyState => ANY_STATE,
@@ -31,6 +34,7 @@ pub fn chart_dot(chart: &Chart) -> String {
             let to = match &transition.target {
                 Target::State { state, .. } => &chart.states[*state].name,
                 Target::Failure(_) => FAILURE,
+                Target::Success(_) => SUCCESS,
             };
             let label = label(&Label::new(chart, index));
             lines.push(&format!("{} -> {} [label=\"{label}\"]", quoted(from), quoted(to)));

@@ -9,6 +9,9 @@ pub(super) const ANY_STATE: &str = "any state";
 /// The label of the end of a run in failure.
 pub(super) const FAILURE: &str = "Failure";
 
+/// The label of the end of a run in success.
+pub(super) const SUCCESS: &str = "Success";
+
 /// Letters in a line.
 pub(super) const LINE: usize = 40;
 
@@ -18,7 +21,7 @@ pub(super) struct Label {
     pub(super) number: Option<usize>,
     /// Its guard.
     pub(super) guard: String,
-    /// Its effects: the arguments of the target, or the reason of the failure.
+    /// Its effects: the arguments of the target, or the reason of the end.
     pub(super) effects: Vec<String>,
 }
 
@@ -120,7 +123,7 @@ fn guard(transition: &Transition) -> String {
 
 fn effects(chart: &Chart, transition: &Transition) -> Vec<String> {
     match &transition.target {
-        Target::Failure(reason) => vec![format!("\"{reason}\"")],
+        Target::Failure(reason) | Target::Success(reason) => vec![format!("\"{reason}\"")],
         Target::State { state, outer, values, resume } => {
             let resumed = resume.then(|| "resume".to_owned()).into_iter();
             let outer = outer.iter().flat_map(|(outer, values)| given(chart, *outer, values));

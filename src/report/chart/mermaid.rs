@@ -1,11 +1,11 @@
 //! The chart as text for Mermaid.
 
-use super::label::{ANY_STATE, FAILURE, Label, titled};
+use super::label::{ANY_STATE, FAILURE, Label, SUCCESS, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
 
-/// The chart as a `stateDiagram-v2` of Mermaid. The text of a transition is on its arrow. The reason of a failure, or
+/// The chart as a `stateDiagram-v2` of Mermaid. The text of a transition is on its arrow. The reason of an end, or
 /// the arguments of a state, follow a `/`.
 #[must_use]
 pub fn chart_mermaid(chart: &Chart) -> String {
@@ -18,6 +18,9 @@ pub fn chart_mermaid(chart: &Chart) -> String {
     if chart.has_failure() {
         lines.push(&format!("state \"{FAILURE}\" as failure"));
     }
+    if chart.has_success() {
+        lines.push(&format!("state \"{SUCCESS}\" as success"));
+    }
     for (index, transition) in chart.transitions.iter().enumerate() {
         let from = match transition.origin {
             Origin::AnyState => "any".to_owned(),
@@ -26,11 +29,15 @@ pub fn chart_mermaid(chart: &Chart) -> String {
         let to = match transition.target {
             Target::State { state, .. } => id(state),
             Target::Failure(_) => "failure".to_owned(),
+            Target::Success(_) => "success".to_owned(),
         };
         lines.push(&format!("{from} --> {to}: {}", escaped(&Label::new(chart, index).line())));
     }
     if chart.has_failure() {
         lines.push("failure --> [*]");
+    }
+    if chart.has_success() {
+        lines.push("success --> [*]");
     }
     lines.finish()
 }

@@ -127,6 +127,7 @@ fn symbols(chart: &Chart) -> Vec<Symbol> {
             }
         }
     }
+    symbols.extend(chart.has_success().then_some(Symbol::Success));
     symbols.extend(chart.has_failure().then_some(Symbol::Failure));
     symbols
 }
@@ -136,6 +137,8 @@ fn symbols(chart: &Chart) -> Vec<Symbol> {
 fn ends(chart: &Chart, transition: &Transition) -> (Symbol, Symbol) {
     match (transition.origin, &transition.target) {
         (Origin::AnyState, Target::State { state, .. }) => (Symbol::AnyState(None), Symbol::State(*state)),
+        (Origin::AnyState, Target::Success(_)) => (Symbol::AnyState(None), Symbol::Success),
+        (Origin::State(from), Target::Success(_)) => (Symbol::State(from), Symbol::Success),
         (Origin::AnyState, Target::Failure(_)) => (Symbol::AnyState(None), Symbol::Failure),
         (Origin::State(from), Target::Failure(_)) => (Symbol::State(from), Symbol::Failure),
         (Origin::State(from), &Target::State { state, .. }) => {

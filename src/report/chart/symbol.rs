@@ -2,7 +2,7 @@
 
 use svg::node::element::{Circle, Group, Rectangle};
 
-use super::label::{ANY_STATE, FAILURE, arguments, hidden, signature};
+use super::label::{ANY_STATE, FAILURE, SUCCESS, arguments, hidden, signature};
 use super::layout::{Position, Size};
 use crate::policy::chart::Chart;
 use crate::report::shade::shades;
@@ -33,6 +33,8 @@ pub(super) enum Symbol {
     Anew(usize),
     /// The end in failure.
     Failure,
+    /// The end in success.
+    Success,
 }
 
 impl Symbol {
@@ -42,7 +44,7 @@ impl Symbol {
             Self::Start(container) | Self::AnyState(container) => container,
             Self::Anew(state) => Some(state),
             Self::State(state) => chart.states[state].parent,
-            Self::Failure => None,
+            Self::Failure | Self::Success => None,
         }
     }
 
@@ -99,6 +101,7 @@ impl Symbol {
                 group.add(frame(0.0).set("fill", "#ffffff").set("stroke-dasharray", "5 3"))
             }
             // The final state of a statechart has a double frame.
+            Self::Success => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5)),
             Self::Failure => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5).set("fill", style::FAILURE)),
             Self::State(index) => {
                 group.add(frame(0.0).set("fill", shades(&chart.parents)[chart.states[index].index].fill()))
@@ -123,6 +126,7 @@ impl Symbol {
             Self::State(index) | Self::Anew(index) => &chart.states[index].name,
             Self::AnyState(_) => ANY_STATE,
             Self::Failure => FAILURE,
+            Self::Success => SUCCESS,
         }
     }
 

@@ -49,7 +49,9 @@ pub(crate) fn charts() -> impl Strategy<Value = Chart> {
             let transition = |(from, to, text, lasting): (usize, usize, String, Option<String>)| Transition {
                 number: None,
                 origin: if from >= 12 { Origin::AnyState } else { Origin::State(from % count) },
-                target: if to >= 12 {
+                target: if to >= 12 && from % 2 == 0 {
+                    Target::Success(text.clone())
+                } else if to >= 12 {
                     Target::Failure(text.clone())
                 } else {
                     into(to % count, vec![text.clone(); (to % count) % 4])

@@ -18,7 +18,8 @@ fn agree(chart: &Chart, origin: Origin, machine: &[machine::Transition]) {
     assert_eq!(of_origin.len(), machine.len(), "{origin:?}");
     for (drawn, compiled) in of_origin.into_iter().zip(machine) {
         match (&drawn.target, &compiled.target) {
-            (Target::Failure(drawn), machine::Target::Failure(compiled)) => assert_eq!(**drawn, **compiled),
+            (Target::Failure(drawn), machine::Target::Failure(compiled))
+            | (Target::Success(drawn), machine::Target::Success(compiled)) => assert_eq!(**drawn, **compiled),
             (
                 Target::State { state, values, resume, .. },
                 machine::Target::State { state: compiled, resume: resumes, .. },

@@ -61,8 +61,9 @@ proptest! {
         stands_clear(&picture);
         // One arrow for all transitions between two states, and one to each initial state.
         let ends = |transition: &Transition| match transition.target {
-            Target::State { state, .. } => (format!("{:?}", transition.origin), Some(state)),
-            Target::Failure(_) => (format!("{:?}", transition.origin), None),
+            Target::State { state, .. } => (format!("{:?}", transition.origin), Ok(state)),
+            Target::Failure(_) => (format!("{:?}", transition.origin), Err("failure")),
+            Target::Success(_) => (format!("{:?}", transition.origin), Err("success")),
         };
         let arrows: BTreeSet<_> = chart.transitions.iter().map(ends).collect();
         let initial = chart.states.iter().filter(|state| state.initial).count();

@@ -30,7 +30,7 @@ fn shown(chart: &Chart) -> [String; 3] {
 fn every_rendering_shows_every_state_guard_value_and_reason() {
     let chart = chart_of(THESIS);
     for shown in shown(&chart) {
-        for wanted in ["Exploring", "Swiping", "any state", "Failure"] {
+        for wanted in ["Exploring", "Swiping", "any state", "Failure", "Success", "the contour is closed"] {
             assert!(shown.contains(wanted), "no {wanted:?} in {shown}");
         }
         for wanted in ["1 when r0.touching", "/ w = l0", "3 after 5 m / speed", "a whisker at its limit"] {
@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn the_texts_of_any_chart_have_a_line_a_transition(chart in charts()) {
         let mermaid = chart_mermaid(&chart);
-        let last = usize::from(chart.has_failure());
+        let last = usize::from(chart.has_failure()) + usize::from(chart.has_success());
         let initial = chart.states.iter().filter(|state| state.initial).count();
         let arrows = chart.transitions.len() + initial;
         prop_assert_eq!(mermaid.lines().filter(|line| line.contains(" --> ")).count(), arrows + last);

@@ -31,6 +31,7 @@ fn ends<'c>(chart: &'c Chart, transition: &Transition) -> (&'c str, &'c str) {
     let to = match &transition.target {
         Target::State { state, .. } => name(*state),
         Target::Failure(_) => "Failure",
+        Target::Success(_) => "Success",
     };
     (from, to)
 }
@@ -130,6 +131,7 @@ proptest! {
             let (to, is_within) = match way.target {
                 Target::State { state, .. } => (name(shown(state)), inner == Some(shown(state)) && shown(state) != state),
                 Target::Failure(_) => ("Failure", false),
+                Target::Success(_) => ("Success", false),
             };
             let is_there = view.transitions.iter().any(|seen| ends(&view, seen) == (from, to) && seen.guard == way.guard);
             prop_assert!(is_there || is_within, "{} -> {}", from, to);

@@ -61,6 +61,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         "base",
         "fitted",
         "tip_at",
+        "loop_closed",
         "contour",
     ];
     for place in [
@@ -82,15 +83,29 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
 }
 
 #[test]
-fn behind_an_arrow_come_the_states_and_failure() {
+fn behind_an_arrow_come_the_states_and_the_ends() {
     for place in
         ["when true -> \u{a7}", "when true -> B\u{a7}\n}", "after 5 s ->\u{a7}", "}\nalways when true -> \u{a7}"]
     {
-        assert_eq!(labels(&writing(place)), ["Begin", "Go", "Failure"], "{place}");
+        assert_eq!(labels(&writing(place)), ["Begin", "Go", "Success", "Failure"], "{place}");
     }
     assert_eq!(labels(&writing("}\ninitial \u{a7}")), ["Begin"]);
     assert_eq!(labels(&writing("do \u{a7}")), ["follow"]);
     assert_eq!(labels(&writing("set \u{a7}")), ["worst"]);
+}
+
+#[test]
+fn a_contour_is_declared_and_recorded_by_its_words() {
+    assert_eq!(labels(&writing("}\ncontour middle of 7 \u{a7}")), ["points"]);
+    assert_eq!(labels(&writing("}\ncontour middle of \u{a7}")), [""; 0]);
+    let has = |place: &str, word: &str| labels(&writing(place)).contains(&word.to_owned());
+    assert!(has("}\n\u{a7}", "contour") && has("}\ncontour middle \u{a7}", "of"));
+    assert!(has("}\ncontour middle of 7 points 5 mm \u{a7}", "apart") && has("record w.tip \u{a7}", "in"));
+    assert_eq!(labels(&writing("record w.tip in \u{a7}\n}\ncontour middle\ncontour other")), ["middle", "other"]);
+    assert_eq!(
+        labels(&writing("let x = middle.\u{a7}\n}\ncontour middle")),
+        ["ready", "tangent", "normal", "end", "point", "curvature"]
+    );
 }
 
 #[test]

@@ -20,6 +20,7 @@ fn replaced(text: &str, places: &[Span], name: &str) -> String {
 fn nameless(mut program: Program) -> String {
     program.name.clear();
     program.whiskers.iter_mut().for_each(String::clear);
+    program.contours.iter_mut().for_each(|contour| contour.name.clear());
     program.parameters.iter_mut().for_each(|parameter| parameter.name.clear());
     program.states.iter_mut().for_each(|state| state.name = "".into());
     format!("{program:?}")

@@ -21,7 +21,11 @@ fn a_target_in_another_state_is_written_with_the_way_there() {
     let owned = |pairs: &[(&str, &str)]| -> Vec<(String, String)> {
         pairs.iter().map(|&(label, snippet)| (label.to_owned(), snippet.to_owned())).collect()
     };
-    let ends = [("resume", "resume ${1:State}"), ("Failure", "Failure(\"${1:reason}\")")];
+    let ends = [
+        ("resume", "resume ${1:State}"),
+        ("Success", "Success(\"${1:reason}\")"),
+        ("Failure", "Failure(\"${1:reason}\")"),
+    ];
     let from_outside = [
         ("A", "A"),
         ("Outer", "Outer(${1:w})"),

@@ -1,6 +1,8 @@
 //! What a policy means: order, time, arguments, failure.
 #![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test may panic, and what is exact is compared exactly")]
 
+use std::sync::Arc;
+
 use crate::common::{Feel, Script, program, run, states};
 use proptest::prelude::*;
 use vibrissa_runtime::machine::{
@@ -27,6 +29,30 @@ fn what_holds_always_comes_before_the_states_own_transitions() {
     assert_eq!(states(text, &mut Script::touches(".x")), ["A", "Failure"]);
     let unready = Feel { touching: true, ready: false, ..Feel::default() };
     assert_eq!(states(text, &mut Script::new(vec![vec![unready]])), ["C"], "the first rule that holds is taken");
+}
+
+#[test]
+fn a_run_ends_by_success_as_by_failure() {
+    let text = "machine m whisker w initial A
+        state A { steer body along vector(1, 0) at 2 m/s turning 0 rad/s  when w.touching -> B }  state B { stop }
+        always when w.touching -> B
+        always when not w.contour.ready -> Success(\"done\")
+        always when time > 9 s -> Failure(\"late\")";
+    let feel = |touching, ready| vec![Feel { touching, ready, ..Feel::default() }];
+    let mut script = Script::new(vec![feel(false, true), feel(true, true), feel(true, false), feel(false, true)]);
+    let mut machine = Machine::new(Arc::new(program(text)));
+    let ticks: Vec<_> = (0..4)
+        .map(|now| {
+            script.now = now;
+            let tick = machine.tick(&mut script);
+            (machine.state_name().to_owned(), tick.status, speed(tick.action))
+        })
+        .collect();
+    let running = |state: &str, speed| (state.to_owned(), Status::Running, speed);
+    // In `B` the first rule is what it wants, and the success behind it counts all the same.
+    let end = ("Success".to_owned(), Status::Succeeded, -2.0);
+    assert_eq!(ticks, [running("A", 2.0), running("B", -2.0), end.clone(), end]);
+    assert_eq!((machine.success(), machine.failure()), (Some("done"), None));
 }
 
 #[test]

@@ -96,7 +96,8 @@ impl Interpreter<'_> {
             Expression::Member(owner, member, values) => {
                 let whisker = self.value(owner, place).whisker();
                 let values = self.values(values, place);
-                self.member(whisker, member, values.first().map(|value| value.number()))
+                self.seen("a closed loop", (*member == "loop_closed").then_some(place.part));
+                self.member(whisker, member, &values.iter().map(|value| value.number()).collect::<Vec<_>>())
             }
             Expression::Norm(inner) => Value::Number(match self.value(inner, place) {
                 Value::Vector(vector) => vector.norm(),
@@ -130,14 +131,17 @@ impl Interpreter<'_> {
             self.seen("a parameter", Some(place.part));
             return self.value(value, &mut Place::new(None, "a parameter"));
         }
-        Value::Whisker(name.strip_prefix('w').unwrap().parse().unwrap())
+        let number = |prefix| name.strip_prefix(prefix).and_then(|number: &str| number.parse::<usize>().ok());
+        // The contours follow those of the whiskers.
+        let contour = || number('c').map(|contour| self.program.whiskers + contour);
+        Value::Whisker(number('w').or_else(contour).unwrap())
     }
 
-    fn member(&self, whisker: usize, member: &str, value: Option<f64>) -> Value {
+    fn member(&self, whisker: usize, member: &str, values: &[f64]) -> Value {
         let scalar = |quantity| Value::Number(self.senses.whisker(whisker, quantity));
         let truth = |quantity| Value::Truth(self.senses.whisker(whisker, quantity) > 0.5);
         let vector = |quantity| Value::Vector(self.senses.whisker_vector(whisker, quantity));
-        let behind = |quantity| Value::Vector(self.senses.contour_at(whisker, value.unwrap(), quantity));
+        let behind = |quantity| Value::Vector(self.senses.contour_at(whisker, values[0], quantity));
         match member {
             "deflection" => scalar(WhiskerScalar::BaseAngle),
             "touching" => truth(WhiskerScalar::Touching),
@@ -146,15 +150,16 @@ impl Interpreter<'_> {
             "sense" => scalar(WhiskerScalar::Sense),
             "length" => scalar(WhiskerScalar::Length),
             "tip_spread" => scalar(WhiskerScalar::TipDeviation),
+            "loop_closed" => Value::Truth(self.senses.loop_closed(whisker, values[0], values[1])),
             "ready" => truth(WhiskerScalar::ContourReady),
             "tip" => vector(WhiskerVector::Tip),
             "tip_base" => vector(WhiskerVector::TipBase),
             "base" => vector(WhiskerVector::Base),
             "end" => vector(WhiskerVector::ContourEnd),
-            "tip_at" => Value::Vector(self.senses.tip_at(whisker, value.unwrap())),
+            "tip_at" => Value::Vector(self.senses.tip_at(whisker, values[0])),
             "point" => behind(ContourVector::Point),
-            "tangent" if value.is_some() => behind(ContourVector::Tangent),
-            "normal" if value.is_some() => behind(ContourVector::Normal),
+            "tangent" if !values.is_empty() => behind(ContourVector::Tangent),
+            "normal" if !values.is_empty() => behind(ContourVector::Normal),
             "tangent" => vector(WhiskerVector::ContourTangent),
             "normal" => vector(WhiskerVector::ContourNormal),
             _ => Value::Whisker(whisker),
@@ -252,6 +257,11 @@ impl Interpreter<'_> {
                 let whisker = self.value(whisker, place).whisker();
                 self.senses.record(whisker);
                 self.seen("record", Some(place.part));
+            }
+            Statement::RecordPosition(position, contour) => {
+                let position = self.value(position, place).vector();
+                self.senses.record_position(*contour, position);
+                self.seen("record in a contour", Some(place.part));
             }
             Statement::Mark(mark, whisker) => {
                 let whisker = self.value(whisker, place).whisker();

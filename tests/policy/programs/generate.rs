@@ -27,6 +27,10 @@ impl Grower<'_> {
         for whisker in 0..self.program.whiskers {
             self.know(&format!("w{whisker}"), Type::Whisker, false);
         }
+        self.program.contours = self.pick(3);
+        for contour in 0..self.program.contours {
+            self.know(&format!("c{contour}"), Type::Contour, false);
+        }
         for index in 0..self.pick(4) {
             let r#type = self.one_of(&[Type::Number, Type::Length, Type::Angle, Type::Time, Type::Speed, Type::Rate]);
             let (name, value) = (format!("p{index}"), self.quantity(r#type));
@@ -189,7 +193,8 @@ impl Grower<'_> {
 
     fn target(&mut self, from: Option<usize>) -> Target {
         if self.pick(16) == 15 {
-            return Target::Failure(format!("reason {}", self.pick(3)));
+            let reason = format!("reason {}", self.pick(3));
+            return if self.pick(2) == 0 { Target::Failure(reason) } else { Target::Success(reason) };
         }
         let target = match from {
             Some(from) if self.pick(4) == 3 => from,
@@ -237,7 +242,7 @@ impl Grower<'_> {
     fn statement(&mut self, may: May, depth: u8) -> Statement {
         let memory: Vec<_> = self.known().into_iter().filter(|known| known.is_memory).collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
-        match self.pick(17) {
+        match self.pick(19) {
             0 | 1 => {
                 let r#type = self.one_of(&Type::ALL);
                 let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
@@ -269,6 +274,10 @@ impl Grower<'_> {
             12 => Statement::Mark(self.one_of(&["lost", "found"]), self.expression(Type::Whisker, 1)),
             13 | 16 if may.command => [Statement::Hold, Statement::Stop][self.pick(2)].clone(),
             14 | 15 if may.command => self.steer(),
+            17 | 18 if self.program.contours > 0 => {
+                let contour = self.pick(self.program.contours);
+                Statement::RecordPosition(self.expression(Type::Place, 2), contour)
+            }
             _ => Statement::Record(self.expression(Type::Whisker, 1)),
         }
     }

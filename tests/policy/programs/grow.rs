@@ -304,7 +304,7 @@ impl<'g> Grower<'g> {
     }
 
     fn truth(&mut self, depth: u8) -> Expression {
-        match self.pick(8) {
+        match self.pick(9) {
             0..=2 => {
                 let (sign, scalar) = (self.one_of(&["<", "<=", ">", ">=", "==", "!="]), self.one_of(&SCALARS));
                 self.binary(sign, scalar, scalar, depth)
@@ -316,6 +316,11 @@ impl<'g> Grower<'g> {
             4 => Expression::Not(Box::new(self.expression(Type::Truth, depth))),
             5 => self.binary("and", Type::Truth, Type::Truth, depth),
             6 => self.binary("or", Type::Truth, Type::Truth, depth),
+            7 => {
+                let owner = self.expression(Type::Whisker, depth);
+                let values = [Type::Length, Type::Time].map(|r#type| self.expression(r#type, depth));
+                Expression::Member(Box::new(owner), "loop_closed", values.into())
+            }
             // A comparison shows what a filter remembers of a gap, in which a command cannot be given.
             _ => {
                 let values = vec![self.sensed(Type::Angle), self.quantity(Type::Frequency)];

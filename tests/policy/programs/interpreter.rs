@@ -15,8 +15,15 @@ use crate::common::Script;
 pub(crate) struct Done {
     pub(crate) action: Option<Action>,
     pub(crate) state: String,
-    pub(crate) failure: Option<Failure>,
+    pub(crate) end: Option<End>,
     pub(crate) failsafe: Option<(String, Cause)>,
+}
+
+/// How a machine ended its run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum End {
+    Failure(Failure),
+    Success(String),
 }
 
 pub(crate) struct Interpreter<'p> {
@@ -35,7 +42,7 @@ pub(crate) struct Interpreter<'p> {
     since: HashMap<(Option<usize>, usize), f64>,
     /// For every state, the one in it that was active last.
     last: HashMap<usize, usize>,
-    failure: Option<Failure>,
+    end: Option<End>,
     /// What was executed, and as part of what.
     pub(crate) executed: BTreeSet<(&'static str, &'static str)>,
 }
@@ -55,7 +62,7 @@ impl<'p> Interpreter<'p> {
             entered_at: vec![0.0; program.states.len()],
             since: HashMap::new(),
             last: HashMap::new(),
-            failure: None,
+            end: None,
             executed: BTreeSet::new(),
         }
     }
@@ -67,22 +74,26 @@ impl<'p> Interpreter<'p> {
 
     pub(crate) fn tick(&mut self) -> Done {
         let mut failsafe = None;
-        let action = match &self.failure {
+        let action = match &self.end {
             Some(_) => Action::Stop,
-            None => self.try_tick(&mut failsafe).unwrap_or_else(|failure| {
-                self.failure = Some(failure);
+            None => self.try_tick(&mut failsafe).unwrap_or_else(|end| {
+                self.end = Some(end);
                 Action::Stop
             }),
         };
-        let state = self.failure.as_ref().map_or_else(|| name(self.innermost()), |_| "Failure".to_owned());
-        Done { action: Some(action), state, failure: self.failure.clone(), failsafe }
+        let state = match &self.end {
+            None => name(self.innermost()),
+            Some(End::Failure(_)) => "Failure".to_owned(),
+            Some(End::Success(_)) => "Success".to_owned(),
+        };
+        Done { action: Some(action), state, end: self.end.clone(), failsafe }
     }
 
     fn innermost(&self) -> usize {
         *self.active.last().unwrap()
     }
 
-    fn try_tick(&mut self, failsafe: &mut Option<(String, Cause)>) -> Result<Action, Failure> {
+    fn try_tick(&mut self, failsafe: &mut Option<(String, Cause)>) -> Result<Action, End> {
         if self.active.is_empty() {
             for (name, _, value) in &self.program.memory {
                 let value = self.value(value, &mut Place::new(None, "a memory"));
@@ -110,7 +121,7 @@ impl<'p> Interpreter<'p> {
     }
 
     /// The target of the first rule that holds, of a state or of the machine. One that leads where the machine is already has what
-    /// it wants, and those behind it wait, but for one that leads to a failure.
+    /// it wants, and those behind it wait, but for one that ends the run.
     fn due(&mut self, from: Option<usize>) -> Option<(Option<usize>, &'p Target)> {
         let program = self.program;
         let rules = from.map_or(&program.always, |state| &program.states[state].rules);
@@ -123,7 +134,7 @@ impl<'p> Interpreter<'p> {
             .collect();
         let first = &holding.first()?.target;
         let is_there = match first {
-            Target::Failure(_) => false,
+            Target::Failure(_) | Target::Success(_) => false,
             Target::State { way, .. } => {
                 let target = way.last().unwrap().0;
                 let is_within = from.is_none_or(|from| from != target && program.way(target).contains(&from));
@@ -131,8 +142,8 @@ impl<'p> Interpreter<'p> {
             }
         };
         self.seen("what is there already", is_there.then_some("a guard"));
-        let failure = holding.iter().map(|rule| &rule.target).find(|target| matches!(target, Target::Failure(_)));
-        if is_there { failure } else { Some(first) }.map(|target| (from, target))
+        let end = holding.iter().map(|rule| &rule.target).find(|target| !matches!(target, Target::State { .. }));
+        if is_there { end } else { Some(first) }.map(|target| (from, target))
     }
 
     fn holds(&mut self, from: Option<usize>, index: usize, guard: &Guard) -> bool {
@@ -162,11 +173,15 @@ impl<'p> Interpreter<'p> {
         }
     }
 
-    fn take(&mut self, from: Option<usize>, target: &Target) -> Result<(), Failure> {
+    fn take(&mut self, from: Option<usize>, target: &Target) -> Result<(), End> {
         let (way, resume) = match target {
             Target::Failure(reason) => {
                 self.seen("a failure", Some("a target"));
-                return Err(Failure::Policy(Arc::from(reason.as_str())));
+                return Err(End::Failure(Failure::Policy(Arc::from(reason.as_str()))));
+            }
+            Target::Success(reason) => {
+                self.seen("a success", Some("a target"));
+                return Err(End::Success(reason.clone()));
             }
             Target::State { way, resume } => (way, *resume),
         };
@@ -247,7 +262,7 @@ impl<'p> Interpreter<'p> {
     }
 
     /// Leaves a state that cannot go on by its failsafe, or that of a state around it, or that of the machine.
-    fn leave(&mut self, stuck: usize, cause: Cause, failsafe: &mut Option<(String, Cause)>) -> Result<Action, Failure> {
+    fn leave(&mut self, stuck: usize, cause: Cause, failsafe: &mut Option<(String, Cause)>) -> Result<Action, End> {
         let around = self.program.way(stuck).into_iter().rev();
         let own = around.map(|state| (Some(state), &self.program.states[state].failsafe));
         let found =
@@ -255,10 +270,10 @@ impl<'p> Interpreter<'p> {
         let name = |state: usize| Arc::from(name(state));
         let Some((from, target)) = found else {
             self.seen("a failure", Some("a command"));
-            return Err(match cause {
+            return Err(End::Failure(match cause {
                 Cause::NotFinite(flaw) => Failure::NotFinite { state: name(stuck), non_finite: flaw },
                 Cause::MicrostepLimit => Failure::MicrostepLimit { state: name(stuck) },
-            });
+            }));
         };
         let whose = ["the machine", "a state around", "the state"];
         self.seen("failsafe", Some(whose[usize::from(from.is_some()) + usize::from(from == Some(stuck))]));
@@ -271,8 +286,8 @@ impl<'p> Interpreter<'p> {
             self.run_own();
             0
         };
-        let action =
-            self.act(done).map_err(|(state, flaw)| Failure::NotFinite { state: name(state), non_finite: flaw })?;
+        let failure = |(state, flaw)| End::Failure(Failure::NotFinite { state: name(state), non_finite: flaw });
+        let action = self.act(done).map_err(failure)?;
         Ok(action.unwrap_or(Action::Hold))
     }
 }

@@ -12,7 +12,7 @@ use vibrissa::policy::compile;
 use vibrissa_runtime::machine::{self, Action, Machine};
 
 use super::generate::programs;
-use super::interpreter::{Done, Interpreter};
+use super::interpreter::{Done, End, Interpreter};
 use super::tree::Program;
 use crate::common::{Feel, Script};
 
@@ -59,7 +59,10 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
     Done {
         action: Some(tick.action),
         state: machine.state_name().to_owned(),
-        failure: machine.failure().cloned(),
+        end: match (machine.failure(), machine.success()) {
+            (Some(failure), _) => Some(End::Failure(failure.clone())),
+            (None, success) => success.map(|reason| End::Success(reason.to_owned())),
+        },
         failsafe: tick.fallback.map(|failsafe| (name(failsafe.left), failsafe.cause)),
     }
 }
@@ -77,9 +80,10 @@ fn run_both(
         (script.now, interpreter.senses.now) = (now, now);
         let found = done(&mut machine, &mut script);
         steers += usize::from(matches!(found.action, Some(Action::Steer { .. })));
-        lasted += usize::from(found.failure.is_none());
+        lasted += usize::from(found.end.is_none());
         prop_assert_eq!(&found, &interpreter.tick(), "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.recorded, &interpreter.senses.recorded, "tick {} of\n{}", now, program.text());
+        prop_assert_eq!(&script.positions, &interpreter.senses.positions, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.marked, &interpreter.senses.marked, "tick {} of\n{}", now, program.text());
     }
     interpreter.seen("five ticks that steer", (steers >= 5).then_some("a run"));
@@ -123,7 +127,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 34] = [
+const DONE: [(&str, &[&str]); 37] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -140,6 +144,7 @@ const DONE: [(&str, &[&str]); 34] = [
     ("if", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("do", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("record", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
+    ("record in a contour", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("mark", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     (
         "lowpass",
@@ -172,6 +177,8 @@ const DONE: [(&str, &[&str]); 34] = [
     ("arguments", &["a target"]),
     ("resume", &["a target"]),
     ("a failure", &["a target", "a command"]),
+    ("a success", &["a target"]),
+    ("a closed loop", &["a body", "an if", "a guard"]),
     ("failsafe", &["the state", "a state around", "the machine"]),
     ("five ticks that steer", &["a run"]),
     ("ten ticks without a failure", &["a run"]),

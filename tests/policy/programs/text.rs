@@ -52,6 +52,9 @@ impl Program {
     fn head(&self, initial: &str) -> String {
         let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
         let mut text = format!("machine m\nwhisker {}\ninitial {initial}\n", whiskers.join(", "));
+        for contour in 0..self.contours {
+            writeln!(text, "contour c{contour} of {} points 2 mm apart", 3 + contour).unwrap();
+        }
         for (name, value) in &self.parameters {
             writeln!(text, "param {name} = {}", value.text()).unwrap();
         }
@@ -141,6 +144,7 @@ impl Target {
     fn text(&self) -> String {
         match self {
             Self::Failure(reason) => format!("Failure(\"{reason}\")"),
+            Self::Success(reason) => format!("Success(\"{reason}\")"),
             Self::State { way, resume } => {
                 let steps: Vec<String> = way.iter().map(|(state, values)| call(&format!("S{state}"), values)).collect();
                 format!("{}{}", if *resume { "resume " } else { "" }, steps.join("."))
@@ -164,6 +168,7 @@ impl Statement {
                 branches.join(" else ") + &otherwise
             }
             Self::Do(law, values, _) => format!("do {law}({})", list(values)),
+            Self::RecordPosition(position, contour) => format!("record {} in c{contour}", position.text()),
             Self::Record(whisker) => format!("record {}", whisker.text()),
             Self::Mark(mark, whisker) => format!("mark {mark} {}", whisker.text()),
             Self::Steer(Steer { whisker, along, speed, facing, turn }) => {

@@ -58,6 +58,8 @@ pub(crate) enum Statement {
     /// A law, the values that it is given, and the number of this use.
     Do(String, Vec<Expression>, usize),
     Record(Expression),
+    /// A position, and the number of the contour that gets it.
+    RecordPosition(Expression, usize),
     Mark(&'static str, Expression),
     Steer(Steer),
     Hold,
@@ -103,6 +105,7 @@ pub(crate) enum Guard {
 #[derive(Debug, Clone)]
 pub(crate) enum Target {
     Failure(String),
+    Success(String),
     /// The states that are entered on the way, with their values; the last is where it leads.
     State {
         way: Vec<(usize, Vec<Expression>)>,
@@ -132,6 +135,7 @@ pub(crate) struct State {
 #[derive(Clone, Default)]
 pub(crate) struct Program {
     pub(crate) whiskers: usize,
+    pub(crate) contours: usize,
     /// Names and quantities.
     pub(crate) parameters: Vec<(String, Expression)>,
     pub(crate) derived: Vec<Derived>,

@@ -126,7 +126,13 @@ impl Senses for Felt {
         )
     }
 
+    fn loop_closed(&self, _: usize, _: f64, _: f64) -> bool {
+        false
+    }
+
     fn record(&mut self, _: usize) {}
+
+    fn record_position(&mut self, _: usize, _: Vector2) {}
 }
 
 /// The platform at the origin heading along x, one whisker bent by `deflection` in units of its target, as forward motion does.

@@ -44,7 +44,7 @@ fn an_editor_without_snippets_or_related_places_is_served_in_plain_text() {
     let line = position(&text, "state Swiping", 0)["line"].as_u64().unwrap() + 1;
     assert!(fault["message"].as_str().unwrap().contains(&format!("line {line}: declared here")), "{fault}");
     let targets = editor.ask_at("completion", &position(&text, "Swiping\n", 0), json!({}));
-    assert_eq!(labels(&targets), ["Exploring", "Swiping", "Failure"]);
+    assert_eq!(labels(&targets), ["Exploring", "Swiping", "Success", "Failure"]);
     for item in targets["result"].as_array().unwrap() {
         assert_eq!((&item["insertTextFormat"], &item["textEdit"]["newText"]), (&json!(1), &item["label"]));
     }

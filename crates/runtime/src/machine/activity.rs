@@ -9,7 +9,7 @@ use super::fallback::{Cause, Fallback};
 use super::op::Block;
 use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
-use super::tick::{Failure, MICROSTEP_LIMIT};
+use super::tick::{End, Failure, MICROSTEP_LIMIT};
 
 /// Tolerance (s) of comparisons of times. With it, ten ticks of 1/30 s are not shorter than 1/3 s.
 pub const TIME_SLACK: f64 = 1e-9;
@@ -55,7 +55,7 @@ impl Activity {
         program: &Program,
         senses: &mut S,
         action: &mut Action,
-    ) -> (Result<(), Failure>, Option<Fallback>) {
+    ) -> (Result<(), End>, Option<Fallback>) {
         let now = senses.time();
         if !self.has_begun {
             self.has_begun = true;
@@ -78,7 +78,8 @@ impl Activity {
                         }
                     };
                 }
-                Some((_, Target::Failure(reason))) => return (Err(Failure::Policy(Arc::clone(reason))), None),
+                Some((_, Target::Failure(reason))) => return (Err(failure(reason)), None),
+                Some((_, Target::Success(reason))) => return (Err(End::Success(Arc::clone(reason))), None),
                 Some((from, Target::State { state, arguments, resume })) if taken < MICROSTEP_LIMIT => {
                     self.take(program, from, (*state, arguments, *resume), now, senses);
                 }
@@ -199,10 +200,11 @@ impl Activity {
         now: f64,
         senses: &mut S,
         action: &mut Action,
-    ) -> (Result<(), Failure>, Option<Fallback>) {
+    ) -> (Result<(), End>, Option<Fallback>) {
         let outcome = match program.fallback_of(state_left) {
-            None => return (Err(cause.failure(&program.states[state_left].name)), None),
-            Some((_, Target::Failure(reason))) => Err(Failure::Policy(Arc::clone(reason))),
+            None => return (Err(End::Failure(cause.failure(&program.states[state_left].name))), None),
+            Some((_, Target::Failure(reason))) => Err(failure(reason)),
+            Some((_, Target::Success(reason))) => Err(End::Success(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
                 self.take(program, from, (*state, arguments, *resume), now, senses);
                 let have_acted = match cause {
@@ -216,7 +218,9 @@ impl Activity {
                     }
                 };
                 let acted = self.run_bodies(program, have_acted, senses, action);
-                acted.map_err(|(state, non_finite)| Cause::NotFinite(non_finite).failure(&program.states[state].name))
+                acted.map_err(|(state, non_finite)| {
+                    End::Failure(Cause::NotFinite(non_finite).failure(&program.states[state].name))
+                })
             }
         };
         (outcome, Some(Fallback { left: state_left, cause }))
@@ -224,7 +228,7 @@ impl Activity {
 
     /// The target of the first enabled transition of the state `from`, or of the global transitions for `None`.
     ///
-    /// If that target is already active from outside, only a failure among the other transitions counts. All guards are
+    /// If that target is already active from outside, only an end of the run among the other transitions counts. All guards are
     /// evaluated, so that the timers of later ones run.
     fn enabled<'p, S: Senses>(
         &mut self,
@@ -238,17 +242,17 @@ impl Activity {
             Some(state) => (&program.states[state].transitions, self.entered_at[state]),
         };
         self.compute(program, &guards(transitions), senses);
-        let (mut first, mut failure): (Option<&Target>, Option<&Target>) = (None, None);
+        let (mut first, mut end): (Option<&Target>, Option<&Target>) = (None, None);
         for Transition { guard, target } in transitions {
             if self.holds(guard, now - since, now) {
                 first = first.or(Some(target));
-                if let Target::Failure(_) = target {
-                    failure = failure.or(Some(target));
+                if let Target::Failure(_) | Target::Success(_) = target {
+                    end = end.or(Some(target));
                 }
             }
         }
         let target = match first? {
-            Target::State { state, .. } if program.is_target_active(from, *state, self.state()) => failure?,
+            Target::State { state, .. } if program.is_target_active(from, *state, self.state()) => end?,
             target => target,
         };
         Some((from, target))
@@ -271,4 +275,9 @@ impl Activity {
             Guard::After { time, .. } => active >= self.registers[usize::from(time)] - TIME_SLACK,
         }
     }
+}
+
+/// The failure of a policy for a reason.
+fn failure(reason: &Arc<str>) -> End {
+    End::Failure(Failure::Policy(Arc::clone(reason)))
 }

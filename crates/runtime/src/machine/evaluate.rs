@@ -91,8 +91,11 @@ pub(super) fn evaluate<S: Senses>(
                 file.put_vector(to, senses.whisker_vector(file.index(whisker), quantity));
             }
             Op::TipAt { to, whisker, a } => file.put_vector(to, senses.tip_at(file.index(whisker), file.at(a))),
-            Op::ContourAt { to, whisker, a, quantity } => {
-                file.put_vector(to, senses.contour_at(file.index(whisker), file.at(a), quantity));
+            Op::LoopClosed { to, whisker, a, b } => {
+                file.put_truth(to, senses.loop_closed(file.index(whisker), file.at(a), file.at(b)));
+            }
+            Op::ContourAt { to, contour, a, quantity } => {
+                file.put_vector(to, senses.contour_at(file.index(contour), file.at(a), quantity));
             }
             Op::LowPass { to, a, b, memory } => {
                 let filtered = stateful::low_pass(file.memory(memory), senses.time(), file.at(a), file.at(b));
@@ -125,6 +128,7 @@ pub(super) fn evaluate<S: Senses>(
             }
             Op::Jump { target } => ahead = code[target as usize..].iter(),
             Op::Record { whisker } => senses.record(file.index(whisker)),
+            Op::RecordPosition { contour, a } => senses.record_position(usize::from(contour), file.vector(a)),
             Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
             Op::SteerBodyFacing { along, speed, heading } => {
                 *action = file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading)));

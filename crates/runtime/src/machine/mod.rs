@@ -9,6 +9,7 @@ mod activity;
 mod artifact;
 mod configuration;
 mod contact_estimator_kind;
+mod contour;
 mod evaluate;
 mod fallback;
 mod needs;
@@ -24,17 +25,18 @@ mod verify;
 
 pub use activity::TIME_SLACK;
 pub use evaluate::compute;
-pub use operands::{Effect, Operands, RegisterSpan, Role};
+pub use operands::{Effect, Index, Operands, RegisterSpan, Role};
 
 pub use action::{Action, ActionPart, Mover, NonFinite, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use contact_estimator_kind::ContactEstimatorKind;
+pub use contour::{Keypoints, PositionContour};
 pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
-    CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, Program, REGISTER_LIMIT, SetError,
-    State, Target, Transition,
+    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, Program,
+    REGISTER_LIMIT, SetError, State, Target, Transition,
 };
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{Position, SourceMap, StatePosition};

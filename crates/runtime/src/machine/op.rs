@@ -103,16 +103,18 @@ pub enum Op {
     Body { to: Register, quantity: BodyScalar },
     /// `to = position of the body`
     BodyPosition { to: Wide },
-    /// `to = a quantity of a whisker`
+    /// `to = a quantity of a whisker or of a contour`
     Whisker { to: Register, whisker: Register, quantity: WhiskerScalar },
     /// `to = the absolute value of a quantity of a whisker`
     WhiskerSize { to: Register, whisker: Register, quantity: WhiskerScalar },
-    /// `to = a vector of a whisker`
+    /// `to = a vector of a whisker or of a contour`
     WhiskerVector { to: Wide, whisker: Register, quantity: WhiskerVector },
     /// `to = the position of a whisker's tip at the base angle a, in the frame of its base`
     TipAt { to: Wide, whisker: Register, a: Register },
-    /// `to = a vector of a whisker's contour at the distance a behind its end`
-    ContourAt { to: Wide, whisker: Register, a: Register, quantity: ContourVector },
+    /// `to = true if the whisker closed a loop` within the distance a, at least the time b after its first tip
+    LoopClosed { to: Register, whisker: Register, a: Register, b: Register },
+    /// `to = a vector of a contour at the distance a behind its end`
+    ContourAt { to: Wide, contour: Register, a: Register, quantity: ContourVector },
     /// `to = a through a first-order low-pass filter with the cutoff b` (Hz). Its memory is three registers.
     LowPass { to: Register, a: Register, b: Register, memory: Register },
     /// `to = output of a PID controller` for the error `a`. `gains` are four registers: p, i, d and the output limit.
@@ -130,6 +132,8 @@ pub enum Op {
     Jump { target: u32 },
     /// Records a whisker's tip as a point of the estimated contour.
     Record { whisker: Register },
+    /// Records the position `a` as a point of the contour with this index in the program's list of contours.
+    RecordPosition { contour: u16, a: Wide },
     /// Records a mark of a whisker.
     Mark { whisker: Register, mark: Mark },
     /// Moves the body and rotates it to a heading.

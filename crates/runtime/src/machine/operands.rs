@@ -10,16 +10,16 @@ pub struct Operands {
     pub writes: [RegisterSpan; 2],
     /// Registers of numbers that are read, including the memory.
     pub reads: [RegisterSpan; 3],
-    /// Register of the index of a whisker that is read.
-    pub whisker: Option<Register>,
+    /// Register of the index of a whisker or a contour that is read.
+    pub index: Option<(Index, Register)>,
 }
 
 impl Operands {
-    /// All registers that are read: numbers, memory and the index of a whisker.
+    /// All registers that are read: numbers, memory and the index of a whisker or a contour.
     #[must_use]
     pub fn all_reads(&self) -> [RegisterSpan; 4] {
         let [a, b, c] = self.reads;
-        [a, b, c, self.whisker.map_or_else(RegisterSpan::default, number)]
+        [a, b, c, self.index.map_or_else(RegisterSpan::default, |(_, register)| number(register))]
     }
 }
 
@@ -54,8 +54,24 @@ pub enum Role {
     Read(u16),
     /// This many registers are the memory of a stateful operation. They are read and written.
     Memory(u16),
-    /// The index of a whisker is read.
+    /// The index of a whisker or a contour is read.
+    Index(Index),
+}
+
+/// The list to which an index belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Index {
+    /// The whiskers.
     Whisker,
+    /// The contours: those of the whiskers, and after these the contours through positions.
+    Contour,
+}
+
+impl Index {
+    /// The list for a quantity that every contour has, or that only whiskers have.
+    fn of(is_of_contour: bool) -> Self {
+        if is_of_contour { Self::Contour } else { Self::Whisker }
+    }
 }
 
 /// The effect of an operation besides its result.
@@ -82,6 +98,7 @@ impl Op {
             | Self::WhiskerSize { .. }
             | Self::WhiskerVector { .. }
             | Self::TipAt { .. }
+            | Self::LoopClosed { .. }
             | Self::ContourAt { .. } => Effect::Sensing,
             Self::LowPass { .. }
             | Self::Pid { .. }
@@ -91,6 +108,7 @@ impl Op {
             | Self::JumpUnlessBoth { .. }
             | Self::Jump { .. }
             | Self::Record { .. }
+            | Self::RecordPosition { .. }
             | Self::Mark { .. }
             | Self::SteerBodyFacing { .. }
             | Self::SteerBodyTurning { .. }
@@ -117,7 +135,7 @@ impl Op {
                 operands.writes[1] = RegisterSpan { first: *register, width };
                 operands.reads[2] = operands.writes[1];
             }
-            Role::Whisker => operands.whisker = Some(*register),
+            Role::Index(index) => operands.index = Some((index, *register)),
         });
         operands
     }
@@ -142,7 +160,8 @@ impl Op {
     /// Calls `visit` for every register of the operation.
     #[expect(clippy::too_many_lines, reason = "one arm for operations alike")]
     pub fn visit(&mut self, mut visit: impl FnMut(Role, &mut Register)) {
-        use Role::{Memory, Read, Whisker, Write};
+        use Role::{Memory, Read, Write};
+        let whisker_index = Role::Index(Index::Whisker);
         match self {
             Self::Copy { to, a }
             | Self::Negate { to, a }
@@ -215,19 +234,31 @@ impl Op {
             }
             Self::Time { to } | Self::Body { to, .. } => visit(Write(1), to),
             Self::BodyPosition { to } => visit(Write(2), to),
-            Self::Whisker { to, whisker, .. } | Self::WhiskerSize { to, whisker, .. } => {
+            Self::Whisker { to, whisker, quantity } | Self::WhiskerSize { to, whisker, quantity } => {
                 visit(Write(1), to);
-                visit(Whisker, whisker);
+                visit(Role::Index(Index::of(quantity.is_of_contour())), whisker);
             }
-            Self::WhiskerVector { to, whisker, .. } => {
+            Self::WhiskerVector { to, whisker, quantity } => {
                 visit(Write(2), to);
-                visit(Whisker, whisker);
+                visit(Role::Index(Index::of(quantity.is_of_contour())), whisker);
             }
-            Self::TipAt { to, whisker, a } | Self::ContourAt { to, whisker, a, .. } => {
+            Self::TipAt { to, whisker, a } => {
                 visit(Write(2), to);
-                visit(Whisker, whisker);
+                visit(whisker_index, whisker);
                 visit(Read(1), a);
             }
+            Self::LoopClosed { to, whisker, a, b } => {
+                visit(Write(1), to);
+                visit(whisker_index, whisker);
+                visit(Read(1), a);
+                visit(Read(1), b);
+            }
+            Self::ContourAt { to, contour, a, .. } => {
+                visit(Write(2), to);
+                visit(Role::Index(Index::Contour), contour);
+                visit(Read(1), a);
+            }
+            Self::RecordPosition { a, .. } => visit(Read(2), a),
             Self::LowPass { to, a, b, memory } => {
                 visit(Write(1), to);
                 visit(Read(1), a);
@@ -246,7 +277,7 @@ impl Op {
                 visit(Read(1), a);
                 visit(Read(1), b);
             }
-            Self::Record { whisker } | Self::Mark { whisker, .. } => visit(Whisker, whisker),
+            Self::Record { whisker } | Self::Mark { whisker, .. } => visit(whisker_index, whisker),
             Self::SteerBodyFacing { along, speed, heading: turn }
             | Self::SteerBodyTurning { along, speed, rate: turn } => {
                 visit(Read(2), along);
@@ -255,7 +286,7 @@ impl Op {
             }
             Self::SteerWhiskerFacing { whisker, along, speed, heading: turn }
             | Self::SteerWhiskerTurning { whisker, along, speed, rate: turn } => {
-                visit(Whisker, whisker);
+                visit(whisker_index, whisker);
                 visit(Read(2), along);
                 visit(Read(1), speed);
                 visit(Read(1), turn);

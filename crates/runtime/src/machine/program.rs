@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::units::{Dimension, format_si};
 
 use super::contact_estimator_kind::ContactEstimatorKind;
+use super::contour::{Keypoints, PositionContour};
 use super::needs::Needs;
 use super::op::{Block, Op, Register};
 use super::tick::MICROSTEP_LIMIT;
@@ -17,6 +18,9 @@ pub const CODE_LIMIT: usize = 50_000;
 pub const REGISTER_LIMIT: usize = 60_000;
 /// Maximum nesting depth of states. It bounds the work of a tick.
 pub const NESTING_LIMIT: usize = 8;
+
+/// Maximum number of contours through positions.
+pub const CONTOUR_LIMIT: usize = 8;
 
 /// Maximum length of the description of a parameter, in bytes.
 pub const DESCRIPTION_LIMIT: usize = 500;
@@ -36,6 +40,10 @@ pub struct Program {
     pub contact_estimators: Vec<ContactEstimatorKind>,
     /// True for each whisker that a rig may lack.
     pub optional: Vec<bool>,
+    /// Keypoints of the contours of all whiskers.
+    pub keypoints: Keypoints,
+    /// Contours through positions that the policy records.
+    pub contours: Vec<PositionContour>,
     /// Rates of the loop and age of samples that the policy needs.
     pub needs: Needs,
     /// The parameters. The parameter with index `i` is in register `i`.
@@ -162,6 +170,8 @@ pub enum Target {
     },
     /// The run ends as a failure for this reason.
     Failure(Arc<str>),
+    /// The run ends as a success for this reason.
+    Success(Arc<str>),
 }
 
 /// An error of setting a parameter.
@@ -232,6 +242,15 @@ pub struct OnlySimulated {
 }
 
 impl Program {
+    /// The name of a whisker, or of a contour through positions, by its [index](super::Senses).
+    #[must_use]
+    pub fn contour_name(&self, index: usize) -> Option<&str> {
+        match index.checked_sub(self.whiskers.len()) {
+            None => self.whiskers.get(index).map(String::as_str),
+            Some(index) => self.contours.get(index).map(|contour| contour.name.as_str()),
+        }
+    }
+
     /// True if a contact estimator needs [true tips](crate::signal::TrueTip), which only a simulator has.
     #[must_use]
     pub fn uses_true_tips(&self) -> bool {

@@ -6,7 +6,8 @@ use crate::geometry::Vector2;
 
 /// Perception as a machine sees it. The machine asks only for values that its active states need.
 ///
-/// Whiskers are identified by their index in the program's list of whiskers.
+/// Whiskers are identified by their index in the program's list of whiskers. The contour of a whisker has the index of
+/// the whisker. Contours through positions follow, in the order of the program's list of contours.
 pub trait Senses {
     /// Time since the start of the run (s).
     fn time(&self) -> f64;
@@ -17,20 +18,27 @@ pub trait Senses {
     /// Position of the platform's centre of mass in the world frame (m).
     fn body_position(&self) -> Vector2;
 
-    /// A scalar of a whisker. Booleans are 1 and 0.
+    /// A scalar of a whisker or of a contour. Booleans are 1 and 0.
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64;
 
-    /// A vector of a whisker.
+    /// A vector of a whisker or of a contour.
     fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2;
 
     /// The contact position of the whisker's tip (m, frame of the base) for a hypothetical base angle (rad).
     fn tip_at(&self, whisker: usize, base_angle: f64) -> Vector2;
 
-    /// A vector of the whisker's contour at the distance `back` (m) behind its end.
-    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2;
+    /// True if the tip that the whisker recorded in the previous tick closes a loop: it is within a distance `within` (m) of
+    /// the first ones, and at least the time `after` (s) later. The body has moved around since.
+    fn loop_closed(&self, whisker: usize, within: f64, after: f64) -> bool;
+
+    /// A vector of a contour at the distance `back` (m) behind its end.
+    fn contour_at(&self, contour: usize, back: f64, quantity: ContourVector) -> Vector2;
 
     /// Records the whisker's tip as a point of the estimated contour, if the whisker is in contact.
     fn record(&mut self, whisker: usize);
+
+    /// Records a position (m, world frame) as a point of the contour with this index in the program's list of contours.
+    fn record_position(&mut self, contour: usize, position: Vector2);
 
     /// Records a mark. No readable value depends on marks. The default ignores them.
     fn mark(&mut self, _whisker: usize, _mark: Mark) {}
@@ -95,6 +103,14 @@ pub enum WhiskerScalar {
     Fitted,
 }
 
+impl WhiskerScalar {
+    /// True if every contour has the scalar, also one without a whisker.
+    #[must_use]
+    pub fn is_of_contour(self) -> bool {
+        matches!(self, Self::ContourReady | Self::ContourCurvature)
+    }
+}
+
 /// Vectors of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WhiskerVector {
@@ -109,8 +125,17 @@ pub enum WhiskerVector {
     /// Newest point of the contour in the world frame (m).
     ContourEnd,
     /// Unit normal at the end of the contour in the world frame, pointing away from the object. It is perpendicular to
-    /// the direction of travel. Its side is that of the whisker's base when the newest point was recorded.
+    /// the direction of travel. Its side is that of the whisker's base when the newest point was recorded. It is the left
+    /// side for a contour through positions.
     ContourNormal,
+}
+
+impl WhiskerVector {
+    /// True if every contour has the vector, also one without a whisker.
+    #[must_use]
+    pub fn is_of_contour(self) -> bool {
+        matches!(self, Self::ContourTangent | Self::ContourEnd | Self::ContourNormal)
+    }
 }
 
 /// Vectors of a contour at a distance behind its end, in the world frame.

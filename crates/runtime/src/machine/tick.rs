@@ -17,7 +17,7 @@ pub const MICROSTEP_LIMIT: usize = 8;
 pub struct Machine {
     program: Arc<Program>,
     activity: Activity,
-    failure: Option<Failure>,
+    end: Option<End>,
 }
 
 /// The failure of a machine.
@@ -42,6 +42,15 @@ pub enum Failure {
     },
 }
 
+/// The end of a run by the machine.
+#[derive(Debug, Clone)]
+pub(super) enum End {
+    /// The machine has failed.
+    Failure(Failure),
+    /// The policy took a transition to `Success` with this reason.
+    Success(Arc<str>),
+}
+
 /// The result of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tick {
@@ -60,6 +69,8 @@ pub enum Status {
     Running,
     /// The machine has failed for the reason given by [`Machine::failure`]. It stops for the rest of the run.
     Failed,
+    /// The machine has succeeded for the reason given by [`Machine::success`]. It stops for the rest of the run.
+    Succeeded,
 }
 
 impl Machine {
@@ -67,13 +78,13 @@ impl Machine {
     #[must_use]
     pub fn new(program: Arc<Program>) -> Self {
         let activity = Activity::new(&program, program.initial, program.initial_registers.clone());
-        Self { activity, failure: None, program }
+        Self { activity, end: None, program }
     }
 
     /// Creates a machine that is about to enter a state, with the given registers.
     #[must_use]
     pub fn entering(program: Arc<Program>, state: usize, registers: Vec<f64>) -> Self {
-        Self { activity: Activity::new(&program, state, registers), failure: None, program }
+        Self { activity: Activity::new(&program, state, registers), end: None, program }
     }
 
     /// The program of the machine.
@@ -88,16 +99,35 @@ impl Machine {
         self.activity.state()
     }
 
-    /// Name of the innermost active state, or `Failure` after a failure.
+    /// Name of the innermost active state, or `Failure` or `Success` after the end.
     #[must_use]
     pub fn state_name(&self) -> &str {
-        if self.failure.is_some() { "Failure" } else { &self.program.states[self.state()].name }
+        match self.end {
+            None => &self.program.states[self.state()].name,
+            Some(End::Failure(_)) => "Failure",
+            Some(End::Success(_)) => "Success",
+        }
     }
 
     /// The reason of the failure, if the machine has failed.
     #[must_use]
     pub fn failure(&self) -> Option<&Failure> {
-        self.failure.as_ref()
+        if let Some(End::Failure(failure)) = &self.end { Some(failure) } else { None }
+    }
+
+    /// The reason of the success, if the machine has succeeded.
+    #[must_use]
+    pub fn success(&self) -> Option<&str> {
+        if let Some(End::Success(reason)) = &self.end { Some(reason) } else { None }
+    }
+
+    /// The status after the newest tick.
+    fn status(&self) -> Status {
+        match self.end {
+            None => Status::Running,
+            Some(End::Failure(_)) => Status::Failed,
+            Some(End::Success(_)) => Status::Succeeded,
+        }
     }
 
     /// Executes one tick. It tries the global transitions first, and then those of the active states, from the
@@ -109,16 +139,16 @@ impl Machine {
     /// transition of the state is taken, or else that of the program. The entered state then gives the action. The
     /// machine fails if there is no fallback transition or the new action is not finite either.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
-        if self.failure.is_some() {
-            return Tick { action: Action::Stop, status: Status::Failed, fallback: None };
+        if self.end.is_some() {
+            return Tick { action: Action::Stop, status: self.status(), fallback: None };
         }
         let mut tick = Tick { action: Action::Hold, status: Status::Running, fallback: None };
         let (outcome, fallback) = self.activity.tick(&self.program, senses, &mut tick.action);
         tick.fallback = fallback;
-        if let Err(failure) = outcome {
-            self.failure = Some(failure);
+        if let Err(end) = outcome {
+            self.end = Some(end);
             tick.action = Action::Stop;
-            tick.status = Status::Failed;
+            tick.status = self.status();
         }
         tick
     }

@@ -63,6 +63,12 @@ pub enum Unsound {
     /// A register that is read as a whisker can contain something else.
     #[error("its register {0} is read as a whisker, but can hold something else")]
     Whisker(Register),
+    /// A register that is read as a contour can contain something else.
+    #[error("its register {0} is read as a contour, but can hold something else")]
+    Contour(Register),
+    /// The number or the spacing of the keypoints of a contour is outside of its range.
+    #[error("the keypoints of a contour of it are too few, too many, too close or too far apart")]
+    Keypoints,
     /// Whiskers are read, but none is bound.
     #[error("it reads whiskers, but binds none; bind one, as in `whisker r0`")]
     NoWhisker,
@@ -87,7 +93,7 @@ pub enum Unsound {
     /// Two things have the same name.
     #[error("the name `{0}` occurs twice")]
     SameName(String),
-    /// The reason of a failure is not one line of plain text.
+    /// The reason of a failure or a success is not one line of plain text.
     #[error("the reason {0:?} has characters that cannot be shown; reword it")]
     Reason(String),
 }

@@ -4,10 +4,12 @@ use std::collections::{HashMap, HashSet};
 
 use crate::signal::MAX_WHISKERS;
 
+use super::contour::Keypoints;
 use super::op::{Block, Op, Register};
-use super::operands::{RegisterSpan, number};
+use super::operands::{Index, RegisterSpan};
 use super::program::{
-    CODE_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
+    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target,
+    Transition,
 };
 use super::unsound::Unsound;
 
@@ -34,6 +36,8 @@ impl Program {
             whiskers,
             contact_estimators,
             optional,
+            keypoints,
+            contours,
             needs,
             parameters,
             states,
@@ -56,6 +60,7 @@ impl Program {
             ("registers", initial_registers.len(), REGISTER_LIMIT),
             ("parameters", parameters.len(), initial_registers.len()),
             ("contact estimators", contact_estimators.len(), MAX_WHISKERS),
+            ("contours", contours.len(), CONTOUR_LIMIT),
             ("whiskers that a rig may lack", optional.len(), MAX_WHISKERS),
         ] {
             if count > limit {
@@ -64,7 +69,12 @@ impl Program {
         }
         is_name(name)?;
         let values = parameters.iter().map(|parameter| parameter.name.as_str());
-        distinct(values.chain(whiskers.iter().map(String::as_str)).chain(states.iter().map(|state| &*state.name)))?;
+        let values = values.chain(whiskers.iter().map(String::as_str));
+        let values = values.chain(contours.iter().map(|contour| contour.name.as_str()));
+        distinct(values.chain(states.iter().map(|state| &*state.name)))?;
+        if !contours.iter().map(|contour| &contour.keypoints).chain([keypoints]).all(Keypoints::are_valid) {
+            return Err(Unsound::Keypoints);
+        }
         let is_unfit = |text: &str| text.len() > DESCRIPTION_LIMIT || text.chars().any(char::is_control);
         if let Some(parameter) = parameters.iter().find(|parameter| is_unfit(&parameter.description)) {
             return Err(Unsound::Description(parameter.name.clone()));
@@ -181,8 +191,10 @@ impl Program {
                     Ok(())
                 }
             }
-            Target::Failure(reason) if reason.chars().any(char::is_control) => Err(Unsound::Reason(reason.to_string())),
-            Target::Failure(_) => Ok(()),
+            Target::Failure(reason) | Target::Success(reason) if reason.chars().any(char::is_control) => {
+                Err(Unsound::Reason(reason.to_string()))
+            }
+            Target::Failure(_) | Target::Success(_) => Ok(()),
         }
     }
 
@@ -191,7 +203,7 @@ impl Program {
     fn verify_blocks(&self) -> Result<(), Unsound> {
         let of_target = |target: &Target| match target {
             Target::State { arguments, .. } => arguments.clone(),
-            Target::Failure(_) => 0..0,
+            Target::Failure(_) | Target::Success(_) => 0..0,
         };
         let of_transition = |transition: &Transition| [transition.guard.code().clone(), of_target(&transition.target)];
         let of_state = |state: &State| {
@@ -236,17 +248,12 @@ impl Program {
         Ok(())
     }
 
-    /// Checks that every operand is an existing register and that no parameter is written.
-    ///
-    /// Registers that are read as whiskers must always contain the index of a whisker. They start with one, and only
-    /// copies of such registers are written to them.
+    /// Checks that every operand is an existing register, that every recorded contour exists, and that no parameter is
+    /// written.
     fn verify_operands(&self) -> Result<(), Unsound> {
-        let mut copied_from: HashMap<Register, Vec<Register>> = HashMap::new();
-        let mut pending = Vec::new();
         for op in &self.code {
             let operands = op.operands();
-            let whisker = operands.whisker.map_or_else(Default::default, number);
-            for span in operands.reads.into_iter().chain(operands.writes).chain([whisker]) {
+            for span in operands.all_reads().into_iter().chain(operands.writes) {
                 if let Some(last) = span.registers().last() {
                     within("register", last, self.initial_registers.len())?;
                 }
@@ -259,42 +266,57 @@ impl Program {
                 }
             }
             match *op {
+                Op::Clear { count, .. } if count > CLEAR_LIMIT => {
+                    let (count, limit) = (count.into(), CLEAR_LIMIT.into());
+                    return Err(Unsound::TooMany { what: "registers to clear at once", count, limit });
+                }
+                Op::RecordPosition { contour, .. } => within("contour", contour.into(), self.contours.len())?,
+                _ => {}
+            }
+        }
+        let contours = self.whiskers.len() + self.contours.len();
+        self.verify_indices(Index::Whisker, self.whiskers.len(), Unsound::Whisker)?;
+        self.verify_indices(Index::Contour, contours, Unsound::Contour)
+    }
+
+    /// Checks that registers that are read as an index into a list always contain an index below `count`. They start
+    /// with one, and only copies of such registers are written to them.
+    fn verify_indices(&self, list: Index, count: usize, fault: fn(Register) -> Unsound) -> Result<(), Unsound> {
+        let mut copied_from: HashMap<Register, Vec<Register>> = HashMap::new();
+        for op in &self.code {
+            match *op {
                 Op::Copy { to, a } => copied_from.entry(to).or_default().push(a),
                 Op::CopyVector { to, a } => {
                     copied_from.entry(to).or_default().push(a);
                     copied_from.entry(to + 1).or_default().push(a + 1);
                 }
-                Op::Clear { count, .. } if count > CLEAR_LIMIT => {
-                    let (count, limit) = (count.into(), CLEAR_LIMIT.into());
-                    return Err(Unsound::TooMany { what: "registers to clear at once", count, limit });
-                }
                 _ => {}
             }
-            pending.extend(operands.whisker);
         }
-
-        let mut whiskers = HashSet::new();
+        let read = self.code.iter().filter_map(|op| op.operands().index.filter(|&(of, _)| of == list));
+        let mut pending: Vec<Register> = read.map(|(_, register)| register).collect();
+        let mut indices = HashSet::new();
         while let Some(register) = pending.pop() {
-            if whiskers.insert(register) {
+            if indices.insert(register) {
                 pending.extend(copied_from.get(&register).into_iter().flatten());
             }
         }
-        if self.whiskers.is_empty() && !whiskers.is_empty() {
+        if count == 0 && !indices.is_empty() {
             return Err(Unsound::NoWhisker);
         }
-        for &register in &whiskers {
+        for &register in &indices {
             let index = self.initial_registers[usize::from(register)];
-            let is_index = index.fract() == 0.0 && (0.0..self.whiskers.len() as f64).contains(&index);
+            let is_index = index.fract() == 0.0 && (0.0..count as f64).contains(&index);
             if !is_index || usize::from(register) < self.parameters.len() {
-                return Err(Unsound::Whisker(register));
+                return Err(fault(register));
             }
         }
         for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. } | Op::CopyVector { .. })) {
             for register in op.operands().writes.into_iter().flat_map(RegisterSpan::registers) {
                 if let Ok(register) = Register::try_from(register)
-                    && whiskers.contains(&register)
+                    && indices.contains(&register)
                 {
-                    return Err(Unsound::Whisker(register));
+                    return Err(fault(register));
                 }
             }
         }

@@ -3,22 +3,22 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::geometry::{Point2, Vector2};
+use crate::machine::Keypoints;
 use crate::math;
 
-/// Number of keypoints to which the curve is fitted.
-const WINDOW: usize = 7;
-/// Minimum distance between keypoints (m).
-const SPACING: f64 = 1e-3;
+/// Space for keypoints.
+const CAPACITY: usize = *Keypoints::COUNT.end();
 
 /// The local curve through the newest points of a contour.
 ///
-/// It is the least-squares parabola through the newest seven keypoints, as a function of the length along them.
-/// Keypoints are at least 1 mm apart. The curve ends at the tip, and its tangent there is the direction of travel.
+/// It is the least-squares parabola through the newest keypoints, as a function of the length along them. [`Keypoints`]
+/// are their number and spacing. The curve ends at the tip, and its tangent there is the direction of travel.
 #[derive(Debug, Clone, Default)]
 pub struct LocalContour {
+    settings: Keypoints,
     /// The newest keypoints, oldest first.
-    keypoints: [Point2; WINDOW],
-    /// Number of keypoints.
+    keypoints: [Point2; CAPACITY],
+    /// Number of keypoints so far, at most that of the settings.
     count: usize,
     /// The curve, if there are enough keypoints.
     curve: Option<Curve>,
@@ -55,23 +55,31 @@ impl Curve {
 }
 
 impl LocalContour {
-    /// Forgets everything.
+    /// Creates a contour without points. A number of keypoints outside of [`Keypoints::COUNT`] is limited to it.
+    #[must_use]
+    pub fn new(keypoints: Keypoints) -> Self {
+        let count = keypoints.count.clamp(*Keypoints::COUNT.start(), CAPACITY);
+        Self { settings: Keypoints { count, ..keypoints }, ..Self::default() }
+    }
+
+    /// Forgets all points.
     pub fn clear(&mut self) {
-        *self = Self::default();
+        *self = Self { settings: self.settings, ..Self::default() };
     }
 
     /// Adds a point if it is far enough from the newest keypoint.
     pub fn add(&mut self, point: Point2) {
-        if self.newest().is_some_and(|newest| (point - newest).norm() < SPACING) {
+        if self.newest().is_some_and(|newest| (point - newest).norm() < self.settings.spacing) {
             return;
         }
-        if self.count == WINDOW {
-            self.keypoints.rotate_left(1);
+        let needed = self.settings.count;
+        if self.count == needed {
+            self.keypoints[..needed].rotate_left(1);
             self.count -= 1;
         }
         self.keypoints[self.count] = point;
         self.count += 1;
-        if self.count == WINDOW {
+        if self.count == needed {
             self.curve = self.fit();
         }
     }
@@ -116,16 +124,16 @@ impl LocalContour {
         })
     }
 
-    /// Fits `x` and `y` as parabolas in the length along the keypoints, counted back from the newest.
+    /// Fits `x` and `y` as parabolas in the length along all keypoints, counted back from the newest.
     fn fit(&self) -> Option<Curve> {
         let mut normal = Matrix3::zeros();
         let (mut right_x, mut right_y) = (Vector3::zeros(), Vector3::zeros());
-        let newest = self.keypoints[WINDOW - 1];
+        let keypoints = &self.keypoints[..self.count];
+        let newest = *keypoints.last()?;
         let mut back = 0.0;
-        for index in (0..WINDOW).rev() {
-            let point = self.keypoints[index];
-            if index + 1 < WINDOW {
-                back -= (self.keypoints[index + 1] - point).norm();
+        for (index, point) in keypoints.iter().enumerate().rev() {
+            if let Some(next) = keypoints.get(index + 1) {
+                back -= (next - point).norm();
             }
             // In millimetres the normal equations are well conditioned.
             let length = back * 1e3;

@@ -3,16 +3,21 @@
 use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::machine::{BodyScalar, ContactEstimatorKind, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
+use crate::machine::{
+    BodyScalar, ContactEstimatorKind, ContourVector, Keypoints, Mark, PositionContour, Senses, WhiskerScalar,
+    WhiskerVector,
+};
 use crate::rig::{Rig, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
+use super::loop_watch::LoopWatch;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
 use super::one_channel::OneChannel;
+use super::recorded_contour::RecordedContour;
 use super::recursive::{self, Recursive};
 use super::sliding::Sliding;
 use super::tip_curve::{TipCurve, TipCurveError};
@@ -21,6 +26,9 @@ use super::truth::Truth;
 use super::whisker::{PerceivedWhisker, base_angle_deviation};
 
 use ContactEstimatorKind as Kind;
+
+/// A vector of a contour that has none.
+const UNDEFINED: Vector2 = Vector2::new(f64::NAN, f64::NAN);
 
 /// Perception of a rig with the whiskers that a policy binds.
 #[derive(Debug, Clone)]
@@ -33,6 +41,10 @@ pub struct Perception {
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
     in_sample: Vec<Option<usize>>,
+    /// The contours through positions, in the order of the policy.
+    contours: Vec<RecordedContour>,
+    /// For each whisker, the detection of a closed loop from the tips that it recorded.
+    loops: Vec<LoopWatch>,
     disturbance: Disturbance,
 }
 
@@ -144,8 +156,21 @@ impl Perception {
             body: Pose::default(),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
+            contours: Vec::new(),
+            loops: vec![LoopWatch::default(); whiskers.len()],
             disturbance: Disturbance::new(rig),
         })
+    }
+
+    /// Sets the keypoints of the whiskers' contours, and adds contours through positions. Without a call, the keypoints
+    /// are the default.
+    #[must_use]
+    pub fn with_contours(mut self, keypoints: Keypoints, contours: &[PositionContour]) -> Self {
+        for whisker in &mut self.whiskers {
+            whisker.contour = RecordedContour::new(keypoints);
+        }
+        self.contours = contours.iter().map(|contour| RecordedContour::new(contour.keypoints)).collect();
+        self
     }
 
     /// Replaces the contact estimator of a whisker, by its index in the policy. It allows an estimator that no
@@ -163,6 +188,10 @@ impl Perception {
     /// without any valid sample in the tick is NaN: base angle and tip of a whisker, or the pose and everything that
     /// depends on it. The time keeps its last value.
     pub fn update(&mut self, samples: &[Sample]) {
+        for index in 0..self.loops.len() {
+            let tip_world = self.recorded_tip(index);
+            self.loops[index].update(self.time, tip_world, self.body.position);
+        }
         for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
             whisker.base_angle.begin();
         }
@@ -180,6 +209,9 @@ impl Perception {
         }
         for whisker in &mut self.whiskers {
             whisker.update(self.body);
+        }
+        for contour in &mut self.contours {
+            contour.begin();
         }
         self.disturbance.update(samples, self.time, self.body);
     }
@@ -223,13 +255,21 @@ impl Perception {
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {
         let whisker = &self.whiskers[whisker];
-        (whisker.recorded && whisker.has_contact() && whisker.is_recordable()).then(|| whisker.tip_world())
+        (whisker.contour.is_recorded() && whisker.has_contact() && whisker.is_recordable()).then(|| whisker.tip_world())
     }
 
     /// Standard deviation (m) of the recorded tip of a whisker.
     #[must_use]
     pub fn recorded_deviation(&self, whisker: usize) -> f64 {
         self.whiskers[whisker].recorded_deviation()
+    }
+
+    /// The contour with this index: that of a whisker, or after these one through positions.
+    fn contour(&self, index: usize) -> &RecordedContour {
+        match index.checked_sub(self.whiskers.len()) {
+            Some(index) => &self.contours[index],
+            None => &self.whiskers[index].contour,
+        }
     }
 
     /// The marks of a whisker in this tick, in order, with the position of its tip (m, world frame).
@@ -264,35 +304,33 @@ impl Senses for Perception {
         self.body.position.coords
     }
 
-    fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
+    fn whisker(&self, index: usize, quantity: WhiskerScalar) -> f64 {
         let truth = |truth: bool| f64::from(u8::from(truth));
-        let fitted = truth(self.in_sample[whisker].is_some());
-        let whisker = &self.whiskers[whisker];
+        let whisker = || &self.whiskers[index];
         match quantity {
-            WhiskerScalar::BaseAngle => whisker.base_angle(),
-            WhiskerScalar::Touching => truth(whisker.is_touching()),
-            WhiskerScalar::Yaw => whisker.yaw,
-            WhiskerScalar::Side => whisker.side,
-            WhiskerScalar::Sense if whisker.is_touching() => whisker.base_angle().signum() * whisker.side,
+            WhiskerScalar::BaseAngle => whisker().base_angle(),
+            WhiskerScalar::Touching => truth(whisker().is_touching()),
+            WhiskerScalar::Yaw => whisker().yaw,
+            WhiskerScalar::Side => whisker().side,
+            WhiskerScalar::Sense if whisker().is_touching() => whisker().base_angle().signum() * whisker().side,
             WhiskerScalar::Sense => 0.0,
-            WhiskerScalar::Length => whisker.length,
-            WhiskerScalar::ContourReady => truth(whisker.has_current_contour()),
-            WhiskerScalar::ContourCurvature => whisker.contour.curvature().unwrap_or(f64::NAN),
-            WhiskerScalar::TipDeviation => whisker.tip_deviation(),
-            WhiskerScalar::Fitted => fitted,
+            WhiskerScalar::Length => whisker().length,
+            WhiskerScalar::ContourReady => truth(self.contour(index).is_current()),
+            WhiskerScalar::ContourCurvature => self.contour(index).local().curvature().unwrap_or(f64::NAN),
+            WhiskerScalar::TipDeviation => whisker().tip_deviation(),
+            WhiskerScalar::Fitted => truth(self.in_sample[index].is_some()),
         }
     }
 
-    fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
-        let whisker = &self.whiskers[whisker];
-        let undefined = Vector2::new(f64::NAN, f64::NAN);
+    fn whisker_vector(&self, index: usize, quantity: WhiskerVector) -> Vector2 {
+        let whisker = || &self.whiskers[index];
         match quantity {
-            WhiskerVector::Tip => whisker.tip_world().coords,
-            WhiskerVector::TipBase => whisker.tip_base(),
-            WhiskerVector::Base => whisker.base_world.coords,
-            WhiskerVector::ContourTangent => whisker.contour.tangent().unwrap_or(undefined),
-            WhiskerVector::ContourNormal => whisker.contour_at(0.0, ContourVector::Normal).unwrap_or(undefined),
-            WhiskerVector::ContourEnd => whisker.contour.newest().map_or(undefined, |point| point.coords),
+            WhiskerVector::Tip => whisker().tip_world().coords,
+            WhiskerVector::TipBase => whisker().tip_base(),
+            WhiskerVector::Base => whisker().base_world.coords,
+            WhiskerVector::ContourTangent => self.contour(index).local().tangent().unwrap_or(UNDEFINED),
+            WhiskerVector::ContourNormal => self.contour(index).at(0.0, ContourVector::Normal).unwrap_or(UNDEFINED),
+            WhiskerVector::ContourEnd => self.contour(index).local().newest().map_or(UNDEFINED, |point| point.coords),
         }
     }
 
@@ -300,12 +338,20 @@ impl Senses for Perception {
         self.whiskers[whisker].tip_at(base_angle)
     }
 
-    fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {
-        self.whiskers[whisker].contour_at(back, quantity).unwrap_or(Vector2::new(f64::NAN, f64::NAN))
+    fn loop_closed(&self, whisker: usize, within: f64, after: f64) -> bool {
+        self.loops[whisker].is_closed(within, after)
+    }
+
+    fn contour_at(&self, contour: usize, back: f64, quantity: ContourVector) -> Vector2 {
+        self.contour(contour).at(back, quantity).unwrap_or(UNDEFINED)
     }
 
     fn record(&mut self, whisker: usize) {
         self.whiskers[whisker].record();
+    }
+
+    fn record_position(&mut self, contour: usize, position: Vector2) {
+        self.contours[contour].record(Some(position.into()), None);
     }
 
     fn mark(&mut self, whisker: usize, mark: Mark) {

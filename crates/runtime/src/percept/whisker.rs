@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2, rotate};
-use crate::machine::{ContourVector, Mark};
+use crate::machine::{Keypoints, Mark};
 use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
@@ -11,8 +11,8 @@ use crate::signal::Reading;
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
-use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
+use super::recorded_contour::RecordedContour;
 use super::tip_curve::TipCurve;
 
 /// The perception of one whisker: its pose, base angle, contact and local contour.
@@ -41,12 +41,7 @@ pub(super) struct PerceivedWhisker {
     /// Direction of the undeflected shaft (rad, world frame).
     pub(super) yaw: f64,
     /// Local contour behind the tip.
-    pub(super) contour: LocalContour,
-    /// Position of the base at the newest point of the contour (m, world frame).
-    recorded_from: Point2,
-    /// True if this tick recorded the tip, and if the previous one did.
-    pub(super) recorded: bool,
-    recorded_before: bool,
+    pub(super) contour: RecordedContour,
     /// The marks of this tick, in order.
     pub(super) marks: [Option<Mark>; Mark::ALL.len()],
 }
@@ -73,10 +68,7 @@ impl PerceivedWhisker {
             base_angle_deviation: base_angle_deviation(sensing),
             base_world: Point2::origin(),
             yaw: 0.0,
-            contour: LocalContour::default(),
-            recorded_from: Point2::origin(),
-            recorded: false,
-            recorded_before: false,
+            contour: RecordedContour::new(Keypoints::default()),
             marks: Default::default(),
         }
     }
@@ -113,8 +105,7 @@ impl PerceivedWhisker {
         (self.base_world, self.yaw) = (base.position, base.heading);
         let base_angle = self.base_angle();
         self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
-        self.recorded_before = self.recorded;
-        self.recorded = false;
+        self.contour.begin();
         self.marks = Default::default();
     }
 
@@ -183,43 +174,10 @@ impl PerceivedWhisker {
         self.contact.map_or_else(|| self.tip_deviation(), |contact| contact.recorded_deviation)
     }
 
-    /// A vector of the contour (world frame) at the distance `back` (m) behind its end. `None` until the contour is
-    /// ready.
-    pub(super) fn contour_at(&self, back: f64, quantity: ContourVector) -> Option<Vector2> {
-        let tangent = self.contour.tangent_at(back)?;
-        match quantity {
-            ContourVector::Point => self.contour.point_at(back).map(|point| point.coords),
-            ContourVector::Tangent => Some(tangent),
-            ContourVector::Normal => {
-                let left = Vector2::new(-tangent.y, tangent.x);
-                let side = left.dot(&(self.recorded_from - self.contour.newest()?));
-                Some(if side < 0.0 { -left } else { left })
-            }
-        }
-    }
-
-    /// True if there is a contour and this tick or the previous one recorded it.
-    ///
-    /// An interrupted contour restarts when it is recorded again. It is already not ready in the tick after the
-    /// interruption, so that no state mistakes it for the new one.
-    pub(super) fn has_current_contour(&self) -> bool {
-        (self.recorded || self.recorded_before) && self.contour.is_ready()
-    }
-
     /// Records the tip as a point of the contour during a contact. An interrupted contour restarts.
     pub(super) fn record(&mut self) {
-        if self.recorded {
-            return;
-        }
-        if !self.recorded_before {
-            self.contour.clear();
-        }
-        self.recorded = true;
-        let tip_world = self.tip_world();
-        if self.has_contact() && tip_world.coords.iter().all(|coordinate| coordinate.is_finite()) {
-            self.contour.add(tip_world);
-            self.recorded_from = self.base_world;
-        }
+        let tip_world = self.has_contact().then(|| self.tip_world());
+        self.contour.record(tip_world, Some(self.base_world));
     }
 }
 

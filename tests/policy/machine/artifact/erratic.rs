@@ -17,6 +17,8 @@ const NUMBERS: [f64; 14] =
 /// Senses that say now this, now that, but know how many whiskers there are.
 struct Erratic {
     whiskers: usize,
+    /// Contours that no whisker has.
+    contours: usize,
     /// Whether every number is one that a rig may say.
     is_sound: bool,
     tick: usize,
@@ -38,6 +40,11 @@ impl Erratic {
     fn check(&self, whisker: usize) {
         assert!(whisker < self.whiskers, "whisker {whisker} of {}", self.whiskers);
     }
+
+    fn check_index(&self, index: usize, is_of_contour: bool) {
+        let count = self.whiskers + if is_of_contour { self.contours } else { 0 };
+        assert!(index < count, "{index} of {count}");
+    }
 }
 
 impl Senses for Erratic {
@@ -53,13 +60,13 @@ impl Senses for Erratic {
         self.vector()
     }
 
-    fn whisker(&self, whisker: usize, _: WhiskerScalar) -> f64 {
-        self.check(whisker);
+    fn whisker(&self, index: usize, quantity: WhiskerScalar) -> f64 {
+        self.check_index(index, quantity.is_of_contour());
         self.number()
     }
 
-    fn whisker_vector(&self, whisker: usize, _: WhiskerVector) -> Vector2 {
-        self.check(whisker);
+    fn whisker_vector(&self, index: usize, quantity: WhiskerVector) -> Vector2 {
+        self.check_index(index, quantity.is_of_contour());
         self.vector()
     }
 
@@ -68,13 +75,22 @@ impl Senses for Erratic {
         self.vector()
     }
 
-    fn contour_at(&self, whisker: usize, _: f64, _: ContourVector) -> Vector2 {
-        self.check(whisker);
+    fn contour_at(&self, contour: usize, _: f64, _: ContourVector) -> Vector2 {
+        self.check_index(contour, true);
         self.vector()
+    }
+
+    fn loop_closed(&self, whisker: usize, _: f64, _: f64) -> bool {
+        self.check(whisker);
+        self.number() > 0.0
     }
 
     fn record(&mut self, whisker: usize) {
         self.check(whisker);
+    }
+
+    fn record_position(&mut self, contour: usize, _: Vector2) {
+        assert!(contour < self.contours, "contour {contour} of {}", self.contours);
     }
 
     fn mark(&mut self, whisker: usize, _: Mark) {
@@ -95,7 +111,13 @@ fn run_on(program: &Arc<Program>, is_sound: bool) {
     let rig = Rig::default();
     let whiskers: Vec<_> = (0..program.whiskers.len()).map(|index| Some(index % rig.whiskers.len())).collect();
     let mut steering = Steering::new(&rig, &whiskers);
-    let mut senses = Erratic { whiskers: program.whiskers.len(), is_sound, tick: 0, said: Cell::new(0) };
+    let mut senses = Erratic {
+        whiskers: program.whiskers.len(),
+        contours: program.contours.len(),
+        is_sound,
+        tick: 0,
+        said: Cell::new(0),
+    };
     let mut machine = Machine::new(program.clone());
     for tick in 0..100 {
         senses.tick = tick;

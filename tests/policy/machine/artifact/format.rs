@@ -22,15 +22,18 @@ fn numbered<T: DeserializeOwned + Debug>() -> Vec<String> {
 const SMALL: &str = r#"
 machine small
 whisker a, b by sliding if fitted
+contour c of 3 points 5 mm apart
 needs control_rate in 20 .. 30 Hz
 needs sample_age in 0 .. 10 ms
 param low = 1 in 0 .. 2  # described
 var n = low
 record a
+record a.tip in c
 initial Rest
 state Outer(w: whisker) { initial Inner(low)  failsafe -> Rest  state Inner(x: number) { stop } }
 state Rest { entry { set n = 1 }  hold  exit { set n = 2 }  after 1 s -> resume Outer(a) }
 always when a.touching for 1 s -> Failure("touched")
+always when a.loop_closed(1 m, 1 s) -> Success("closed")
 failsafe -> Rest
 "#;
 

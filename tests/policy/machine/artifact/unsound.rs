@@ -1,7 +1,8 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
 use vibrissa_runtime::machine::{
-    Artifact, ArtifactError, Guard, Mark, Needs, Op, Program, RateRange, State, Target, Transition, WhiskerScalar,
+    Artifact, ArtifactError, Guard, Keypoints, Mark, Needs, Op, Program, RateRange, State, Target, Transition,
+    WhiskerScalar, WhiskerVector,
 };
 
 use super::{erratic, policies};
@@ -232,6 +233,60 @@ fn what_is_read_as_a_whisker_only_ever_holds_one() {
     });
 }
 
+/// A program with a whisker, two contours of positions, and a state that takes a contour.
+fn with_contours() -> Artifact {
+    let text = "machine m whisker a contour c contour d of 16 points 20 mm apart initial A
+        state A { record a.tip in d  when d.ready and a.touching -> B(c) }
+        state B(x: contour) { steer body along x.tangent at 1 m/s turning 0 rad/s  when x.ready for 1 s -> B(a.contour) }
+        always when time > 1 s -> Failure(\"late\")";
+    policies::artifact("contours.fsm", text)
+}
+
+#[test]
+fn contours_exist_and_have_enough_points() {
+    let told = |change: &dyn Fn(&mut Program), expected: &str| {
+        let mut artifact = with_contours();
+        assert!(artifact.to_bytes().is_ok());
+        change(&mut artifact.program);
+        let told = artifact.to_bytes().unwrap_err().to_string();
+        assert!(told.contains(expected), "{told}");
+    };
+    let tangent = |op: &Op| matches!(op, Op::WhiskerVector { quantity: WhiskerVector::ContourTangent, .. });
+    let argument = |program: &Program| {
+        let Op::WhiskerVector { whisker, .. } = program.code[find(program, tangent)] else { panic!("a tangent") };
+        usize::from(whisker)
+    };
+    for index in [3.0, -1.0, 0.5] {
+        told(
+            &|program| {
+                let argument = argument(program);
+                program.initial_registers[argument] = index;
+            },
+            "read as a contour",
+        );
+    }
+    // Without the last contour, its index is too large.
+    told(&|program| drop(program.contours.pop()), "contour 1 of 1");
+    let set = |program: &mut Program, keypoints| program.contours[1].keypoints = keypoints;
+    for (count, spacing) in [(2, 0.01), (17, 0.01), (7, 0.0), (7, 0.021), (7, f64::NAN)] {
+        let keypoints = Keypoints { count, spacing };
+        told(&|program| set(program, keypoints), "too few, too many, too close or too far");
+        told(&|program| program.keypoints = keypoints, "too few, too many, too close or too far");
+    }
+    told(&|program| program.contours[0].name = "a".to_owned(), "`a` occurs twice");
+    told(&|program| program.contours.resize(9, program.contours[0].clone()), "9 contours, 8 at most are allowed");
+    // What every contour may be is not always a whisker.
+    told(
+        &|program| {
+            let whisker = u16::try_from(argument(program)).unwrap();
+            let op = find(program, tangent);
+            let Op::WhiskerVector { to, .. } = program.code[op] else { panic!("a tangent") };
+            program.code[op] = Op::WhiskerVector { to, whisker, quantity: WhiskerVector::Tip };
+        },
+        "read as a whisker",
+    );
+}
+
 #[test]
 fn parameters_stay_what_they_are() {
     let told = refusal(|program| {
@@ -283,6 +338,8 @@ fn names_and_reasons_are_plain() {
     assert!(told.contains(r"\u{1b}"), "{told}");
     let told = refusal(|program| program.states[0].fallback = Some(Target::Failure("\n".into())));
     assert!(told.contains(r"\n"), "{told}");
+    let told = refusal(|program| program.always[0].target = Target::Success("\t".into()));
+    assert!(told.contains(r"\t"), "{told}");
     for text in ["a\nb".to_owned(), "long".repeat(100)] {
         let mut artifact = policies::everything();
         artifact.origin.file = text;
