@@ -1,14 +1,19 @@
 //! Calibration of a whisker: files of contact sets, contact sets from a simulation, and fits.
 
+mod array_pilot;
 mod contact_sets;
 mod count_set;
 mod fit;
 mod hinge_fit;
 #[cfg(feature = "sim")]
 mod simulated_rig;
+mod touch_procedure;
+mod undetermined;
 
 pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
 pub use count_set::{CountSet, fit_field};
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};
+pub use touch_procedure::{Pin, TouchLimits, WhiskerTouches, start_beside_pin, touch_pin};
+pub use undetermined::undetermined;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use sha2::{Digest, Sha256};
+use vibrissa_runtime::rig::Rig;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -12,11 +13,14 @@ use super::options::{ConditionOptions, Format, Jobs, MismatchOptions, Policies, 
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
 use crate::built_in::SCENARIOS;
+use crate::calibration::TouchLimits;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load;
+use crate::physics::Physics;
 use crate::report::{bench_page, bench_table, pooled_tips};
 use crate::results::RunResult;
-use crate::scene::{Outcome, Violation};
+use crate::scene::{Outcome, Scene, Violation, WorldSetup};
+use crate::study::ArrayCalibration;
 use crate::study::bench::{BenchRow, Conditions};
 use crate::trial::Trial;
 
@@ -48,6 +52,9 @@ pub(super) struct BenchTrials {
     world: WorldOptions,
     #[command(flatten)]
     mismatch: MismatchOptions,
+    /// With a mismatch, control assumes the rig of the scene. By default, the array first calibrates itself by touches of a pin
+    #[arg(long)]
+    uncalibrated: bool,
 }
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
@@ -84,6 +91,7 @@ pub(super) fn bench_trials(
     let mismatch = arguments.mismatch.load(files)?;
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, load::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
+    let mut calibrated = CalibratedArrays::default();
     let mut trials = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
     for (file, scenario) in &scenarios {
         for policy in &policies {
@@ -96,15 +104,38 @@ pub(super) fn bench_trials(
                 }
                 let path = Path::new(file.path);
                 mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
+                let world = arguments.world.of(&scene);
+                if scene.mismatch.is_some() && !arguments.uncalibrated {
+                    calibrated.apply(&mut scene, world)?;
+                    scenario_hash.update("\0calibrated");
+                }
                 let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
                 let inputs = inputs(path, &hashes.0, &hashes.1);
-                let world = arguments.world.of(&scene);
                 let trial = Trial::new(scene, Arc::new(policy.value.artifact.program.clone()));
                 trials.push((conditions, Trial { world, inputs, ..trial }));
             }
         }
     }
     Ok(trials)
+}
+
+/// Arrays that have calibrated themselves. Scenes with the same rig and physics share one.
+#[derive(Default)]
+struct CalibratedArrays(Vec<(Rig, Physics, ArrayCalibration)>);
+
+impl CalibratedArrays {
+    /// Gives the rig of a scene the calibrations of its true array.
+    fn apply(&mut self, scene: &mut Scene, world: WorldSetup) -> Result<(), Failure> {
+        let is_same = |(rig, physics, _): &&(Rig, Physics, _)| *rig == scene.rig && *physics == scene.physics;
+        if let Some((.., found)) = self.0.iter().find(is_same) {
+            return Ok(found.apply(&mut scene.rig)?);
+        }
+        let found = ArrayCalibration::run(scene, world, scene.seed, &TouchLimits::default())?;
+        let rig = scene.rig.clone();
+        found.apply(&mut scene.rig)?;
+        self.0.push((rig, scene.physics.clone(), found));
+        Ok(())
+    }
 }
 
 /// Reports the reason of an incomplete run, and the expectations that do not hold without friction, noise and mismatch.

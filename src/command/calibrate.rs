@@ -9,10 +9,11 @@ use vibrissa_robot::config::{BoardConfig, Config};
 use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
+use super::calibrate_array::calibrate_array;
 use super::drive::config;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::Format;
+use super::options::{Format, MismatchOptions, WorldOptions};
 use super::output;
 use super::trials::make_directory;
 use super::values::parse_seed;
@@ -24,19 +25,26 @@ use crate::report::{held_out_table, profile_picture};
 use crate::results::Document;
 use crate::scenario::{write_calibration, write_robot_calibration};
 
-const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CalibrateArguments {
+    /// Let the array of the rig touch a pin and measure its own whiskers, in a simulator. Writes a calibration for each whisker
+    #[arg(long = "self", conflicts_with_all = ["sets", "config", "whisker"])]
+    itself: bool,
+    #[command(flatten)]
+    pub(super) world: WorldOptions,
+    #[command(flatten)]
+    pub(super) mismatch: MismatchOptions,
     /// Measured contacts, as comma-separated values. The columns are `x_mm`, `y_mm`, `base_angle_urad` or `counts`, and
     /// optionally `normal_deg` and `contact`. Without a file, contacts are simulated
     #[arg(value_name = "SETS")]
     sets: Option<PathBuf>,
     /// Scenario with the rig of the whisker. The default is the reference rig
     #[arg(long, value_name = "SCENARIO")]
-    rig: Option<PathBuf>,
+    pub(super) rig: Option<PathBuf>,
     /// Configuration of the robot, for contacts with the counts of its sensor. It has the rig, the settings of the sensor and
     /// the board of the whisker
     #[arg(long, value_name = "FILE", requires_all = ["sets", "neutral"], conflicts_with_all = ["rig", "noise"])]
@@ -49,15 +57,15 @@ pub(super) struct CalibrateArguments {
     whisker: Option<String>,
     /// Simulate the estimated noise and resolution of the real sensors
     #[arg(long, conflicts_with = "sets")]
-    noise: bool,
+    pub(super) noise: bool,
     /// Seed of the simulated noise
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = parse_seed)]
-    seed: u64,
+    pub(super) seed: u64,
     /// Write the calibration, the contacts and a picture of the deflection profile into this directory
     #[arg(short, long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     #[command(flatten)]
-    format: Format,
+    pub(super) format: Format,
 }
 
 /// The JSON output.
@@ -77,6 +85,9 @@ impl Document for Printed<'_> {
 }
 
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
+    if arguments.itself {
+        return calibrate_array(arguments);
+    }
     let mut files = CommandFiles::new();
     let robot = match &arguments.config {
         Some(path) => Some((path, config(path, &mut files)?.0)),

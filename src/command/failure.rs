@@ -13,6 +13,7 @@ use crate::mismatch::MismatchError;
 use crate::policy::chart::UnknownState;
 use crate::property::RegressionsError;
 use crate::report::ChartTooLarge;
+use crate::study::ArrayCalibrationError;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
@@ -54,6 +55,8 @@ pub(super) enum Failure {
         "{count} tip contacts are too few, or at too few positions; give at least {MIN_POSITIONS} positions, distributed over the plane"
     )]
     TooFewSets { count: usize },
+    #[error(transparent)]
+    ArrayCalibration(#[from] ArrayCalibrationError),
     #[cfg(feature = "sim")]
     #[error(transparent)]
     CalibrationRig(#[from] CalibrationRigError),

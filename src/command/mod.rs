@@ -2,6 +2,7 @@
 
 mod bench;
 mod calibrate;
+mod calibrate_array;
 mod check;
 mod compare;
 mod compile;

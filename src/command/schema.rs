@@ -18,6 +18,7 @@ use crate::sweep::{Header, SweepLine, SweepSummary};
 use crate::tune::{Tuning, TuningHeader, TuningLine};
 
 use super::calibrate::Printed;
+use super::calibrate_array::MeasuredDocument;
 use super::check::Checked;
 use super::push::Pushed;
 use super::test::Tested;
@@ -52,6 +53,7 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<Checked>(),
         schema::<Tested>(),
         schema::<Printed<'static>>(),
+        schema::<MeasuredDocument>(),
         schema::<Pruning>(),
         schema::<Pushed>(),
     ];

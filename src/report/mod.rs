@@ -19,4 +19,4 @@ pub use tables::{
     bench_table, comparison_tables, estimators_tables, faults_table, latency_table, pareto_table, pooled_tips,
     replay_tables, results_table, stress_tables, timing_table, worlds_table,
 };
-pub(crate) use tables::{families_table, held_out_table, summary_table, tuning_tables};
+pub(crate) use tables::{families_table, held_out_table, measured_table, summary_table, tuning_tables};

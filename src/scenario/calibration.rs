@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Deserialize;
 use vibrissa_runtime::calibration::{
-    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, UnsoundCalibration,
+    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, MeasuredWhisker, UnsoundCalibration,
 };
 
 /// The supported format version.
@@ -18,6 +18,7 @@ struct Document {
     format: u32,
     about: String,
     hinge_stiffness: Option<f64>,
+    measured: Option<MeasuredWhisker>,
     one_channel: Option<ContactCurve>,
     recursive: Option<AngleSurface>,
     polynomial: Option<DeflectionPolynomial>,
@@ -60,11 +61,11 @@ pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
             _ => return Err(CalibrationError::Syntax(error.to_string())),
         },
     };
-    let Document { format, about, hinge_stiffness, one_channel, recursive, polynomial } = read;
+    let Document { format, about, hinge_stiffness, measured, one_channel, recursive, polynomial } = read;
     if format != FORMAT {
         return Err(CalibrationError::Format { found: format });
     }
-    let calibration = Calibration { about, hinge_stiffness, one_channel, recursive, polynomial };
+    let calibration = Calibration { about, hinge_stiffness, measured, one_channel, recursive, polynomial };
     calibration.check()?;
     Ok(calibration)
 }
@@ -96,6 +97,18 @@ fn values(calibration: &Calibration) -> String {
     // Writing to a string cannot fail.
     if let Some(stiffness) = calibration.hinge_stiffness {
         let _ = writeln!(text, "hinge_stiffness: {stiffness:?}");
+    }
+    if let Some(measured) = &calibration.measured {
+        let MeasuredWhisker { hinge_stiffness, length, direction, base, curvature, taper, offset, covariance } =
+            measured;
+        let _ = write!(
+            text,
+            "measured:\n  hinge_stiffness: {hinge_stiffness:?}\n  length: {length:?}\n  direction: {direction:?}\n  \
+             base: {base:?}\n  curvature: {curvature:?}\n  taper: {taper:?}\n  offset: {offset:?}\n  covariance:\n"
+        );
+        for row in covariance {
+            let _ = writeln!(text, "    - {row:?}");
+        }
     }
     if let Some(ContactCurve { range, x, y, covariance }) = &calibration.one_channel {
         let _ =

@@ -1,5 +1,6 @@
 //! Experiments over many trials.
 
+mod array_calibration;
 pub mod bench;
 pub mod compare;
 pub mod estimators;
@@ -8,3 +9,5 @@ pub mod pareto;
 pub mod stress;
 pub mod timing;
 pub mod worlds;
+
+pub use array_calibration::{ArrayCalibration, ArrayCalibrationError};

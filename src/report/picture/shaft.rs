@@ -85,7 +85,7 @@ mod tests {
         let shaft = &whisker.shaft;
         let stiffnesses: Vec<f64> = shaft.joint_stiffnesses().collect();
         let solved = ShaftChain::new(whisker);
-        let near = solved.straight();
+        let near = solved.at_rest();
         let steps = 20;
         let found = (1..=steps).try_fold(near, |near, step| {
             let angle = bend.base_angle * f64::from(step) / f64::from(steps);

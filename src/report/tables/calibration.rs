@@ -1,7 +1,9 @@
-//! The held-out errors of a calibration as a table.
+//! The results of calibrations as tables.
+
+use vibrissa_runtime::calibration::Parameter;
 
 use super::super::table::Table;
-use crate::calibration::HeldOut;
+use crate::calibration::{HeldOut, WhiskerTouches};
 
 /// A table of the errors of fits.
 #[must_use]
@@ -16,4 +18,46 @@ pub(crate) fn held_out_table(rows: &[HeldOut]) -> Table {
         ]
     });
     Table::new(1, ["fit", "held-out sets", "rms mm", "max mm", "range"], cells)
+}
+
+/// The table of the whiskers that an array has measured by its own touches, as differences from the rig.
+#[must_use]
+pub(crate) fn measured_table(rows: &[WhiskerTouches]) -> Table {
+    let cells = rows.iter().map(|row| {
+        let fit = row.fit.as_ref().ok();
+        let value = |parameter: Parameter, scale: f64| {
+            fit.map_or_else(String::new, |fit| {
+                let index = parameter.index();
+                let deviation = fit.covariance[(index, index)].sqrt();
+                format!("{:+.2} ± {:.2}", scale * fit.parameters[index], scale * deviation)
+            })
+        };
+        vec![
+            row.whisker.clone(),
+            format!("{} in {:.0} s", row.readings.len(), row.time),
+            value(Parameter::Stiffness, 100.0),
+            value(Parameter::Length, 1e3),
+            value(Parameter::Direction, 1.0_f64.to_degrees()),
+            value(Parameter::BaseX, 1e3),
+            value(Parameter::BaseY, 1e3),
+            value(Parameter::Curvature, 1.0),
+            value(Parameter::Taper, 100.0),
+            value(Parameter::Offset, 1e6),
+            fit.map_or_else(|| "refused".to_owned(), |_| format!("{:.3}", 1e3 * row.tip_deviation)),
+        ]
+    });
+    let header = [
+        "whisker",
+        "touches",
+        "hinge %",
+        "length mm",
+        "direction deg",
+        "base x mm",
+        "base y mm",
+        "curvature 1/m",
+        "taper %",
+        "offset urad",
+        "tip deviation mm",
+    ];
+    Table::new(1, header, cells)
 }

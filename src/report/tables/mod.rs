@@ -18,7 +18,7 @@ mod tuning;
 mod worlds;
 
 pub use bench::{bench_table, pooled_tips};
-pub(crate) use calibration::held_out_table;
+pub(crate) use calibration::{held_out_table, measured_table};
 pub use comparison::comparison_tables;
 pub use estimators::estimators_tables;
 pub(crate) use families::families_table;

@@ -13,7 +13,7 @@ fn chain_tip(whisker: &Whisker, links: usize, bend: &ShaftShape) -> Option<Vecto
     let mut whisker = whisker.clone();
     whisker.shaft.links = links;
     let chain = ShaftChain::new(&whisker);
-    let near = Equilibrium { force: bend.force, tip_angle: bend.tip_angle, ..chain.straight() };
+    let near = Equilibrium { force: bend.force, tip_angle: bend.tip_angle, ..chain.at_rest() };
     chain.solve(bend.base_angle, bend.force_direction, &near).map(|solution| solution.tip_base)
 }
 

@@ -243,7 +243,7 @@ fn the_tip_of_a_chain_is_located_the_better_the_more_links_it_has() {
         for (links, off) in [(16, 8e-5), (32, 2e-5), (64, 5e-6)] {
             whisker.shaft.links = links;
             let chain = ShaftChain::new(&whisker);
-            let near = Equilibrium { force: bend.force, tip_angle: bend.tip_angle, ..chain.straight() };
+            let near = Equilibrium { force: bend.force, tip_angle: bend.tip_angle, ..chain.at_rest() };
             let solution = chain.solve(base_angle, direction, &near).unwrap();
             let found = locate(&elastica, base_angle, solution.force * (direction - base_angle).sin()).unwrap();
             let error = (found.contact_base - solution.tip_base).norm();

@@ -21,7 +21,7 @@ fn chain(whisker: &Whisker, base_angle: f64, direction: f64) -> Option<Equilibri
     let chain = ShaftChain::new(whisker);
     let shaft = &whisker.shaft;
     let first = direction.min(2.9);
-    let (mut before, mut solution) = (chain.straight(), chain.straight());
+    let (mut before, mut solution) = (chain.at_rest(), chain.at_rest());
     for step in 1..=60 {
         let angle = base_angle * f64::from(step) / 60.0;
         let guess = if step == 1 {

@@ -28,7 +28,7 @@ fn chain(whisker: &Whisker, base_angle: f64, force_direction: f64) -> Equilibriu
     let chain = ShaftChain::new(whisker);
     let shaft = &whisker.shaft;
     let steps = 40;
-    let mut before = chain.straight();
+    let mut before = chain.at_rest();
     let mut solution = before;
     for index in 1..=steps {
         let angle = base_angle * f64::from(index) / f64::from(steps);

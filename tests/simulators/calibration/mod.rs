@@ -1,6 +1,7 @@
 //! Calibrations: what is fitted to touches in known places, their files, and what perception makes of them.
 
 mod counts;
+mod touches;
 
 use std::f64::consts::PI;
 

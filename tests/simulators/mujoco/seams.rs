@@ -68,7 +68,7 @@ fn greatest_error(samples: &[Sample], face: &Contour) -> f64 {
             let away = Vector2::new(-nearest.tangent.y, nearest.tangent.x);
             let away = away * away.dot(&(base - nearest.point)).signum();
             let force = mirror(rotate(away, -shaft));
-            let mut found = chain.straight();
+            let mut found = chain.at_rest();
             for share in 1..=10 {
                 let share = f64::from(share) / 10.0;
                 found.force = found.force.max(1e-4 * share);

@@ -108,7 +108,7 @@ fn base_forces_turn_the_hinge_by_the_lever_of_the_tip() {
     // The chain bends clockwise; mirror the force to solve it counter-clockwise. What the shaft passes on to the platform is
     // what the object does to its tip.
     let direction = (-force.y).atan2(force.x);
-    let mut guess = model.straight();
+    let mut guess = model.at_rest();
     for share in 1..=20 {
         let angle = right.base_angle.abs() * f64::from(share) / 20.0;
         guess.force = force.norm() * f64::from(share) / 20.0;

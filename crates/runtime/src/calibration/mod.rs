@@ -5,6 +5,14 @@ mod contact_curve;
 mod contact_set;
 mod deflection_polynomial;
 mod least_squares;
+mod measured_whisker;
+mod parameters;
+mod refusal;
+mod touch_fit;
+mod touch_plan;
+#[cfg(test)]
+mod touch_tests;
+mod workspace;
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +20,11 @@ pub use angle_surface::AngleSurface;
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
 pub use deflection_polynomial::DeflectionPolynomial;
+pub use measured_whisker::MeasuredWhisker;
+pub use parameters::{Parameter, ParameterCovariance, Parameters, tolerances};
+pub use refusal::TouchRefusal;
+pub use touch_fit::{TouchFit, TouchNoise, TouchReading};
+pub use touch_plan::{PlannedTouch, TouchPlan};
 
 /// Measured properties of a whisker. Perception derives missing ones from the mechanics.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -21,6 +34,8 @@ pub struct Calibration {
     pub about: String,
     /// Stiffness of the base hinge (N m/rad).
     pub hinge_stiffness: Option<f64>,
+    /// The whisker as touches of a known object have measured it. Then `hinge_stiffness` is `None`.
+    pub measured: Option<MeasuredWhisker>,
     /// The contact position by base angle, for the contact estimator `one_channel`.
     pub one_channel: Option<ContactCurve>,
     /// The base angle by contact position, for the contact estimator `recursive`.
@@ -31,7 +46,9 @@ pub struct Calibration {
 
 /// A value of a calibration that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{key}` cannot be used: a number is not finite, a range is empty, or a variance is negative; calibrate again")]
+#[error(
+    "`{key}` cannot be used: a number is not finite, a range is empty, a variance is negative, or a value is given twice; calibrate again"
+)]
 pub struct UnsoundCalibration {
     /// The key of the value.
     pub key: &'static str,
@@ -51,6 +68,8 @@ impl Calibration {
     pub fn check(&self) -> Result<(), UnsoundCalibration> {
         let checks = [
             ("hinge_stiffness", self.hinge_stiffness.is_none_or(|stiffness| (1e-6..=1e6).contains(&stiffness))),
+            ("hinge_stiffness", self.hinge_stiffness.is_none() || self.measured.is_none()),
+            ("measured", self.measured.as_ref().is_none_or(MeasuredWhisker::is_sound)),
             ("one_channel", self.one_channel.as_ref().is_none_or(ContactCurve::is_sound)),
             ("recursive", self.recursive.as_ref().is_none_or(AngleSurface::is_sound)),
             ("polynomial", self.polynomial.as_ref().is_none_or(DeflectionPolynomial::is_sound)),

@@ -6,7 +6,8 @@ use crate::geometry::unit;
 use crate::math;
 use crate::rig::Whisker;
 
-/// A whisker's shaft as a chain of rigid links with planar springs. The simulators use the same chain.
+/// A whisker's shaft as a chain of rigid links with planar springs, with its curvature at rest. The simulators use the
+/// same chain.
 ///
 /// The frame is that of the whisker's base: origin at the base, first axis along the undeflected shaft, second axis to
 /// its left.
@@ -18,6 +19,8 @@ pub struct ShaftChain {
     hinge_stiffness: f64,
     /// Joint stiffnesses from the base to the tip (N m/rad).
     joint_stiffnesses: Vec<f64>,
+    /// Angles of the joints at rest, from the base to the tip (rad).
+    rest_angles: Vec<f64>,
 }
 
 /// The shape of a chain in equilibrium.
@@ -55,6 +58,7 @@ impl ShaftChain {
             link_length: whisker.shaft.link_length(),
             hinge_stiffness: whisker.hinge.stiffness,
             joint_stiffnesses: whisker.shaft.joint_stiffnesses().collect(),
+            rest_angles: whisker.shaft.rest_angles().collect(),
         }
     }
 
@@ -106,11 +110,15 @@ impl ShaftChain {
         found
     }
 
-    /// The straight chain.
+    /// The chain without a force. It is straight unless the shaft is curved at rest.
     #[must_use]
-    pub fn straight(&self) -> Equilibrium {
-        let length = self.link_length * self.joint_stiffnesses.len() as f64;
-        Equilibrium { base_angle: 0.0, tip_angle: 0.0, force: 0.0, tip_base: Vector2::new(length, 0.0) }
+    pub fn at_rest(&self) -> Equilibrium {
+        let (mut tip_angle, mut links) = (0.0, Vector2::zeros());
+        for rest_angle in &self.rest_angles {
+            tip_angle += rest_angle;
+            links += unit(tip_angle);
+        }
+        Equilibrium { base_angle: 0.0, tip_angle, force: 0.0, tip_base: self.link_length * links }
     }
 
     /// Shoots chains from their free ends to the base, for given angles of the last link and forces.
@@ -120,7 +128,7 @@ impl ShaftChain {
             hinge: Dual::default(),
             tip_base: Vector2::zeros(),
         });
-        for &stiffness in self.joint_stiffnesses.iter().rev() {
+        for (&stiffness, &rest_angle) in self.joint_stiffnesses.iter().zip(&self.rest_angles).rev() {
             for ((Shot { root: angle, hinge: moment, tip_base }, (_, force)), direction) in
                 shots.iter_mut().zip(unknowns).zip(directions)
             {
@@ -133,7 +141,7 @@ impl ShaftChain {
                 moment.value += force * lever;
                 moment.by_angle += turned * angle.by_angle;
                 moment.by_force += turned * angle.by_force + lever;
-                angle.value -= moment.value / stiffness;
+                angle.value -= moment.value / stiffness + rest_angle;
                 angle.by_angle -= moment.by_angle / stiffness;
                 angle.by_force -= moment.by_force / stiffness;
             }
@@ -193,8 +201,8 @@ mod tests {
     #[test]
     fn side_by_side_chains_are_solved_as_each_by_itself_to_the_same_bit() {
         let chain = ShaftChain::new(&Rig::default().whiskers[0]);
-        let guess = chain.solve(1e-4, 2.0, &super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() });
-        let guess = guess.unwrap_or_else(|| chain.straight());
+        let guess = chain.solve(1e-4, 2.0, &super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.at_rest() });
+        let guess = guess.unwrap_or_else(|| chain.at_rest());
         let problem = [(1.1e-4, 2.0), (2e-4, 1.2), (9e-5, 2.6), (f64::NAN, 2.0)]
             .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));
         let [a, b, c, d] = problem;
@@ -220,7 +228,7 @@ mod tests {
     #[test]
     fn the_energy_has_no_slope_where_a_chain_is_in_equilibrium() {
         let chain = ShaftChain::new(&Rig::default().whiskers[0]);
-        let start = super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.straight() };
+        let start = super::Equilibrium { tip_angle: 0.1, force: 0.02, ..chain.at_rest() };
         let guess = chain.solve(1e-4, 2.0, &start).unwrap_or(start);
         let problem = [(1e-4, 2.0), (1.1e-4, 2.1), (1.2e-4, 1.8), (0.9e-4, 2.3)]
             .map(|(base_angle, force_direction)| Some(EquilibriumProblem { base_angle, force_direction, guess }));

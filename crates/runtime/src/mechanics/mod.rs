@@ -8,13 +8,17 @@ mod extrapolation;
 mod frictionless_contact;
 mod locate;
 mod newton;
+mod obstacle;
 mod pivot;
 mod shaft_shape;
 mod shot;
+mod touch;
 
 pub use chain::EquilibriumProblem;
 pub use chain::{Equilibrium, ShaftChain};
 pub use elastica::Elastica;
 pub use locate::LocateError;
+pub use obstacle::Obstacle;
 pub use pivot::Pivot;
 pub use shaft_shape::ShaftShape;
+pub use touch::{Touch, TouchMechanics};

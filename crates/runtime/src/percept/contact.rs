@@ -15,6 +15,9 @@ pub struct Contact {
     pub deviation: f64,
     /// Standard deviation (m) for the record: `deviation` with those errors of the model that readings cannot reveal.
     pub recorded_deviation: f64,
+    /// Standard deviation of the position (m) that the errors of the calibration cause. It is the same error at all
+    /// contacts that are alike, so it is not part of the scatter. 0 without a calibration by touches.
+    pub bias: f64,
     /// True if the position may be recorded. False while another part than the tip may be in contact.
     pub is_recordable: bool,
     /// Length of the shaft from the base to the contact (m). For a tip contact it is the whole length.
@@ -34,6 +37,7 @@ impl Contact {
             covariance_world: rotated(covariance, base.heading),
             deviation,
             recorded_deviation: deviation,
+            bias: 0.0,
             is_recordable: true,
             contact_length: length,
         }

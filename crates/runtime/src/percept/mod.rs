@@ -18,6 +18,7 @@ mod recursive;
 mod shaft_rest;
 mod sliding;
 mod sliding_contact;
+mod tip_bias;
 mod tip_curve;
 mod tip_table;
 mod truth;

@@ -125,6 +125,7 @@ impl ContactEstimator for MomentAndShear {
             covariance_world: rotated(&covariance, base.heading),
             deviation,
             recorded_deviation: deviation,
+            bias: 0.0,
             is_recordable: true,
             contact_length: shape.contact_length,
         })

@@ -85,7 +85,9 @@ impl Perception {
     pub fn prepare(rig: &Rig, contact_estimators: &[ContactEstimatorKind]) {
         if contact_estimators.iter().any(|kind| matches!(kind, Kind::Sliding | Kind::Recursive)) {
             for whisker in &rig.whiskers {
-                drop(TipTable::shared(&whisker.perceived()));
+                let perceived = whisker.perceived();
+                drop(TipTable::shared(&perceived));
+                drop(TipTable::shared(&perceived.mirrored()));
             }
         }
     }
@@ -136,7 +138,7 @@ impl Perception {
                 Kind::OneChannel | Kind::Polynomial => {
                     Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), length))
                 }
-                Kind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
+                Kind::Sliding => Box::new(Sliding::new(&whisker, sensing)),
                 Kind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
                 Kind::MomentAndShear => return Err(PerceptionError::NoForces { whisker: whisker.name }),
                 Kind::Recursive => {

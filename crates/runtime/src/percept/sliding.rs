@@ -15,6 +15,7 @@ use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::shaft_rest::ShaftRest;
 use super::sliding_contact::{SHAFT_FIRST, SlidingContact};
+use super::tip_bias::TipBias;
 use super::tip_table::{TipPosition, TipTable};
 
 /// Estimates the contact position of a sliding tip and the direction of the surface from base angles and poses.
@@ -29,8 +30,11 @@ use super::tip_table::{TipPosition, TipTable};
 /// it is assumed to touch a surface that continues from where the tip left, if that is possible.
 #[derive(Debug, Clone)]
 pub(super) struct Sliding {
-    /// Tip positions by base angle and force direction.
-    table: Arc<TipTable>,
+    /// Tip positions by base angle and force direction, for bends to the left and for those to the right. They differ for
+    /// a curved shaft.
+    tables: [Arc<TipTable>; 2],
+    /// Errors of the calibration, if there is one.
+    bias: Option<TipBias>,
     /// Radius of the tip (m).
     tip_radius: f64,
     /// Length of the shaft (m).
@@ -95,13 +99,14 @@ const CALM_TIME: f64 = 0.02;
 
 impl Sliding {
     /// Creates the estimator of `whisker`.
-    pub(super) fn new(whisker: &Whisker, table: Arc<TipTable>, sensing: &Sensing) -> Self {
+    pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Self {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let calm_samples = (CALM_TIME * sensing.sample_rate).ceil() as usize;
         let angle = BaseAngle::new(whisker, sensing);
         Self {
             rest: ShaftRest::new(whisker, angle.deviation),
-            table,
+            tables: [TipTable::shared(whisker), TipTable::shared(&whisker.mirrored())],
+            bias: TipBias::new(whisker),
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
             usual_normal: whisker.usual_normal(),
@@ -120,12 +125,29 @@ impl Sliding {
         if let State::Settled(contact) = &self.state { Some(contact) } else { None }
     }
 
+    /// Tip positions for bends with this sign.
+    fn table(&self, bend_sign: f64) -> &TipTable {
+        let [left, right] = &self.tables;
+        if bend_sign < 0.0 { right } else { left }
+    }
+
+    /// Standard deviation of the position (m, along the normal) that the errors of the calibration cause.
+    fn bias(&self, contact: &SlidingContact, base: Pose) -> f64 {
+        let Some(bias) = &self.bias else { return 0.0 };
+        let (angle, _) = self.angle.value();
+        let bend_sign = contact.bend_sign;
+        let normal = (bend_sign * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
+        let force = normal - self.friction_angle;
+        let tip = self.table(bend_sign).at(angle.abs(), force);
+        tip.map_or(0.0, |tip| bias.deviation(angle.abs(), bend_sign, [force, normal], &tip))
+    }
+
     /// The tip's centre (m, world frame) with its derivatives, for a surface whose normal has the direction `normal`
     /// (rad, world frame).
     fn tip(&self, angle: f64, base: Pose, normal: f64) -> Option<TipPosition> {
         let bend_sign = angle.signum();
         let force = (bend_sign * (normal - base.heading)).rem_euclid(2.0 * PI) - self.friction_angle;
-        let position = self.table.at(angle.abs(), force)?;
+        let position = self.table(bend_sign).at(angle.abs(), force)?;
         let rotated = |v: Column<f64>| rotate(Vector2::new(v.x, bend_sign * v.y), base.heading);
         Some(TipPosition {
             tip_base: rotated(position.tip_base) + base.position.coords,
@@ -297,13 +319,14 @@ impl ContactEstimator for Sliding {
         self.rest.end();
     }
 
-    fn contact(&mut self, _: f64, _: Pose) -> Option<Contact> {
+    fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {
         let contact = self.sliding_contact()?;
         Some(Contact {
             point_world: contact.centre - self.tip_radius * unit(contact.normal),
             covariance_world: contact.position_covariance(self.tip_radius, self.angle.deviation),
             deviation: contact.position_deviation(&contact.covariance),
             recorded_deviation: contact.position_deviation(&contact.considered),
+            bias: self.bias(contact, base),
             is_recordable: self.rest.possible_error() < MAX_POSSIBLE_ERROR,
             contact_length: self.length,
         })
@@ -315,7 +338,7 @@ impl ContactEstimator for Sliding {
         // A bend to the other side is the mirror image.
         let normal = contact.bend_sign * (contact.normal - yaw);
         let force = normal.rem_euclid(2.0 * PI) - self.friction_angle;
-        let tip = self.table.at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
+        let tip = self.table(bend_sign).at(base_angle.abs(), force)?.tip_base - self.tip_radius * unit(normal);
         Some(Vector2::new(tip.x, bend_sign * tip.y))
     }
 }

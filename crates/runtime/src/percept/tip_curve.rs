@@ -101,7 +101,10 @@ impl TipCurve {
     /// # Errors
     /// [`TipCurveError`] if the whisker sticks instead of sliding, or its chain has no equilibrium in the range.
     pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipCurveError> {
-        let chain = ShaftChain::new(whisker);
+        let chain = match whisker.side() {
+            side if side < 0.0 => ShaftChain::new(&whisker.mirrored()),
+            _ => ShaftChain::new(whisker),
+        };
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
         let step = MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;
@@ -109,7 +112,7 @@ impl TipCurve {
         let tip_radius = shaft.radius_at(1.0);
 
         let (mut contacts, mut unknowns) = (Vec::with_capacity(STEPS + 1), Vec::with_capacity(STEPS + 1));
-        let mut solution = chain.straight();
+        let mut solution = chain.at_rest();
         let mut before = solution;
         for index in 0..=STEPS {
             let base_angle = step * index as f64;

@@ -46,7 +46,7 @@ const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
 /// Number of directions, up to 230°.
 const DIRECTIONS: usize = 91;
 /// Number of cached tables, of 100 kB each.
-const MOST_KEPT: usize = 16;
+const MOST_KEPT: usize = 32;
 /// Number of equilibria that are solved in parallel.
 const SIDE_BY_SIDE: usize = 4;
 /// Number of directions, up to 174°, in which a force bends a straight whisker.
@@ -136,7 +136,7 @@ fn from_straight(
     directions: [f64; SIDE_BY_SIDE],
 ) -> [Vec<Option<Equilibrium>>; SIDE_BY_SIDE] {
     let shaft = &whisker.shaft;
-    let straight = chain.straight();
+    let straight = chain.at_rest();
     let mut columns = directions.map(|_| {
         let mut column = Vec::with_capacity(ANGLE_STEPS + 1);
         column.push(Some(straight));

@@ -55,6 +55,7 @@ impl ContactEstimator for Truth {
             covariance_world: Matrix2::identity() * math::square(CONTACT_DEVIATION),
             deviation: CONTACT_DEVIATION,
             recorded_deviation: CONTACT_DEVIATION,
+            bias: 0.0,
             is_recordable: true,
             contact_length: self.length,
         })

@@ -26,6 +26,8 @@ pub(super) struct PerceivedWhisker {
     pub(super) side: f64,
     /// Length of the shaft (m).
     pub(super) length: f64,
+    /// Reading in the air (rad), as the calibration has it.
+    offset: f64,
     pub(super) base_angle: FilteredBaseAngle,
     estimator: Box<dyn ContactEstimator>,
     /// The estimated contact, if there is one in this tick.
@@ -60,6 +62,7 @@ impl PerceivedWhisker {
             direction_body: whisker.direction_body,
             side: whisker.side(),
             length: whisker.shaft.length,
+            offset: offset(whisker),
             base_angle: FilteredBaseAngle::new(filter),
             estimator,
             contact: None,
@@ -85,6 +88,7 @@ impl PerceivedWhisker {
 
     /// Adds a reading, sampled with the platform at `body`.
     pub(super) fn take(&mut self, reading: &Reading, body: Pose) {
+        let reading = &Reading { base_angle: reading.base_angle - self.offset, ..*reading };
         self.base_angle.take(reading.base_angle);
         if reading.base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
             self.estimator.take(reading, self.base(body));
@@ -169,9 +173,13 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Standard deviation of a recorded tip (m).
+    /// Standard deviation of a recorded tip (m). It contains scatter and bias.
     pub(super) fn recorded_deviation(&self) -> f64 {
-        self.contact.map_or_else(|| self.tip_deviation(), |contact| contact.recorded_deviation)
+        let both = |contact: Contact| match contact.bias {
+            0.0 => contact.recorded_deviation,
+            bias => math::hypot(contact.recorded_deviation, bias),
+        };
+        self.contact.map_or_else(|| self.tip_deviation(), both)
     }
 
     /// Records the tip as a point of the contour during a contact. An interrupted contour restarts.
@@ -179,6 +187,12 @@ impl PerceivedWhisker {
         let tip_world = self.has_contact().then(|| self.tip_world());
         self.contour.record(tip_world, Some(self.base_world));
     }
+}
+
+/// Reading of a whisker in the air (rad), or 0 if it was not measured.
+fn offset(whisker: &Whisker) -> f64 {
+    let measured = whisker.calibration.as_ref().and_then(|calibration| calibration.measured.as_ref());
+    measured.map_or(0.0, |measured| measured.offset)
 }
 
 /// Standard deviation of a filtered base angle (rad).

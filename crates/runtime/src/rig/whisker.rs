@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Hinge, Shaft};
 use crate::calibration::Calibration;
-use crate::geometry::coordinates;
+use crate::geometry::{Pose, coordinates};
 
 /// A whisker: its mounting, shaft and base hinge.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,14 +48,34 @@ impl Whisker {
         Self { base_body: Point2::origin(), direction_body: 0.0, ..Self::reference("", 1.0) }
     }
 
-    /// The whisker as perception models it: with the measured stiffness of the base hinge, if there is one.
+    /// The whisker as perception models it: with the measured stiffness of the base hinge, or with all measured
+    /// properties, as far as there are some.
     #[must_use]
     pub fn perceived(&self) -> Self {
         let mut whisker = self.clone();
-        if let Some(stiffness) = self.calibration.as_ref().and_then(|calibration| calibration.hinge_stiffness) {
-            whisker.hinge.stiffness = stiffness;
+        if let Some(calibration) = &self.calibration {
+            if let Some(stiffness) = calibration.hinge_stiffness {
+                whisker.hinge.stiffness = stiffness;
+            }
+            if let Some(measured) = &calibration.measured {
+                measured.apply(&mut whisker);
+            }
         }
         whisker
+    }
+
+    /// A whisker whose bends to the left are the mirror images of this one's bends to the right.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut whisker = self.clone();
+        whisker.shaft.curvature = -self.shaft.curvature;
+        whisker
+    }
+
+    /// Pose of the base in the body frame. Its heading is the direction of the undeflected shaft.
+    #[must_use]
+    pub fn base_pose(&self) -> Pose {
+        Pose { position: self.base_body, heading: self.direction_body }
     }
 
     /// Direction (rad, frame of the base) of the normal of a surface that a policy follows, for a bend to the left. The

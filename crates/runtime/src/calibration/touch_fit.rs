@@ -1,0 +1,261 @@
+//! The fit of a whisker's parameters to touches of a known object.
+
+use crate::geometry::Pose;
+use crate::math;
+use crate::mechanics::{Obstacle, Touch, TouchMechanics};
+use crate::rig::Whisker;
+
+use super::measured_whisker::MeasuredWhisker;
+use super::parameters::{self, COUNT, Parameter, ParameterCovariance, Parameters};
+
+/// A touch of a known object: the pose of the platform at rest, and the reading of one whisker.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchReading {
+    /// Pose of the platform.
+    pub body: Pose,
+    /// The touched part of the object (world frame).
+    pub obstacle: Obstacle,
+    /// +1 if the object bends the whisker to the left, −1 if to the right.
+    pub side: f64,
+    /// Mean base angle (rad).
+    pub base_angle: f64,
+    /// Mean reading in the air, before or after the touch (rad).
+    pub in_air: f64,
+    /// Standard deviation of the difference of the two (rad), from the scatter of the readings.
+    pub deviation: f64,
+}
+
+/// What is uncertain in a touch, apart from the readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchNoise {
+    /// Standard deviation of the position of the platform relative to the object (m), in each direction. It includes
+    /// that of the model.
+    pub position: f64,
+    /// Standard deviation of the heading of the platform (rad).
+    pub heading: f64,
+}
+
+impl Default for TouchNoise {
+    fn default() -> Self {
+        Self { position: 5e-5, heading: 3.5e-4 }
+    }
+}
+
+/// The result of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TouchFit {
+    /// The whisker of the rig.
+    pub(super) whisker: Whisker,
+    /// The parameters, as differences from the rig.
+    pub parameters: Parameters,
+    /// Their covariance.
+    pub covariance: ParameterCovariance,
+    /// Sum of the squares of the residuals over their standard deviations, with that of the differences from the
+    /// prior. It has as many degrees of freedom as there are touches.
+    pub chi_square: f64,
+    /// The residual of every touch in standard deviations.
+    pub residuals: Vec<f64>,
+}
+
+/// The assumptions of a fit: the parameters before any touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Prior {
+    pub(super) mean: Parameters,
+    pub(super) deviation: Parameters,
+}
+
+/// Maximum number of steps of the Levenberg-Marquardt method.
+const STEPS: usize = 40;
+/// Change of the parameters, in standard deviations, at which it has converged.
+const SETTLED: f64 = 1e-4;
+/// Residual, in standard deviations, of a touch without an equilibrium.
+const UNREACHED: f64 = 30.0;
+
+/// A touch with the derivatives of its reading.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Predicted {
+    /// Reading (rad).
+    pub(super) reading: f64,
+    /// Its derivatives by the parameters.
+    pub(super) slope: Parameters,
+    /// Its variance (rad²) due to the pose of the platform.
+    pub(super) pose_variance: f64,
+}
+
+impl Predicted {
+    /// The prediction for a touch. `obstacle` is in the body frame.
+    pub(super) fn of(
+        whisker: &Whisker,
+        at: &Parameters,
+        obstacle: &Obstacle,
+        touch: &Touch,
+        side: f64,
+        noise: &TouchNoise,
+    ) -> Option<Self> {
+        let mut slope = Parameters::zeros();
+        for index in 0..COUNT {
+            let (sides, difference) = parameters::beside(at, index);
+            let [(low, seen), (high, also_seen)] =
+                sides.map(|beside| parameters::mechanics(whisker, &beside, obstacle));
+            slope[index] = TouchMechanics::change(touch, [(&low, &seen), (&high, &also_seen)])? / difference;
+        }
+        slope[Parameter::Offset.index()] = 1.0;
+        slope[Parameter::Play.index()] = side;
+        let base = parameters::with_parameters(whisker, at).base_body;
+        let [x, y] = [Parameter::BaseX, Parameter::BaseY].map(|parameter| slope[parameter.index()]);
+        // A rotation of the platform rotates the whisker about its base and moves the base.
+        let turn = slope[Parameter::Direction.index()] - base.y * x + base.x * y;
+        let pose_variance = math::square(noise.position) * (x * x + y * y) + math::square(noise.heading * turn);
+        let offset = at[Parameter::Offset.index()] + side * at[Parameter::Play.index()];
+        Some(Self { reading: touch.base_angle + offset, slope, pose_variance })
+    }
+}
+
+/// The state of the method: parameters, cost, and the normal equations.
+struct Linearised {
+    cost: f64,
+    matrix: ParameterCovariance,
+    gradient: Parameters,
+    residuals: Vec<f64>,
+    touches: Vec<Option<Touch>>,
+}
+
+impl TouchFit {
+    /// What is known before any touch: the rig with the tolerances of manufacture.
+    #[must_use]
+    pub fn untouched(whisker: &Whisker) -> Self {
+        let deviations = parameters::tolerances();
+        Self {
+            whisker: whisker.clone(),
+            parameters: Parameters::zeros(),
+            covariance: ParameterCovariance::from_diagonal(&deviations.component_mul(&deviations)),
+            chi_square: 0.0,
+            residuals: Vec::new(),
+        }
+    }
+
+    /// Fits the parameters of a whisker to touches, from the tolerances of manufacture. `friction` is the expected
+    /// coefficient. `None` if the mechanics have no equilibrium for the rig's whisker in most touches.
+    #[must_use]
+    pub fn new(whisker: &Whisker, touches: &[TouchReading], noise: &TouchNoise) -> Option<Self> {
+        let prior = Prior { mean: Parameters::zeros(), deviation: parameters::tolerances() };
+        Self::with_prior(whisker, touches, noise, &prior)
+    }
+
+    /// The same for touches that no parameters near those of the rig explain.
+    pub(super) fn unreached(mut self, readings: &[TouchReading]) -> Self {
+        self.residuals = vec![UNREACHED; readings.len()];
+        self.chi_square = UNREACHED * UNREACHED * readings.len() as f64;
+        self
+    }
+
+    pub(super) fn with_prior(
+        whisker: &Whisker,
+        readings: &[TouchReading],
+        noise: &TouchNoise,
+        prior: &Prior,
+    ) -> Option<Self> {
+        let prior = with_offset(readings, prior);
+        let mut here = prior.mean;
+        let none = vec![None; readings.len()];
+        let mut state = linearised(whisker, &here, readings, noise, &prior, &none);
+        let mut damping = 1e-3;
+        for _ in 0..STEPS {
+            let mut matrix = state.matrix;
+            for index in 0..COUNT {
+                matrix[(index, index)] *= 1.0 + damping;
+            }
+            let step = matrix.cholesky()?.solve(&state.gradient);
+            let next = here - step;
+            let found = linearised(whisker, &next, readings, noise, &prior, &state.touches);
+            if found.cost <= state.cost {
+                let size = step.dot(&(state.matrix * step));
+                (here, state, damping) = (next, found, 0.1 * damping);
+                if size < SETTLED * SETTLED {
+                    break;
+                }
+            } else {
+                damping *= 10.0;
+                if damping > 1e8 {
+                    break;
+                }
+            }
+        }
+        if 2 * state.touches.iter().flatten().count() < readings.len() {
+            return None;
+        }
+        let covariance = state.matrix.cholesky()?.inverse();
+        Some(Self {
+            whisker: whisker.clone(),
+            parameters: here,
+            covariance: 0.5 * (covariance + covariance.transpose()),
+            chi_square: state.cost,
+            residuals: state.residuals,
+        })
+    }
+
+    /// The whisker as perception should model it.
+    #[must_use]
+    pub fn measured(&self) -> MeasuredWhisker {
+        parameters::measured(&self.whisker, &self.parameters, &self.covariance)
+    }
+}
+
+/// The prior with the offset that the newest reading in the air shows.
+fn with_offset(readings: &[TouchReading], prior: &Prior) -> Prior {
+    let mut prior = *prior;
+    if let Some(newest) = readings.last() {
+        prior.mean[Parameter::Offset.index()] = newest.in_air;
+        prior.deviation[Parameter::Offset.index()] = newest.deviation;
+    }
+    prior
+}
+
+/// The cost at some parameters, with its derivatives to first order.
+fn linearised(
+    whisker: &Whisker,
+    at: &Parameters,
+    readings: &[TouchReading],
+    noise: &TouchNoise,
+    prior: &Prior,
+    before: &[Option<Touch>],
+) -> Linearised {
+    let mut state = Linearised {
+        cost: 0.0,
+        matrix: ParameterCovariance::zeros(),
+        gradient: Parameters::zeros(),
+        residuals: Vec::with_capacity(readings.len()),
+        touches: Vec::with_capacity(readings.len()),
+    };
+    for index in 0..COUNT {
+        let weight = math::square(prior.deviation[index]).recip();
+        let off = at[index] - prior.mean[index];
+        state.cost += weight * off * off;
+        state.matrix[(index, index)] += weight;
+        state.gradient[index] += weight * off;
+    }
+    for (reading, before) in readings.iter().zip(before) {
+        let obstacle = reading.obstacle.seen_from(reading.body);
+        let (mechanics, seen) = parameters::mechanics(whisker, at, &obstacle);
+        let near = before.and_then(|touch| mechanics.near(&seen, &touch));
+        let touch = near.or_else(|| mechanics.press(&seen, reading.side));
+        let predicted = touch.and_then(|touch| Predicted::of(whisker, at, &obstacle, &touch, reading.side, noise));
+        state.touches.push(touch);
+        let Some(predicted) = predicted else {
+            state.cost += UNREACHED * UNREACHED;
+            state.residuals.push(UNREACHED);
+            continue;
+        };
+        // The offset at the time of the touch is known from the air. It may drift until the newest one.
+        let mut slope = predicted.slope;
+        slope[Parameter::Offset.index()] = 0.0;
+        let contact = predicted.reading - at[Parameter::Offset.index()];
+        let variance = math::square(reading.deviation) + predicted.pose_variance;
+        let off = contact - (reading.base_angle - reading.in_air);
+        state.cost += off * off / variance;
+        state.residuals.push(off / variance.sqrt());
+        state.matrix += slope * slope.transpose() / variance;
+        state.gradient += slope * (off / variance);
+    }
+    state
+}

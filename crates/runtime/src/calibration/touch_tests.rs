@@ -1,0 +1,206 @@
+//! Fits to drawn whiskers that touch a pin.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic and explain itself")]
+
+use super::parameters::{self, COUNT, Parameter, Parameters};
+use super::workspace::Workspace;
+use super::{PlannedTouch, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal};
+use crate::geometry::{Pose, Vector2};
+use crate::math;
+use crate::mechanics::Obstacle;
+use crate::rig::{Rig, Whisker};
+
+/// Uniform and normal numbers from a seed (`SplitMix64`).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn uniform(&mut self, half: f64) -> f64 {
+        half * (2.0 * self.next() - 1.0)
+    }
+
+    fn normal(&mut self, deviation: f64) -> f64 {
+        let radius = (-2.0 * math::ln(1.0 - self.next())).sqrt();
+        deviation * radius * math::cos(std::f64::consts::TAU * self.next())
+    }
+}
+
+const RADIUS: f64 = 10e-3;
+const NOISE: f64 = 5e-8;
+
+/// The true whisker of a plausible array.
+fn drawn(random: &mut Random) -> Parameters {
+    let mut truth = Parameters::zeros();
+    let halves = [0.05, 0.5e-3, 1_f64.to_radians(), 0.5e-3, 0.5e-3, 0.1, 0.01, 2e-6, 0.1, 0.0];
+    for index in 0..COUNT {
+        truth[index] = random.uniform(halves[index]);
+    }
+    truth[Parameter::Friction.index()] = truth[Parameter::Friction.index()].abs();
+    truth
+}
+
+/// The reading of a true whisker for a planned touch.
+fn touched(
+    whisker: &Whisker,
+    truth: &Parameters,
+    planned: &PlannedTouch,
+    noise: &TouchNoise,
+    random: &mut Random,
+) -> Option<TouchReading> {
+    let obstacle_body = whisker.base_pose().point_to_world(planned.pin_base);
+    let body = Pose::default();
+    let obstacle = Obstacle::Pin { centre: obstacle_body, radius: RADIUS };
+    let off = Pose {
+        position: body.position + Vector2::new(random.normal(noise.position), random.normal(noise.position)),
+        heading: random.normal(noise.heading),
+    };
+    let (mechanics, seen) = parameters::mechanics(whisker, truth, &obstacle.seen_from(off));
+    let touch = mechanics.press(&seen, planned.side)?;
+    let offset = truth[Parameter::Offset.index()];
+    let play = planned.side * truth[Parameter::Play.index()];
+    Some(TouchReading {
+        body,
+        obstacle,
+        side: planned.side,
+        base_angle: touch.base_angle + play + offset + random.normal(NOISE),
+        in_air: offset + random.normal(NOISE),
+        deviation: NOISE * 2_f64.sqrt(),
+    })
+}
+
+/// The fit to touches that it has chosen itself, and these touches.
+fn calibrated(
+    whisker: &Whisker,
+    truth: &Parameters,
+    count: usize,
+    random: &mut Random,
+    mut change: impl FnMut(&mut TouchReading, &mut Random),
+) -> (TouchFit, Vec<TouchReading>) {
+    let noise = TouchNoise::default();
+    let plan = TouchPlan::new(whisker, RADIUS, NOISE * 2_f64.sqrt(), &noise);
+    let (mut fit, mut readings, mut missed) = (TouchFit::untouched(whisker), Vec::new(), Vec::new());
+    for _ in 0..count {
+        let planned = plan.next(&fit, &missed).unwrap();
+        let Some(mut reading) = touched(whisker, truth, &planned, &noise, random) else {
+            missed.push(planned);
+            continue;
+        };
+        change(&mut reading, random);
+        readings.push(reading);
+        if let Some(next) = TouchFit::new(whisker, &readings, &noise) {
+            fit = next;
+        }
+    }
+    (fit, readings)
+}
+
+/// True if the parameters of the whisker are within the ellipsoid with a probability of 95 %.
+fn is_within(fit: &TouchFit, truth: &Parameters) -> bool {
+    // The 95 % quantile of chi-square with eight degrees of freedom.
+    const QUANTILE: f64 = 15.507;
+    let off = fit.parameters - truth;
+    let known = off.fixed_rows::<{ Parameter::WHISKER }>(0);
+    let inverse = fit.covariance.fixed_view::<8, 8>(0, 0).try_inverse().unwrap();
+    (known.transpose() * inverse * known).x < QUANTILE
+}
+
+fn left() -> Whisker {
+    Rig::default().whiskers.remove(1)
+}
+
+#[test]
+fn the_ellipsoid_of_drawn_whiskers_has_their_true_parameters_in_95_percent_of_all_cases() {
+    let (mut within, mut accepted, mut errors) = (0, 0, Vec::new());
+    for seed in 0..24 {
+        let mut random = Random(seed);
+        let truth = drawn(&mut random);
+        let whisker = Rig::default().whiskers.remove(usize::from(seed % 2 == 0));
+        let (fit, readings) = calibrated(&whisker, &truth, 20, &mut random, |_, _| ());
+        within += usize::from(is_within(&fit, &truth));
+        accepted += usize::from(fit.check(&readings, &TouchNoise::default(), std::iter::empty()).is_ok());
+        let workspace = Workspace::new(&whisker, &fit.parameters);
+        errors.push((workspace.error(&(fit.parameters - truth)), workspace.deviation(&fit.covariance)));
+    }
+    let mean = |values: &dyn Fn(&(f64, f64)) -> f64| errors.iter().map(values).sum::<f64>() / errors.len() as f64;
+    println!("within {within}, accepted {accepted}, error {:.3e}, deviation {:.3e}", mean(&|e| e.0), mean(&|e| e.1));
+    assert!((20..=24).contains(&within), "{within} of 24");
+    assert!(accepted >= 23, "{accepted} of 24");
+}
+
+#[test]
+fn a_bent_whisker_is_refused_as_bent() {
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let mut truth = drawn(&mut random);
+        // The tip is 8 mm aside.
+        truth[Parameter::Curvature.index()] = if seed % 2 == 0 { 1.6 } else { -1.6 };
+        let (fit, readings) = calibrated(&left(), &truth, 16, &mut random, |_, _| ());
+        let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::empty());
+        assert!(matches!(verdict, Err(TouchRefusal::Bent { .. })), "{seed}: {verdict:?}");
+    }
+}
+
+#[test]
+fn a_loose_whisker_is_refused_as_loose_whether_its_play_shows_in_the_air_or_in_contact() {
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let mut truth = drawn(&mut random);
+        truth[Parameter::Play.index()] = 2e-5;
+        let is_sprung = seed % 2 == 0;
+        let rattle = |reading: &mut TouchReading, random: &mut Random| {
+            if !is_sprung {
+                reading.in_air += random.uniform(2e-5);
+            }
+        };
+        let (fit, readings) = calibrated(&left(), &truth, 16, &mut random, rattle);
+        let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::empty());
+        assert!(matches!(verdict, Err(TouchRefusal::Loose { .. })), "{seed}: {verdict:?}");
+    }
+}
+
+#[test]
+fn a_swapped_whisker_is_refused_as_swapped() {
+    let mut shorter = left();
+    shorter.name = "l1".to_owned();
+    shorter.shaft.length = 0.085;
+    for seed in 0..3 {
+        // The sensor of another whisker, which touches nothing.
+        let mut random = Random(seed);
+        let truth = drawn(&mut random);
+        let silent = |reading: &mut TouchReading, random: &mut Random| reading.base_angle = random.normal(NOISE);
+        let (fit, readings) = calibrated(&left(), &truth, 8, &mut random, silent);
+        let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::once(&shorter));
+        assert!(matches!(verdict, Err(TouchRefusal::Swapped { .. })), "{seed}: {verdict:?}");
+        // The shaft of another whisker.
+        let (fit, readings) = {
+            let mounted = Whisker { shaft: shorter.shaft.clone(), ..left() };
+            let mut random = Random(seed);
+            let (_, readings) = calibrated(&mounted, &truth, 16, &mut random, |_, _| ());
+            (TouchFit::new(&left(), &readings, &TouchNoise::default()), readings)
+        };
+        let verdict = fit.unwrap().check(&readings, &TouchNoise::default(), std::iter::once(&shorter));
+        assert!(matches!(verdict, Err(TouchRefusal::Swapped { .. })), "{seed}: {verdict:?}");
+    }
+}
+
+#[test]
+fn a_pin_elsewhere_is_refused_as_displaced() {
+    for seed in 0..3 {
+        let mut random = Random(seed);
+        let truth = drawn(&mut random);
+        let (fit, readings) = calibrated(&left(), &truth, 16, &mut random, |reading, _| {
+            if let Obstacle::Pin { centre, .. } = &mut reading.obstacle {
+                *centre += Vector2::new(6e-3, -7e-3);
+            }
+        });
+        let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::empty());
+        assert!(matches!(verdict, Err(TouchRefusal::Displaced { .. })), "{seed}: {verdict:?}");
+    }
+}
