@@ -57,6 +57,8 @@ pub struct WhiskerTouches {
 const CLEARANCE: f64 = 8e-3;
 /// Share of the expected base angle below which the whisker has slipped off the pin.
 const SLIPPED: f64 = 0.3;
+/// Change of the reading in the air (rad) from touch to touch that is no drift.
+const MOVED: f64 = 4e-6;
 /// Number of touches without a response after which the whisker is given up.
 const HOPELESS: usize = 4;
 /// Time of the last motions of a touch (s), for which some of the limit is left.
@@ -202,7 +204,19 @@ impl<'p, 'w> Toucher<'p, 'w> {
     fn touch_once(&mut self, planned: PlannedTouch, rest: f64) -> Result<(), Fault> {
         let before = self.beside(planned.pin_base.x, planned.side);
         self.approach(before, planned.side)?;
-        let in_air = self.pilot.rest_in_air()?;
+        let mut in_air = self.pilot.rest_in_air()?;
+        if self.is_moved(&in_air) {
+            // The whisker may have slipped off during the last touch, so that the pin now bends it from the other side.
+            self.go(Point2::new(self.beyond_tip(), before.y))?;
+            self.approach(before, planned.side)?;
+            in_air = self.pilot.rest_in_air()?;
+            if !self.is_moved(&in_air)
+                && let Some((slipped, _)) = self.touched.pop()
+            {
+                self.in_air.pop();
+                self.missed.push(slipped);
+            }
+        }
         self.pin_base = Some(planned.pin_base);
         let touch = self.pilot.press(self.body(planned.pin_base), rest)?;
         let change = |index: usize| touch.base_angle(index).0 - in_air.base_angle(index).0;
@@ -220,6 +234,12 @@ impl<'p, 'w> Toucher<'p, 'w> {
             self.go(before)?;
         }
         Ok(())
+    }
+
+    /// True if the whisker in the air reads another base angle than before the last touch.
+    fn is_moved(&self, in_air: &Rest) -> bool {
+        let before = self.in_air.last().map(|before| before.base_angle(self.index).0);
+        before.is_some_and(|before| (in_air.base_angle(self.index).0 - before).abs() > MOVED)
     }
 
     /// Position of the pin beside the straight whisker, from where it bends it to a side.

@@ -45,6 +45,8 @@ const BEYOND: [f64; 3] = [0.2, 0.4, 0.6];
 /// Depths of the pin in steps, as shares of the length of the shaft.
 const DEPTH_STEP: f64 = 0.03;
 const DEPTHS: u32 = 14;
+/// Number of touches before the depth at which the whisker slips off that are left out.
+const SLIPPERY: usize = 2;
 /// Least and largest base angle of a touch, in the unit of the mechanics.
 const LEVELS: (f64, f64) = (0.2, 2.4);
 /// Distance (m) below which two positions of the pin are the same.
@@ -118,8 +120,8 @@ fn touches_at(whisker: &Whisker, along: f64, side: f64, radius: f64, noise: &Tou
             Some((level, Predicted::of(whisker, &nominal, &obstacle, &touch, side, noise)?))
         });
         let Some((level, Predicted { reading: base_angle, mut slope, pose_variance: variance })) = predicted else {
-            // The whisker slips off a pin that is deeper. It may already slip off at the last touch.
-            candidates.pop();
+            // The whisker slips off a pin that is deeper. Within the tolerances it may already slip off at the last touches.
+            candidates.truncate(candidates.len().saturating_sub(SLIPPERY));
             break;
         };
         if level > LEVELS.1 {
