@@ -36,10 +36,10 @@ pub(super) struct Rest {
     base_angles: [(f64, f64); MAX_WHISKERS],
 }
 
-/// Speed on the way to a touch (m/s), and the highest rate of the approach (1/s).
+/// Speed between touches (m/s), and the highest rate of the approach (1/s).
 const SPEED: f64 = 0.2;
 const GAIN: f64 = 4.0;
-/// Distance (m) from a position on the way, and from that of a touch, at which a motion ends.
+/// Distance (m) at which a motion between touches ends, and one to a touch.
 const PASSED: f64 = 1e-3;
 const ARRIVED: f64 = 0.3e-3;
 /// Distance (m) from the position of a touch from which the platform approaches it slowly.

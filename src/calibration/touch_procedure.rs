@@ -111,7 +111,7 @@ struct Around {
     radius: f64,
 }
 
-/// Angle between two positions of the pin on the way around the array (rad).
+/// Angle between two positions of the pin on its path around the array (rad).
 const AROUND_STEP: f64 = 0.3;
 
 impl Around {

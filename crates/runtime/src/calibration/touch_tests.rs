@@ -197,7 +197,7 @@ fn a_pin_elsewhere_is_refused_as_displaced() {
         let truth = drawn(&mut random);
         let (fit, readings) = calibrated(&left(), &truth, 16, &mut random, |reading, _| {
             if let Obstacle::Pin { centre, .. } = &mut reading.obstacle {
-                *centre += Vector2::new(6e-3, -7e-3);
+                *centre += Vector2::new(3e-3, -4e-3);
             }
         });
         let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::empty());

@@ -101,7 +101,7 @@ impl TouchMechanics {
     pub fn press(&self, obstacle: &Obstacle, side: f64) -> Option<Touch> {
         let (mechanics, obstacle) = self.to_left(obstacle, side);
         let (start, first) = mechanics.start(&obstacle)?;
-        // A fold on the way, where the whisker would snap off, changes the sign of the determinant.
+        // A fold on the path, where the whisker would snap off, changes the sign of the determinant.
         let sign = mechanics.slope(&first, &start)?.determinant().signum();
         let solve = |share: f64, near: &State| {
             let obstacle = between(&first, &obstacle, share);
@@ -283,7 +283,7 @@ impl TouchMechanics {
     }
 }
 
-/// An obstacle on the way from one position to another, in the frame of the base.
+/// An obstacle between two positions, in the frame of the base.
 fn between(from: &Obstacle, to: &Obstacle, share: f64) -> Obstacle {
     let point = |a: Point2, b: Point2| Point2::from((1.0 - share) * a.coords + share * b.coords);
     match (*from, *to) {
