@@ -6,7 +6,7 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
 use crate::geometry::Point2;
-use crate::world::{Fault, World};
+use crate::world::{Fault, OutOfPlane, World};
 
 /// A world that is simulated one sample period at a time. Its base moments are those of the hinges.
 pub struct WorldPlant {
@@ -17,6 +17,7 @@ pub struct WorldPlant {
     /// Events since the last [`next_tick`](Self::next_tick).
     has_body_touched: bool,
     has_snapped_off: [bool; MAX_WHISKERS],
+    out_of_plane: [Option<OutOfPlane>; MAX_WHISKERS],
 }
 
 impl WorldPlant {
@@ -27,13 +28,21 @@ impl WorldPlant {
         for (stiffness, whisker) in hinge_stiffness.iter_mut().zip(&rig.whiskers) {
             *stiffness = whisker.hinge.stiffness;
         }
-        let has_snapped_off = [false; MAX_WHISKERS];
-        Self { world, start, hinge_stiffness, fault: None, has_body_touched: false, has_snapped_off }
+        Self {
+            world,
+            start,
+            hinge_stiffness,
+            fault: None,
+            has_body_touched: false,
+            has_snapped_off: [false; MAX_WHISKERS],
+            out_of_plane: [None; MAX_WHISKERS],
+        }
     }
 
     /// Forgets the events of the last tick.
     pub fn next_tick(&mut self) {
         (self.has_body_touched, self.has_snapped_off) = (false, [false; MAX_WHISKERS]);
+        self.out_of_plane = [None; MAX_WHISKERS];
     }
 
     /// The fault that has ended the simulation.
@@ -62,6 +71,9 @@ impl Plant for WorldPlant {
             if self.hinge_stiffness[whisker] > 0.0 {
                 *moment = sample.whiskers[whisker].base_angle * self.hinge_stiffness[whisker];
                 self.has_snapped_off[whisker] |= self.world.snapped_off(whisker);
+                if let Some(now) = self.world.out_of_plane(whisker) {
+                    self.out_of_plane[whisker].get_or_insert_default().include(now);
+                }
             }
         }
         Ok(PlantState { pose: sample.body, base_moments })
@@ -80,6 +92,10 @@ impl World for WorldPlant {
 
     fn snapped_off(&self, whisker: usize) -> bool {
         self.has_snapped_off[whisker]
+    }
+
+    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
+        self.out_of_plane[whisker]
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

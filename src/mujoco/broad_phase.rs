@@ -17,7 +17,7 @@ const WITHIN_STEP: f64 = 1e-3;
 #[derive(Debug, Default)]
 pub(super) struct BroadPhase {
     /// The pose of the platform and the joint angles of all whiskers at the last search.
-    since: Option<(Pose, Vec<Vec<f64>>)>,
+    since: Option<(Pose, Vec<Vec<[f64; 2]>>)>,
     pairs: Vec<Pair>,
 }
 
@@ -37,7 +37,8 @@ impl BroadPhase {
         let parts = reach.near_body(&rig.platform, &body, SLACK + WITHIN_STEP);
         self.pairs.extend(parts.into_iter().map(|part| Pair { of: Member::Body, part }));
         for (index, whisker) in engine.scope.flexible(rig) {
-            let near = reach.near_links(whisker, engine.links(rig, index), SLACK + WITHIN_STEP);
+            let links = engine.links(rig, index).map(|link| (link.start, link.direction));
+            let near = reach.near_links(whisker, links, SLACK + WITHIN_STEP);
             self.pairs.extend(near.map(|(link, part)| Pair { of: Member::Link(index, link), part }));
         }
         let angles = (0..rig.whiskers.len()).map(|whisker| engine.angles(whisker).collect()).collect();
@@ -47,7 +48,7 @@ impl BroadPhase {
 }
 
 /// True if no point has moved more than [`SLACK`] since the last search.
-fn is_near(rig: &Rig, reach: &Reach, engine: &Engine, body: &Pose, angles: &[Vec<f64>]) -> bool {
+fn is_near(rig: &Rig, reach: &Reach, engine: &Engine, body: &Pose, angles: &[Vec<[f64; 2]>]) -> bool {
     let motion = reach.motion_bound(body, &engine.body());
     let swings = angles.iter().enumerate().map(|(whisker, angles)| engine.swing_since(rig, whisker, angles));
     motion + swings.fold(0.0, f64::max) <= SLACK

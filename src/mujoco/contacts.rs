@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use crate::physics::Physics;
+use crate::physics::{Physics, ShaftModel};
 use vibrissa_runtime::rig::Rig;
 
 use super::prune::Scope;
@@ -95,9 +95,18 @@ pub(super) fn friction_stiffness(physics: &Physics) -> String {
     if physics.friction > 0.0 { format!(r#" impratio="{SLIDING}""#) } else { String::new() }
 }
 
+/// The impedance with which a contact is as compliant as one of a planar chain with this `impedance`.
+///
+/// The compliance of a contact is the ratio `(1 − d) / d` for the impedance `d`, times an inverse mass. MuJoCo takes the
+/// mean inverse mass of the link over three axes. Hinges in a second direction double it, so the ratio is halved.
+fn compensated(impedance: f64, shafts: ShaftModel) -> f64 {
+    if shafts == ShaftModel::SpatialChain { 2.0 * impedance / (1.0 + impedance) } else { impedance }
+}
+
 /// Returns the attributes of a contact with these friction coefficients.
 fn contact(physics: &Physics, friction: &str) -> String {
     let [surface, full, depth] = physics.contact_impedance;
+    let [surface, full] = [surface, full].map(|impedance| compensated(impedance, physics.shafts));
     let condim = if physics.friction > 0.0 { 3 } else { 1 };
     let time = physics.contact_time;
     format!(r#"condim="{condim}" friction="{friction}" solref="{time} 1" solimp="{surface} {full} {depth}""#)

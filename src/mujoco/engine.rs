@@ -6,12 +6,13 @@ use mujoco_rs::prelude::{MjData, MjModel};
 use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
 use super::{Scope, mjcf_within, part_names};
-use crate::geometry::{Point2, Pose, Vector2, unit};
+use crate::geometry::{Point2, Pose, Vector2};
 use crate::physics::{Physics, ShaftModel};
 use crate::solid::Solid;
 use crate::world::Fault;
-use vibrissa_runtime::rig::{Rig, Shaft, Whisker};
+use vibrissa_runtime::rig::{Rig, Shaft};
 
+use super::link::{Link, LinkEnds};
 use super::messages::WARNINGS;
 use super::world::MujocoError;
 
@@ -92,7 +93,7 @@ impl Engine {
             first_links[index] = Some(geom(&format!("{}.0", whisker.name))?);
             let freedom = shafts.degrees_of_freedom(whisker.shaft.links);
             let numbers = match shafts {
-                ShaftModel::Chain => freedom,
+                ShaftModel::Chain | ShaftModel::SpatialChain => freedom,
                 // The position of a ball joint is a quaternion.
                 ShaftModel::Cable => freedom / 3 * 4,
             };
@@ -257,31 +258,26 @@ impl Engine {
         (Vector2::new(velocities[0], velocities[1]), velocities[2])
     }
 
-    /// The near end (m, world frame) and the direction (rad) of every link of a flexible whisker.
-    pub(super) fn links(&self, rig: &Rig, whisker: usize) -> impl Iterator<Item = (Point2, f64)> {
-        let Whisker { base_body, direction_body, shaft, .. } = &rig.whiskers[whisker];
-        let (body, length) = (self.body(), shaft.link_length());
+    /// Every link of a flexible whisker, from the base to the tip.
+    pub(super) fn links(&self, rig: &Rig, whisker: usize) -> impl Iterator<Item = Link> {
+        let base = &rig.whiskers[whisker];
         let mut angles = self.angles(whisker);
-        let mut start = body.point_to_world(*base_body);
-        let mut direction = body.heading + direction_body + angles.next().unwrap_or(0.0);
-        angles.zip(shaft.rest_angles()).map(move |(turn, rest)| {
-            direction += rest + turn;
-            let link = (start, direction);
-            start += length * unit(direction);
-            link
-        })
+        let hinge = angles.next().unwrap_or_default();
+        let mut ends = LinkEnds::new(base, &self.body(), hinge, self.shafts == ShaftModel::SpatialChain);
+        angles.zip(base.shaft.rest_angles()).map(move |(angles, rest)| ends.next_link(rest, angles))
     }
 
-    /// The angle (rad) of a whisker's hinge, followed by the angle of every link relative to its predecessor. Empty for
-    /// a rigid whisker.
-    pub(super) fn angles(&self, whisker: usize) -> impl Iterator<Item = f64> {
+    /// The angles (rad) of a whisker's hinge, followed by those of every link relative to its predecessor: about the
+    /// vertical axis, and about the transverse axis after that. Empty for a rigid whisker.
+    pub(super) fn angles(&self, whisker: usize) -> impl Iterator<Item = [f64; 2]> {
         let joints = self.joints[whisker].as_ref();
         let positions = joints.map_or(&[][..], |joints| &self.data.qpos()[joints.positions.clone()]);
         self.by_joint(positions, 4).map(|position| match position {
-            [angle] => *angle,
+            [angle] => [*angle, 0.0],
+            [vertical, transverse] => [*vertical, *transverse],
             // A quaternion about the vertical axis.
-            [cosine, .., sine] => 2.0 * sine.atan2(*cosine),
-            [] => 0.0,
+            [cosine, .., sine] => [2.0 * sine.atan2(*cosine), 0.0],
+            [] => [0.0; 2],
         })
     }
 
@@ -297,20 +293,22 @@ impl Engine {
     }
 
     /// Splits per-joint values of a whisker into those of the hinge and of every link. A ball joint has `of_ball`
-    /// values. The first link of a cable is clamped and has none.
+    /// values.
     fn by_joint<'a>(&self, of_joints: &'a [f64], of_ball: usize) -> impl Iterator<Item = &'a [f64]> + use<'a> {
-        let (hinge, along) = of_joints.split_at(of_joints.len().min(1));
-        let (clamped, of_link) = match self.shafts {
-            ShaftModel::Chain => (0, 1),
-            ShaftModel::Cable => (hinge.len(), of_ball),
-        };
-        hinge.chunks_exact(1).chain(std::iter::repeat_n(&[][..], clamped)).chain(along.chunks_exact(of_link))
+        let (shafts, mut rest, mut joints) = (self.shafts, of_joints, 0..);
+        std::iter::from_fn(move || {
+            let size = shafts.joint_size(joints.next()?, of_ball);
+            let (own, others) = rest.split_at_checked(size).filter(|_| !rest.is_empty())?;
+            rest = others;
+            Some(own)
+        })
     }
 
     /// An upper bound of the displacement (m) of any point of a whisker relative to its base since its joints had these
     /// angles (rad).
-    pub(super) fn swing_since(&self, rig: &Rig, whisker: usize, angles: &[f64]) -> f64 {
-        let turns = self.angles(whisker).zip(angles).map(|(angle, before)| angle - before);
+    pub(super) fn swing_since(&self, rig: &Rig, whisker: usize, angles: &[[f64; 2]]) -> f64 {
+        let turns =
+            self.angles(whisker).zip(angles).map(|(now, before)| (now[0] - before[0]).hypot(now[1] - before[1]));
         swing(&rig.whiskers[whisker].shaft, turns)
     }
 

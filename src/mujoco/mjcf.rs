@@ -8,19 +8,24 @@
 //!
 //! A cable has the layout of MuJoCo's composite of that name. Its first link is clamped to the base, and the others are
 //! on ball joints. MuJoCo's cable plugin replaces the springs.
+//!
+//! A spatial chain has a second hinge at the base, and one at every second link. Their axes are transverse and
+//! horizontal. A chain of links that are twice as long has half of the joint stiffness. Only this model has gravity.
 
 use std::fmt::{self, Write};
 
-use crate::geometry::{Point2, Pose, Vector2};
+use crate::geometry::{Point2, Pose, Vector2, unit};
 use crate::physics::{Physics, ShaftModel, Solver, link_inertia};
-use vibrissa_runtime::rig::{Platform, Rig, Whisker};
+use vibrissa_runtime::rig::{Platform, Rig, Shaft, Whisker};
 
 use super::contacts::{Contacts, friction_stiffness};
 use super::prune::Scope;
 use crate::solid::{Part, Solid};
 
-/// Half of the height (m) of all geoms. Any height is possible, because the simulation is planar.
+/// Half of the height (m) of the platform, and of objects in a planar simulation. There, any height is possible.
 const HALF_HEIGHT: f64 = 0.01;
+/// Gravitational acceleration (m/s²).
+const GRAVITY: f64 = 9.81;
 /// The height (m) by which the farthest vertex of a prism is lowered. Hundreds of coplanar vertices would slow down the
 /// computation of faces, and later the support function.
 const DOME: f64 = 1e-3;
@@ -43,7 +48,7 @@ const YOUNG_OVER_SHEAR: f64 = 2.6;
 /// - the body and the geom `platform/body`
 /// - the joints `platform/x`, `platform/y` and `platform/yaw`, each with an actuator of the same name
 /// - for a whisker `w`: the joint `w`, its sensor, and the joints and geoms `w.0`, `w.1`, … along the shaft. A cable
-///   has no joint `w.0`, but an instance `w` of the plugin
+///   has no joint `w.0`, but an instance `w` of the plugin. A spatial chain also has joints `w/up`, `w.0/up`, `w.2/up`, …
 /// - the geom `object`, or `object/0`, `object/1`, … if there are several convex parts
 /// - the keyframe `start`
 #[must_use]
@@ -90,12 +95,13 @@ fn write_model(
     // not. Decision 0049 compares the solvers.
     writeln!(
         xml,
-        r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 0" jacobian="dense">"#,
+        r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 {}" jacobian="dense">"#,
         physics.step,
         physics.integrator.name(),
         physics.solver.name(),
         friction_stiffness(physics),
-        tolerance(physics)
+        tolerance(physics),
+        if physics.shafts == ShaftModel::SpatialChain { -GRAVITY } else { 0.0 }
     )?;
     // One tree of bodies is one island. The search for islands would take a quarter of the time.
     writeln!(xml, r#"    <flag island="disable"/>"#)?;
@@ -105,10 +111,12 @@ fn write_model(
     }
     let contacts = Contacts::with(parts.len(), physics, scope);
     contacts.write_defaults(xml, physics)?;
-    write_assets(xml, &rig.platform, parts)?;
+    let half_height =
+        if physics.shafts == ShaftModel::SpatialChain { 0.5 * physics.object_height } else { HALF_HEIGHT };
+    write_assets(xml, &rig.platform, parts, half_height)?;
     writeln!(xml, r"  <worldbody>")?;
     for (name, part) in parts {
-        write_part(xml, name, part, contacts)?;
+        write_part(xml, name, part, half_height, contacts)?;
     }
     write_platform(xml, rig, physics, contacts, scope)?;
     writeln!(xml, r"  </worldbody>")?;
@@ -146,19 +154,19 @@ fn tolerance(physics: &Physics) -> &'static str {
     if physics.solver == Solver::ProjectedGaussSeidel { r#" tolerance="1e-6""# } else { "" }
 }
 
-fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)]) -> fmt::Result {
+fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)], half_height: f64) -> fmt::Result {
     writeln!(xml, r"  <asset>")?;
-    write_prism(xml, "platform", &platform.outline_body())?;
+    write_prism(xml, "platform", &platform.outline_body(), HALF_HEIGHT)?;
     for (name, part) in parts {
         if let Part::Prism { outline } = part {
-            write_prism(xml, name, outline)?;
+            write_prism(xml, name, outline, half_height)?;
         }
     }
     writeln!(xml, r"  </asset>")
 }
 
 /// Writes an upright prism with domed ends.
-fn write_prism(xml: &mut String, name: &str, outline: &[Point2]) -> fmt::Result {
+fn write_prism(xml: &mut String, name: &str, outline: &[Point2], half_height: f64) -> fmt::Result {
     let sum = outline.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords);
     let middle = Point2::from(sum / outline.len() as f64);
     // Points of a circle, lowered by their squared distance, would be coplanar again.
@@ -167,18 +175,18 @@ fn write_prism(xml: &mut String, name: &str, outline: &[Point2]) -> fmt::Result 
     let farthest = outline.iter().map(from_middle).fold(f64::MIN_POSITIVE, f64::max);
     write!(xml, r#"    <mesh name="{name}" vertex=""#)?;
     for corner in outline {
-        let (x, y, top) = (corner.x, corner.y, HALF_HEIGHT - DOME * from_middle(corner) / farthest);
+        let (x, y, top) = (corner.x, corner.y, half_height - DOME * from_middle(corner) / farthest);
         write!(xml, "{x} {y} {} {x} {y} {top} ", -top)?;
     }
     writeln!(xml, r#""/>"#)
 }
 
-fn write_part(xml: &mut String, name: &str, part: &Part, contacts: Contacts) -> fmt::Result {
+fn write_part(xml: &mut String, name: &str, part: &Part, half_height: f64, contacts: Contacts) -> fmt::Result {
     let mask = contacts.of_part();
     match part {
         Part::Cylinder { centre, radius } => writeln!(
             xml,
-            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {HALF_HEIGHT}" {mask}/>"#,
+            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {half_height}" {mask}/>"#,
             centre.x, centre.y
         ),
         Part::Prism { .. } => writeln!(xml, r#"    <geom name="{name}" type="mesh" mesh="{name}" {mask}/>"#),
@@ -198,8 +206,10 @@ fn write_platform(xml: &mut String, rig: &Rig, physics: &Physics, contacts: Cont
         // The body has no name, so that a whisker's name cannot collide with a name of MuJoCo such as `world`.
         writeln!(
             xml,
-            r#"      <body pos="{} {} 0" euler="0 0 {}">"#,
-            whisker.base_body.x, whisker.base_body.y, whisker.direction_body
+            r#"      <body pos="{} {} 0" {}>"#,
+            whisker.base_body.x,
+            whisker.base_body.y,
+            orientation(whisker, physics.shafts)
         )?;
         if scope.is_rigid(index) {
             write_rigid(xml, whisker)?;
@@ -208,6 +218,16 @@ fn write_platform(xml: &mut String, rig: &Rig, physics: &Physics, contacts: Cont
         }
     }
     writeln!(xml, r"    </body>")
+}
+
+/// The orientation of the base of a whisker, as an attribute. A spatial chain has a pitch.
+fn orientation(whisker: &Whisker, model: ShaftModel) -> String {
+    let Whisker { direction_body, pitch, .. } = whisker;
+    if model != ShaftModel::SpatialChain {
+        return format!(r#"euler="0 0 {direction_body}""#);
+    }
+    let (ahead, up) = (unit(*direction_body), unit(*pitch));
+    format!(r#"xyaxes="{} {} {} {} {} 0""#, ahead.x * up.x, ahead.y * up.x, up.y, -ahead.y, ahead.x)
 }
 
 /// Writes a rigid whisker without geoms: only its mass, in the undeflected position.
@@ -239,6 +259,13 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &
         r#"        <joint name="{name}" type="hinge" axis="0 0 1" stiffness="{}" damping="{}" armature="{}"/>"#,
         hinge.stiffness, hinge.damping, hinge.armature
     )?;
+    if model == ShaftModel::SpatialChain {
+        writeln!(
+            xml,
+            r#"        <joint name="{name}/up" type="hinge" axis="0 1 0" stiffness="{}" damping="{}" armature="{}"/>"#,
+            hinge.stiffness, hinge.damping, hinge.armature
+        )?;
+    }
     writeln!(xml, r#"        <site name="{name}"/>"#)?;
     for (link, (stiffness, rest)) in shaft.joint_stiffnesses().zip(shaft.rest_angles()).enumerate() {
         let at = if link == 0 { 0.0 } else { length };
@@ -251,7 +278,7 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &
         )?;
         let damping = stiffness * shaft.damping;
         match model {
-            ShaftModel::Chain => writeln!(
+            ShaftModel::Chain | ShaftModel::SpatialChain => writeln!(
                 xml,
                 r#"          <joint name="{name}.{link}" type="hinge" axis="0 0 1" stiffness="{stiffness}" damping="{damping}"/>"#
             )?,
@@ -266,6 +293,14 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &
                 writeln!(xml, r#"          <plugin instance="{name}"/>"#)?;
             }
         }
+        if model == ShaftModel::SpatialChain && ShaftModel::bends_out_of_plane(link) {
+            let stiffness = stiffness_out_of_plane(shaft, stiffness);
+            let damping = stiffness * shaft.damping;
+            writeln!(
+                xml,
+                r#"          <joint name="{name}.{link}/up" type="hinge" axis="0 1 0" stiffness="{stiffness}" damping="{damping}"/>"#
+            )?;
+        }
         writeln!(
             xml,
             r#"          <geom name="{name}.{link}" type="capsule" fromto="0 0 0 {length} 0 0" size="{}" {mask}/>"#,
@@ -273,6 +308,38 @@ fn write_whisker(xml: &mut String, whisker: &Whisker, model: ShaftModel, mask: &
         )?;
     }
     writeln!(xml, "      {}</body>", "</body>".repeat(shaft.links))
+}
+
+/// Stiffness (N m/rad) of the transverse hinge of a link whose hinge in the plane has the stiffness `in_plane`.
+fn stiffness_out_of_plane(shaft: &Shaft, in_plane: f64) -> f64 {
+    0.5 * shaft.out_of_plane * in_plane
+}
+
+/// The joint angles (rad) of an undeflected whisker. A spatial chain droops under its weight. Its angles are those of
+/// small deflections: the moment of the weight beyond a joint over the stiffness of the joint.
+fn angles_at_rest(whisker: &Whisker, model: ShaftModel) -> String {
+    let shaft = &whisker.shaft;
+    match model {
+        ShaftModel::Chain => " 0".repeat(1 + shaft.links),
+        ShaftModel::Cable => format!(" 0{}", " 1 0 0 0".repeat(shaft.links.saturating_sub(1))),
+        ShaftModel::SpatialChain => {
+            let moment = |joint: usize| {
+                let weights = (joint..shaft.links).map(|link| {
+                    (link as f64 + 0.5 - joint as f64) * shaft.link_length() * shaft.link_mass(link) * GRAVITY
+                });
+                weights.sum::<f64>() * unit(whisker.pitch).x
+            };
+            let mut angles = format!(" 0 {}", moment(0) / whisker.hinge.stiffness);
+            for (link, in_plane) in shaft.joint_stiffnesses().enumerate() {
+                angles.push_str(" 0");
+                if ShaftModel::bends_out_of_plane(link) {
+                    // Writing to a string cannot fail.
+                    let _ = write!(angles, " {}", moment(link) / stiffness_out_of_plane(shaft, in_plane));
+                }
+            }
+            angles
+        }
+    }
 }
 
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
@@ -287,17 +354,14 @@ fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
 }
 
 fn write_start(xml: &mut String, rig: &Rig, physics: &Physics, start: Pose, scope: &Scope) -> fmt::Result {
-    let straight = scope.flexible(rig).map(|(_, whisker)| match (physics.shafts, whisker.shaft.links) {
-        (ShaftModel::Chain, links) => " 0".repeat(1 + links),
-        (ShaftModel::Cable, links) => format!(" 0{}", " 1 0 0 0".repeat(links.saturating_sub(1))),
-    });
+    let at_rest = scope.flexible(rig).map(|(_, whisker)| angles_at_rest(whisker, physics.shafts));
     writeln!(
         xml,
         "  <keyframe>\n    <key name=\"start\" qpos=\"{} {} {}{}\"/>\n  </keyframe>",
         start.position.x,
         start.position.y,
         start.heading,
-        straight.collect::<String>()
+        at_rest.collect::<String>()
     )
 }
 

@@ -10,6 +10,8 @@ mod engine;
 #[cfg(feature = "sim")]
 mod library;
 #[cfg(feature = "sim")]
+mod link;
+#[cfg(feature = "sim")]
 mod messages;
 mod mjcf;
 #[cfg(feature = "sim")]

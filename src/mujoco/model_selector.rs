@@ -50,8 +50,8 @@ impl ModelSelector {
     pub(super) fn initial_model(&mut self, rig: &Rig, start: Pose) -> Result<Engine, MujocoError> {
         let mut scope = Scope::whole(rig, &self.solids);
         for (index, whisker) in rig.whiskers.iter().enumerate() {
-            let is_rigid =
-                self.physics.rigid_in_air && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
+            let is_rigid = self.physics.has_rigid_whiskers()
+                && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
             scope = scope.with_rigid(index, is_rigid);
         }
         if let Some(capacity) = self.capacity {
@@ -77,7 +77,7 @@ impl ModelSelector {
             let travel = travel(whisker.base_body.coords.norm());
             let clearance = self.reach.clearance(whisker, &body);
             let is_rigid = engine.scope.is_rigid(index);
-            let stays = self.physics.rigid_in_air
+            let stays = self.physics.has_rigid_whiskers()
                 && may_be_rigid(whisker, clearance, travel, is_rigid)
                 && is_gentle(rig, whisker, command, velocity, yaw_rate)
                 && (is_rigid || is_at_rest(rig, engine, index));
@@ -130,6 +130,6 @@ impl ModelSelector {
 
 /// True if a whisker without contact is so still that it can become rigid.
 fn is_at_rest(rig: &Rig, engine: &Engine, whisker: usize) -> bool {
-    let reading = engine.angles(whisker).next().map_or(0.0, f64::abs);
+    let reading = engine.angles(whisker).next().map_or(0.0, |[angle, _]| angle.abs());
     reading < REST * rig.sensing.contact_threshold && engine.speed(rig, whisker) < REST_SPEED
 }

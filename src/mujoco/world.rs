@@ -3,7 +3,7 @@
 use crate::geometry::{Point2, Pose, unit};
 use crate::physics::{Physics, ShaftModel};
 use crate::solid::Solid;
-use crate::world::{Fault, SNAP_OFF_SPEED, World};
+use crate::world::{Fault, OutOfPlane, SNAP_OFF_SPEED, World};
 use crate::world::{Sensors, whole};
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, Sample};
@@ -49,6 +49,8 @@ pub struct MujocoWorld {
     body_touched: bool,
     /// For every whisker, true if it snapped off since the last tick.
     snapped_off: Vec<bool>,
+    /// For every whisker of a spatial simulation, the distance of its tip from the plane since the last tick.
+    out_of_plane: Vec<OutOfPlane>,
 }
 
 impl MujocoWorld {
@@ -97,6 +99,10 @@ impl MujocoWorld {
             sensors: Sensors::new(sensing, seed),
             body_touched: false,
             snapped_off: vec![false; rig.whiskers.len()],
+            out_of_plane: match physics.shafts {
+                ShaftModel::SpatialChain => vec![OutOfPlane::default(); rig.whiskers.len()],
+                ShaftModel::Chain | ShaftModel::Cable => Vec::new(),
+            },
             rig: rig.clone(),
             physics: physics.clone(),
         })
@@ -109,8 +115,7 @@ impl MujocoWorld {
     pub fn whisker_contact(&self, whisker: usize) -> Option<(Point2, f64)> {
         let shaft = &self.rig.whiskers[whisker].shaft;
         let (place, link) = self.engine.deepest(whisker, shaft.links)?;
-        let (start, direction) = self.engine.links(&self.rig, whisker).nth(link)?;
-        let along = (place - start).dot(&unit(direction)).clamp(0.0, shaft.link_length());
+        let along = self.engine.links(&self.rig, whisker).nth(link)?.along(place).clamp(0.0, shaft.link_length());
         Some((place, link as f64 * shaft.link_length() + along))
     }
 
@@ -121,6 +126,24 @@ impl MujocoWorld {
     pub fn energy(&mut self) -> Result<f64, Fault> {
         self.refresh()?;
         Ok(self.engine.energy())
+    }
+
+    /// The position of a whisker's tip (m, world frame) and its height above the plane of the bases (m).
+    fn tip_and_height(&self, whisker: usize) -> (Point2, f64) {
+        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
+        let body = self.engine.body();
+        let rigid = (body.point_to_world(*base_body), body.heading + direction_body);
+        let last = self.engine.links(&self.rig, whisker).last();
+        last.map_or_else(|| (rigid.0 + shaft.length * unit(rigid.1), 0.0), |link| link.point(shaft.link_length()))
+    }
+
+    /// Notes the distances of the tips from the plane.
+    fn watch_heights(&mut self) {
+        for whisker in 0..self.out_of_plane.len() {
+            let distance = self.tip_and_height(whisker).1.abs();
+            let slips = distance > 0.5 * self.physics.object_height;
+            self.out_of_plane[whisker].include(OutOfPlane { distance, slips });
+        }
     }
 
     fn time(&self) -> f64 {
@@ -210,7 +233,7 @@ impl MujocoWorld {
         }
         let mut sample = Sample { time: self.time(), body: self.engine.body(), whiskers: Default::default() };
         for (index, reading) in (0..self.rig.whiskers.len()).zip(&mut sample.whiskers) {
-            reading.base_angle = self.sensors.read(self.engine.angles(index).next().unwrap_or(0.0));
+            reading.base_angle = self.sensors.read(self.engine.angles(index).next().map_or(0.0, |[angle, _]| angle));
             if self.rig.sensing.forces {
                 let (axial, shear) = self.engine.base_forces(index);
                 (reading.axial, reading.shear) =
@@ -227,11 +250,13 @@ impl World for MujocoWorld {
         self.engine.command(command.velocity_world, command.yaw_rate);
         self.body_touched = false;
         self.snapped_off.fill(false);
+        self.out_of_plane.fill(OutOfPlane::default());
         self.samples.clear();
         for _ in 0..self.samples_per_tick {
             self.simulate_sample()?;
             let sample = self.sample()?;
             self.samples.push(sample);
+            self.watch_heights();
         }
         if !self.engine.is_finite() {
             self.diverged(WARNINGS[3])?;
@@ -248,14 +273,11 @@ impl World for MujocoWorld {
     }
 
     fn tip(&self, whisker: usize) -> Point2 {
-        let Whisker { base_body, direction_body, shaft, .. } = &self.rig.whiskers[whisker];
-        let body = self.engine.body();
-        let rigid = (body.point_to_world(*base_body), body.heading + direction_body);
-        let last = self.engine.links(&self.rig, whisker).last();
-        last.map_or_else(
-            || rigid.0 + shaft.length * unit(rigid.1),
-            |(start, direction)| start + shaft.link_length() * unit(direction),
-        )
+        self.tip_and_height(whisker).0
+    }
+
+    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
+        self.out_of_plane.get(whisker).copied()
     }
 }
 

@@ -23,6 +23,9 @@ pub struct Physics {
     pub contact_impedance: [f64; 3],
     /// Coefficient of sliding friction between whisker and object, 0 without friction.
     pub friction: f64,
+    /// Height (m) of all objects, half of it above and half below the plane of the bases. It matters only for whiskers
+    /// that [bend out of the plane](ShaftModel::SpatialChain).
+    pub object_height: f64,
     /// Permitted penetration depth (m). A deeper contact ends the run, because its simulation cannot be trusted.
     pub penetration_limit: f64,
 }
@@ -57,6 +60,12 @@ impl Physics {
         }
     }
 
+    /// True if whiskers at rest in the air are rigid. Gravity bends a spatial chain, so it is never rigid.
+    #[must_use]
+    pub(crate) fn has_rigid_whiskers(&self) -> bool {
+        self.rigid_in_air && self.shafts != ShaftModel::SpatialChain
+    }
+
     /// The number of steps that a calm step replaces, out of `steps_per_sample`. It is the largest divisor for which
     /// the calm step is not too long. It is 1 with friction, which is stable only in short steps.
     #[must_use]
@@ -81,6 +90,7 @@ impl Default for Physics {
             contact_time: 1.0 / 300.0,
             contact_impedance: [0.95, 0.99, 1e-4],
             friction: 0.0,
+            object_height: 80e-3,
             penetration_limit: 1e-3,
         }
     }

@@ -43,8 +43,8 @@ impl Preset {
         (rig, physics)
     }
 
-    /// Applies the links and the physics settings of the preset to a rig. Friction, the solver, rigid whiskers, and all
-    /// settings that do not concern the simulation of whiskers are kept.
+    /// Applies the links and the physics settings of the preset to a rig. Friction, the height of objects, the solver,
+    /// rigid whiskers, and all settings that do not concern the simulation of whiskers are kept.
     ///
     /// These properties of the peer are known: 40 links, the integrator, and steps of 2 ms (the next valid step is
     /// shorter). Its whiskers have a residual vibration of 4 Hz, which results from the armature of the reference hinge
@@ -75,8 +75,8 @@ impl Preset {
         for whisker in &mut rig.whiskers {
             whisker.shaft.links = links;
         }
-        let Physics { solver, rigid_in_air, friction, .. } = *physics;
-        *physics = Physics { solver, rigid_in_air, friction, ..preset };
+        let Physics { solver, rigid_in_air, friction, object_height, .. } = *physics;
+        *physics = Physics { solver, rigid_in_air, friction, object_height, ..preset };
     }
 }
 

@@ -1,7 +1,7 @@
 //! The quasi-static simulator as a [`World`].
 
 use crate::geometry::{Point2, Pose, Vector2};
-use crate::physics::Physics;
+use crate::physics::{Physics, ShaftModel};
 use crate::scene::{Overlap, overlap};
 use crate::solid::Solid;
 use crate::world::{Fault, SNAP_OFF_SPEED, World};
@@ -24,6 +24,11 @@ pub enum QuasiStaticError {
         /// The coefficient of friction.
         friction: f64,
     },
+    /// Whiskers cannot bend out of the plane.
+    #[error(
+        "the quasi-static world is planar, and `physics.whiskers` is `spatial`; leave it out, or run in the world `mujoco`"
+    )]
+    Spatial,
     /// The rig overlaps or touches a solid at the start.
     #[error("{part} touches or overlaps a solid at the start; choose another start")]
     Start {
@@ -65,6 +70,9 @@ impl QuasiStaticWorld {
         let friction = physics.friction;
         if friction > 0.0 {
             return Err(QuasiStaticError::Friction { friction });
+        }
+        if physics.shafts == ShaftModel::SpatialChain {
+            return Err(QuasiStaticError::Spatial);
         }
         if let Some(overlap) = solids.iter().find_map(|solid| overlap(rig, &start, solid.outline())) {
             let part = match overlap {

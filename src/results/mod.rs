@@ -12,8 +12,8 @@ pub use drive_result::{DriveResult, FaultRecord};
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{
-    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity,
-    Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
+    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, Inclination, MeanP95Max, MeanStd, MeanStdMax,
+    MismatchIdentity, OutOfPlane, Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
 };
 pub use tally::{Ending, Figures, Tally, TipShares};
-pub use tick_line::{TickLine, tick_lines};
+pub use tick_line::{OutOfPlaneLine, TickLine, tick_lines};

@@ -5,7 +5,9 @@ use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
-use crate::score::{CornerFigures, CornerStatistics, Moments, RetrievalFigures, Score, StateShare, TipDistance};
+use crate::score::{
+    CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
+};
 use vibrissa_runtime::machine::Program;
 
 /// The result of a run, in the units of its keys. Its serialised form is the output of `run --json`.
@@ -75,6 +77,11 @@ pub struct RunResult {
     pub path_ratio: f64,
     /// Contacts of the platform's body.
     pub collisions: Collisions,
+    /// Motion of tips out of the plane. `None` for planar whiskers.
+    pub out_of_plane: Option<OutOfPlane>,
+    /// Angle between a shaft at its base and the surface that it follows, as perceived. `None` if no whisker recorded a
+    /// contour.
+    pub inclination: Option<Inclination>,
     /// Wall time of a control tick.
     pub tick_us: TickUs,
     /// Hashes of the inputs of the run.
@@ -248,6 +255,37 @@ pub struct Collisions {
     pub time_s: f64,
 }
 
+/// Motion of tips out of the plane.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct OutOfPlane {
+    /// Largest distance of a tip from the plane.
+    pub max_mm: f64,
+    /// Number of slips: a tip came above the top or below the bottom of the objects.
+    pub slips: usize,
+    /// Time of the first slip.
+    pub first_s: Option<f64>,
+    /// Name of the whisker of the first slip.
+    pub first_whisker: Option<String>,
+    /// Name of the active state at the first slip.
+    pub first_state: Option<String>,
+}
+
+/// Inclination of whiskers that follow a surface.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Inclination {
+    /// Largest angle between a shaft at its base and the surface: π/2 if they are perpendicular, less if the shaft is
+    /// swept back.
+    pub max_rad: f64,
+    /// Smallest margin by which a round whisker stays in the plane. A real whisker with a negative margin slips out of the plane.
+    pub margin_rad: f64,
+    /// Name of the active state at that angle.
+    pub state: Option<String>,
+    /// Time with a negative margin, added over all whiskers.
+    pub beyond_s: f64,
+}
+
 /// Mean, sample standard deviation and maximum, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -354,6 +392,13 @@ impl RunResult {
             path_m: score.path,
             path_ratio: score.path_ratio,
             collisions: Collisions { count: score.collisions.count, time_s: score.collisions.time },
+            out_of_plane: score.out_of_plane.map(|figures| OutOfPlane::new(&figures, &run.trace)),
+            inclination: score.inclination.map(|figures| Inclination {
+                max_rad: figures.largest,
+                margin_rad: figures.margin,
+                state: state_name(&run.trace, figures.state),
+                beyond_s: figures.beyond,
+            }),
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
                 p99: latency.map(|latency| microseconds(latency.p99)),
@@ -373,6 +418,23 @@ pub fn policy_label(program: &Program) -> String {
 /// The name of a policy, or of its file, with a mark if it used true tips.
 pub(crate) fn marked(policy: &str, true_tips: bool) -> String {
     if true_tips { format!("{policy} (true tips)") } else { policy.to_owned() }
+}
+
+impl OutOfPlane {
+    fn new(figures: &OutOfPlaneFigures, trace: &Trace) -> Self {
+        let first = figures.first;
+        Self {
+            max_mm: figures.distance * 1e3,
+            slips: figures.slips,
+            first_s: first.map(|slip| slip.time),
+            first_whisker: first.and_then(|slip| trace.whiskers.get(slip.whisker).cloned()),
+            first_state: first.and_then(|slip| state_name(trace, slip.state)),
+        }
+    }
+}
+
+fn state_name(trace: &Trace, state: Option<usize>) -> Option<String> {
+    trace.states.get(state?).cloned()
 }
 
 impl Retrieval {

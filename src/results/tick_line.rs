@@ -48,6 +48,11 @@ pub struct WhiskerLine<'a> {
     pub touching: bool,
     /// True if the whisker had a snap-off since the last tick, for instance at a corner. Policies cannot read this.
     pub springs: bool,
+    /// Angle between the shaft at its base and the surface that it follows: π/2 if they are perpendicular, less if the
+    /// shaft is swept back.
+    pub inclination_rad: Option<f64>,
+    /// Motion of the tip out of the plane since the last tick. `None` for planar whiskers. Policies cannot read this.
+    pub out_of_plane: Option<OutOfPlaneLine>,
     /// Estimated position of the tip.
     pub tip_m: Option<[f64; 2]>,
     /// Standard deviation of that position.
@@ -58,6 +63,16 @@ pub struct WhiskerLine<'a> {
     pub recorded: bool,
     /// The marks of the policy: `lost`, `found`.
     pub marks: Vec<&'static str>,
+}
+
+/// The motion of a tip out of the plane in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct OutOfPlaneLine {
+    /// Largest distance of the tip from the plane.
+    pub distance_m: f64,
+    /// True if the tip was above the top or below the bottom of the objects.
+    pub slips: bool,
 }
 
 /// The lines of a run's ticks.
@@ -83,6 +98,9 @@ fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<W
         deflection_rad: tick.deflections[whisker],
         touching: tick.contacts[whisker].is_touching,
         springs: tick.snap_offs[whisker],
+        inclination_rad: tick.contacts[whisker].inclination,
+        out_of_plane: tick.out_of_plane[whisker]
+            .map(|motion| OutOfPlaneLine { distance_m: motion.distance, slips: motion.slips }),
         tip_m: tick.contacts[whisker].tip_world.map(|tip| tip.coords.into()),
         tip_spread_m: tick.tip_deviations[whisker],
         tangent: tick.contacts[whisker].tangent_world.map(Into::into),

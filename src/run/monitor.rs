@@ -176,10 +176,12 @@ fn record(control: &Control, command: Command, fallback: Option<Fallback>, world
         fallback,
         tip_ends: [None; MAX_WHISKERS],
         body_touches: world.body_touches(),
+        out_of_plane: [None; MAX_WHISKERS],
         snap_offs: [false; MAX_WHISKERS],
     };
     for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
         tick.snap_offs[whisker] = world.snapped_off(in_rig);
+        tick.out_of_plane[whisker] = world.out_of_plane(in_rig);
         tick.tip_ends[whisker] = Some(world.tip(in_rig));
         tick.deflections[whisker] = perception.base_angle(bound);
         tick.tips[whisker] = perception.recorded_tip(bound);
@@ -196,5 +198,6 @@ fn contact(perception: &Perception, whisker: usize) -> Contact {
         is_touching: perception.whisker(whisker, WhiskerScalar::Touching) > 0.0,
         tip_world: vector(WhiskerVector::Tip).map(Point2::from),
         tangent_world: vector(WhiskerVector::ContourTangent),
+        inclination: perception.inclination(whisker),
     }
 }

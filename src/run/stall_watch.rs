@@ -91,6 +91,7 @@ mod tests {
                 fallback: None,
                 tip_ends: [None; MAX_WHISKERS],
                 body_touches: false,
+                out_of_plane: [None; MAX_WHISKERS],
                 snap_offs: [false; MAX_WHISKERS],
             }
         });

@@ -1,6 +1,7 @@
 //! Trace of a run, tick by tick.
 
 use crate::geometry::{Point2, Pose, Vector2};
+use crate::world::OutOfPlane;
 use vibrissa_runtime::machine::{Fallback, Mark};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
@@ -62,6 +63,9 @@ pub struct TickRecord {
     pub tip_ends: [Option<Point2>; MAX_WHISKERS],
     /// True if the platform's body touched something since the last tick. Policies cannot read it.
     pub body_touches: bool,
+    /// Motion of each whisker's tip out of the plane since the last tick. `None` in a planar world. Policies cannot read
+    /// it.
+    pub out_of_plane: [Option<OutOfPlane>; MAX_WHISKERS],
     /// True for each whisker with a snap-off since the last tick, for instance at a corner. Policies cannot read it.
     pub snap_offs: [bool; MAX_WHISKERS],
 }
@@ -76,6 +80,9 @@ pub struct Contact {
     /// Direction of travel (unit vector, world frame) at the end of the last recorded contour. `None` before the local
     /// contour is ready.
     pub tangent_world: Option<Vector2>,
+    /// Angle (rad) between the shaft at its base and the surface: π/2 if they are perpendicular, less if the shaft is
+    /// swept back. `None` unless the whisker touches and records a contour.
+    pub inclination: Option<f64>,
 }
 
 impl Trace {

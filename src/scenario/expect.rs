@@ -9,8 +9,8 @@ use crate::scene::{Expectation, Metric, Outcome};
 /// The expectation of a scenario without `expect`: its runs complete.
 pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
 
-/// The largest permitted bound of collisions.
-const MAX_COLLISIONS: u32 = 1_000_000;
+/// The largest permitted bound of a number of events.
+const MAX_COUNT: u32 = 1_000_000;
 
 /// Reads `expect`.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {
@@ -23,10 +23,10 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
         expectations.push(COMPLETION);
     }
     for metric in Metric::ALL {
-        if metric == Metric::Collisions {
+        if metric.is_count() {
             let count = fields
                 .entry(metric.name())
-                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MAX_COLLISIONS, 0));
+                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MAX_COUNT, 0));
             expectations.extend(count.map(|count| Expectation::Bound { metric, bound: count.into() }));
             continue;
         }

@@ -7,7 +7,7 @@ use super::node::Entry;
 use super::reader::Reader;
 use super::{timing, whisker};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::physics::{Integrator, Physics, Preset, Solver};
+use crate::physics::{Integrator, Physics, Preset, ShaftModel, Solver};
 use vibrissa_runtime::rig::{Platform, Rig, YawController};
 use vibrissa_runtime::units::{Dimension, format_si};
 
@@ -29,6 +29,7 @@ const CONTACT_TIME: Key = Key::new("contact_time", Dimension::TIME, (1e-6, 1.0),
 const IMPEDANCE: Key = Key::new("contact_impedance", Dimension::NUMBER, (1e-4, 0.9999), "[0.95, 0.99, 0.1 mm]");
 const IMPEDANCE_DEPTH: Key = Key::new("contact_impedance", Dimension::LENGTH, (1e-9, 0.1), "[0.95, 0.99, 0.1 mm]");
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
+const OBJECT_HEIGHT: Key = Key::new("object_height", Dimension::LENGTH, (1e-3, 10.0), "80 mm");
 const PENETRATION_LIMIT: Key = Key::new("penetration_limit", Dimension::LENGTH, (1e-6, 0.1), "1 mm");
 
 /// Reads `rig` and its physics settings. Omitted keys have the values of the preset, by default those of the reference
@@ -103,6 +104,13 @@ fn yaw(reader: &mut Reader<'_>, entry: &Entry, yaw: &mut YawController) {
 fn read_physics(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) -> Option<Span> {
     let mut fields = Fields::of(reader, &entry.value, "the physics", entry.key.span)?;
     let step = fields.set(reader, &timing::STEP, &mut physics.step);
+    if let Some(entry) = fields.entry("whiskers")
+        && let Some(index) = reader.choice(&entry.value, "a model of the whiskers", &["planar", "spatial"])
+        && index == 1
+    {
+        spatial(reader, entry, physics);
+    }
+    fields.set(reader, &OBJECT_HEIGHT, &mut physics.object_height);
     if let Some(entry) = fields.entry("integrator") {
         let index = reader.choice(&entry.value, "an integrator", &Integrator::ALL.map(Integrator::name));
         physics.integrator = index.and_then(|index| Integrator::ALL.get(index)).copied().unwrap_or_default();
@@ -132,4 +140,15 @@ fn read_physics(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) -
     fields.set(reader, &PENETRATION_LIMIT, &mut physics.penetration_limit);
     fields.finish(reader);
     step
+}
+
+/// Selects whiskers that bend out of the plane. `entry` is the key that asks for them.
+fn spatial(reader: &mut Reader<'_>, entry: &Entry, physics: &mut Physics) {
+    if physics.shafts == ShaftModel::Chain {
+        physics.shafts = ShaftModel::SpatialChain;
+        return;
+    }
+    let label = "the preset has cables";
+    let fault = Diagnostic::error(fault::RIG, "cables have no spatial model under gravity", entry.value.span, label);
+    reader.report(fault.hint("leave out `preset: peer_cable`, or this key"));
 }

@@ -117,10 +117,10 @@ fn every_key_of_a_rig_can_be_set() {
      speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
-      {base: [1 mm, 2 mm], direction: 3 rad, length: 4 cm, radius: 50 um, tip_radius: 20 um, density: 6 g/cm^3,
+      {base: [1 mm, 2 mm], direction: 3 rad, pitch: 0.5 rad, out_of_plane: 3, length: 4 cm, radius: 50 um, tip_radius: 20 um, density: 6 g/cm^3,
        young_modulus: 7 GPa, damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
   physics: {step: 1 ms, calm_step: 2 ms, rigid_in_air: false, integrator: implicitfast, solver: PGS, contact_time: 2 ms,
-     contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm}
+     contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm, object_height: 8 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
      angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN}";
     let expected = Rig {
@@ -140,6 +140,7 @@ fn every_key_of_a_rig_can_be_set() {
             name: "a".to_owned(),
             base_body: Point2::new(0.001, 0.002),
             direction_body: 3.0,
+            pitch: 0.5,
             shaft: Shaft {
                 length: 0.04,
                 radius: 5e-5,
@@ -147,6 +148,7 @@ fn every_key_of_a_rig_can_be_set() {
                 density: 6e3,
                 young_modulus: 7e9,
                 damping: 8e-3,
+                out_of_plane: 3.0,
                 links: 9,
                 ..Shaft::default()
             },
@@ -175,10 +177,18 @@ fn every_key_of_a_rig_can_be_set() {
         contact_time: 2e-3,
         contact_impedance: [0.3, 0.4, 5e-3],
         friction: 6.0,
+        object_height: 8e-3,
         penetration_limit: 7e-3,
     };
     let scene = with_rig(text);
     assert_eq!((scene.rig, scene.physics), (expected, physics));
+}
+
+#[test]
+fn whiskers_are_planar_unless_the_physics_make_them_spatial() {
+    assert_eq!(with_rig("{physics: {whiskers: planar}}").physics, Physics::default());
+    let spatial = with_rig("{preset: thesis_array, physics: {whiskers: spatial}}").physics;
+    assert_eq!(spatial, Physics { shafts: ShaftModel::SpatialChain, ..Preset::ThesisArray.rig().1 });
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::node::{Entry, Node};
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, NotUtf8, Span, utf8};
 use crate::physics::{MIN_INERTIA, link_inertia};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::RangeInclusive;
 use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::rig::{Hinge, Shaft, Whisker};
@@ -18,12 +18,15 @@ use vibrissa_runtime::units::{Dimension, format_si};
 const BASE: Key = Key::new("base", Dimension::LENGTH, (-2.0, 2.0), "[53 mm, 30 mm]");
 const DIRECTION: Key = Key::new("direction", Dimension::ANGLE, (-PI, PI), "105 deg");
 
+const PITCH: Key = Key::new("pitch", Dimension::ANGLE, (-FRAC_PI_4, FRAC_PI_4), "1.2 deg");
+
 const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 1.0), "100 mm");
 const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-6, 1e-2), "0.125 mm");
 const TIP_RADIUS: Key = Key::new("tip_radius", Dimension::LENGTH, (1e-6, 1e-2), "0.05 mm");
 const DENSITY: Key = Key::new("density", Dimension::DENSITY, (1.0, 1e5), "6450 kg/m^3");
 const YOUNG_MODULUS: Key = Key::new("young_modulus", Dimension::PRESSURE, (1e3, 1e13), "100 GPa");
 const DAMPING: Key = Key::new("damping", Dimension::TIME, (0.0, 1.0), "1 ms");
+const OUT_OF_PLANE: Key = Key::new("out_of_plane", Dimension::NUMBER, (1e-3, 1e3), "4");
 const LINKS: RangeInclusive<usize> = 4..=64;
 
 const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS, (1e-6, 1e6), "1 N m/rad");
@@ -88,6 +91,8 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
         }
         None => fields.number(reader, &DIRECTION).map(|direction| direction.value),
     };
+    let mut pitch = reference.map_or(0.0, |whisker| whisker.pitch);
+    fields.set(reader, &PITCH, &mut pitch);
     // All whiskers of a preset have the same shaft and the same hinge.
     let usual = preset.first().cloned().map(|whisker| (whisker.shaft, whisker.hinge));
     let (usual_shaft, usual_hinge) = usual.unwrap_or_default();
@@ -105,6 +110,7 @@ fn read(reader: &mut Reader<'_>, entry: &Entry, preset: &[Whisker]) -> Option<Wh
         name: name.value.clone(),
         base_body: base_body?,
         direction_body: direction_body?,
+        pitch,
         shaft,
         hinge: hinge?,
         calibration: calibration?,
@@ -141,6 +147,7 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: 
     fields.set(reader, &DENSITY, &mut shaft.density);
     fields.set(reader, &YOUNG_MODULUS, &mut shaft.young_modulus);
     fields.set(reader, &DAMPING, &mut shaft.damping);
+    fields.set(reader, &OUT_OF_PLANE, &mut shaft.out_of_plane);
     if let Some(entry) = fields.entry("links")
         && let Some(links) = reader.count(&entry.value, "links", LINKS, 16)
     {

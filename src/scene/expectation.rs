@@ -55,6 +55,10 @@ pub enum Metric {
     CornerPathMax,
     /// Number of contacts of the platform's body.
     Collisions,
+    /// Largest distance of a tip from the plane (m), in a spatial simulation.
+    OutOfPlaneMax,
+    /// Number of slips of tips out of the plane, in a spatial simulation.
+    Slips,
 }
 
 /// A condition on the result of a run.
@@ -117,7 +121,7 @@ impl fmt::Display for Outcome {
 
 impl Metric {
     /// All metrics.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::ErrorMean,
         Self::ErrorP95,
         Self::ErrorMax,
@@ -135,6 +139,8 @@ impl Metric {
         Self::CornerTimeMax,
         Self::CornerPathMax,
         Self::Collisions,
+        Self::OutOfPlaneMax,
+        Self::Slips,
     ];
 
     /// The name in scenarios.
@@ -158,6 +164,8 @@ impl Metric {
             Self::CornerTimeMax => "corner_time_max",
             Self::CornerPathMax => "corner_path_max",
             Self::Collisions => "collisions",
+            Self::OutOfPlaneMax => "out_of_plane_max",
+            Self::Slips => "slips",
         }
     }
 
@@ -165,7 +173,7 @@ impl Metric {
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::Collisions => Dimension::NUMBER,
+            _ if self.is_count() => Dimension::NUMBER,
             _ if self.is_share() => Dimension::NUMBER,
             Self::CornerTimeMax => Dimension::TIME,
             _ => Dimension::LENGTH,
@@ -190,6 +198,12 @@ impl Metric {
                 | Self::Passage
                 | Self::WallCoverage
         )
+    }
+
+    /// True for a number of events.
+    #[must_use]
+    pub fn is_count(self) -> bool {
+        matches!(self, Self::Collisions | Self::Slips)
     }
 
     fn format(self, value: f64) -> String {

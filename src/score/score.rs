@@ -1,8 +1,9 @@
 //! All metrics of a run.
 
 use super::{
-    Collisions, CornerFigures, ErrorFigures, Estimate, Latency, Moments, Passage, RetrievalFigures, StateShare,
-    axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach, state_shares, tips,
+    Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
+    Passage, RetrievalFigures, StateShare, axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach,
+    state_shares, tips,
 };
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
@@ -38,6 +39,10 @@ pub struct Score {
     pub path_ratio: f64,
     /// Collisions of the platform's body.
     pub collisions: Collisions,
+    /// The motion of tips out of the plane. `None` in a planar world.
+    pub out_of_plane: Option<OutOfPlaneFigures>,
+    /// The inclination of whiskers. `None` if no whisker recorded a contour.
+    pub inclination: Option<InclinationFigures>,
     /// Wall time of the control ticks. `None` without ticks.
     pub latency: Option<Latency>,
 }
@@ -64,6 +69,8 @@ impl Score {
             path,
             path_ratio: path / truth.reference.length(),
             collisions: Collisions::of(&run.trace),
+            out_of_plane: OutOfPlaneFigures::of(&run.trace),
+            inclination: InclinationFigures::of(&run.trace, rig.sensing.friction),
             latency: Latency::of(&run.tick_times),
         }
     }
@@ -100,6 +107,8 @@ impl Score {
             Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),
             Metric::CornerTimeMax => self.all_corners()?.time.map(|time| time.max),
             Metric::CornerPathMax => self.all_corners()?.path.map(|path| path.max),
+            Metric::OutOfPlaneMax => Some(self.out_of_plane?.distance),
+            Metric::Slips => Some(self.out_of_plane?.slips as f64),
             Metric::Collisions => Some(self.collisions.count as f64),
         }
     }

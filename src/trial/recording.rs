@@ -3,7 +3,7 @@
 use super::trial::{Trial, TrialResult};
 use super::worlds::ExecuteError;
 use crate::geometry::Point2;
-use crate::world::{Fault, World};
+use crate::world::{Fault, OutOfPlane, World};
 use vibrissa_runtime::signal::{Command, Sample};
 
 /// The samples of a trial, and its result.
@@ -46,6 +46,10 @@ impl World for Recorder {
 
     fn snapped_off(&self, whisker: usize) -> bool {
         self.world.snapped_off(whisker)
+    }
+
+    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
+        self.world.out_of_plane(whisker)
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal, StandardUniform};
 
 use super::sensors::{Sensors, drawn, normal, whole};
-use super::{Fault, World};
+use super::{Fault, OutOfPlane, World};
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::mismatch::{Loss, PoseErrors, SensorErrors, TrueArray};
 use vibrissa_runtime::rig::{Rig, Sensing};
@@ -34,6 +34,7 @@ pub struct Disturbed {
     samples_per_tick: usize,
     body_touched: bool,
     snapped_off: Vec<bool>,
+    out_of_plane: Vec<Option<OutOfPlane>>,
 }
 
 /// The errors of measured poses while they are simulated.
@@ -91,6 +92,7 @@ impl Disturbed {
             samples_per_tick: whole(sensing.sample_rate / sensing.control_rate),
             body_touched: false,
             snapped_off: vec![false; array.rig.whiskers.len()],
+            out_of_plane: vec![None; array.rig.whiskers.len()],
             world,
             array,
         }
@@ -104,6 +106,11 @@ impl Disturbed {
         self.body_touched |= self.world.body_touches();
         for (whisker, snapped_off) in self.snapped_off.iter_mut().enumerate() {
             *snapped_off |= self.world.snapped_off(whisker);
+        }
+        for (whisker, noted) in self.out_of_plane.iter_mut().enumerate() {
+            if let Some(now) = self.world.out_of_plane(whisker) {
+                noted.get_or_insert_default().include(now);
+            }
         }
         Ok(count)
     }
@@ -189,6 +196,7 @@ impl World for Disturbed {
         self.samples.clear();
         self.body_touched = false;
         self.snapped_off.fill(false);
+        self.out_of_plane.fill(None);
         let mut count = 0;
         while count < self.samples_per_tick {
             let effective = if self.commands.is_empty() {
@@ -212,6 +220,10 @@ impl World for Disturbed {
 
     fn snapped_off(&self, whisker: usize) -> bool {
         self.snapped_off.get(whisker).copied().unwrap_or(false)
+    }
+
+    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
+        self.out_of_plane.get(whisker).copied().flatten()
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

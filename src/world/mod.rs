@@ -2,11 +2,13 @@
 
 mod disturbed;
 mod fault;
+mod out_of_plane;
 mod sensors;
 mod true_tips;
 
 pub use disturbed::Disturbed;
 pub use fault::Fault;
+pub use out_of_plane::OutOfPlane;
 pub(crate) use sensors::{Sensors, whole};
 pub use true_tips::TrueTips;
 
@@ -31,6 +33,12 @@ pub trait World {
     /// True if a whisker, by its index in the rig, snapped off during the last control period: a part of it was faster
     /// than 0.1 m/s relative to its base. No sensor reports this.
     fn snapped_off(&self, whisker: usize) -> bool;
+
+    /// The motion of a whisker's tip out of the plane during the last control period. The whisker is given by its index
+    /// in the rig. `None` in a planar world. No sensor reports this.
+    fn out_of_plane(&self, _whisker: usize) -> Option<OutOfPlane> {
+        None
+    }
 
     /// The position of a whisker's tip at the newest sample (m, world frame). The whisker is given by its index in the
     /// rig. No sensor reports this.

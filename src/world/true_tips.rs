@@ -1,6 +1,6 @@
 //! An ideal sensor of tip positions.
 
-use super::{Fault, World};
+use super::{Fault, OutOfPlane, World};
 use crate::geometry::{ContourSet, Point2};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample, TrueTip};
@@ -55,6 +55,10 @@ impl World for TrueTips {
 
     fn snapped_off(&self, whisker: usize) -> bool {
         self.world.snapped_off(whisker)
+    }
+
+    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
+        self.world.out_of_plane(whisker)
     }
 
     fn tip(&self, whisker: usize) -> Point2 {

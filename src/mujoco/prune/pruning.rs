@@ -109,7 +109,7 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
             why: "the rig does not sense them".to_owned(),
         });
     }
-    if physics.rigid_in_air {
+    if physics.has_rigid_whiskers() {
         let is_rigid = |whisker: &&_| may_be_rigid(whisker, reach.clearance(whisker, &start), 0.0, false);
         let freedom = |whisker: &Whisker| 1 + physics.shafts.degrees_of_freedom(whisker.shaft.links);
         let joints: usize = rig.whiskers.iter().filter(is_rigid).map(freedom).sum();

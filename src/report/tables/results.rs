@@ -2,13 +2,13 @@
 
 use super::super::number::{mean_std, millimetres};
 use super::super::table::{NONE, Table, percent};
-use crate::results::{MeanStd, RunResult};
+use crate::results::{Inclination, MeanStd, RunResult};
 
 /// A column: its heading, its text for a run, and whether it is shown even if no run has the figure.
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 23] = [
+const COLUMNS: [Column; 26] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
@@ -19,6 +19,8 @@ const COLUMNS: [Column; 23] = [
     ("passage", |result| Some(percent(result.passage?.share, 1)), false),
     ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
     ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
+    ("out of plane mm", |result| Some(millimetres(result.out_of_plane.as_ref()?.max_mm)), false),
+    ("slips", |result| Some(result.out_of_plane.as_ref()?.slips.to_string()), false),
     ("farthest untraced mm", |result| result.hausdorff_mm.map(millimetres), true),
     ("× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),
     ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
@@ -31,6 +33,7 @@ const COLUMNS: [Column; 23] = [
     ("corner path m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
     ("retrieval radius mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
     ("retrieval distance mm", |result| mean_with_std(result.retrieval?.distance_mm), false),
+    ("beyond inclination limit s", |result| beyond_inclination_limit(result.inclination.as_ref()?), false),
     ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
 ];
 
@@ -47,4 +50,9 @@ pub fn results_table(results: &[RunResult]) -> Table {
 
 fn mean_with_std(figure: MeanStd) -> Option<String> {
     Some(mean_std(figure.mean?, figure.std))
+}
+
+/// The time beyond the limit of the inclination, if there is any.
+fn beyond_inclination_limit(inclination: &Inclination) -> Option<String> {
+    (inclination.beyond_s > 0.0).then(|| format!("{:.1}", inclination.beyond_s))
 }

@@ -45,6 +45,7 @@ fn a_tip_is_told_whether_recorded_or_not_and_what_is_not_known_is_null() {
         is_touching: true,
         tip_world: Some(Point2::new(1.0, 2.0)),
         tangent_world: Some(Vector2::new(0.0, 1.0)),
+        inclination: None,
     };
     let lines = lines(&run);
     let told =

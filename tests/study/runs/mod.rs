@@ -29,6 +29,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             fallback: None,
             tip_ends: [None; MAX_WHISKERS],
             body_touches: false,
+            out_of_plane: [None; MAX_WHISKERS],
             snap_offs: [false; MAX_WHISKERS],
         };
         for (whisker, tips) in tips.iter().enumerate() {

@@ -12,6 +12,7 @@ mod obstacle;
 mod pivot;
 mod shaft_shape;
 mod shot;
+mod stability;
 mod touch;
 
 pub use chain::EquilibriumProblem;
@@ -21,4 +22,5 @@ pub use locate::LocateError;
 pub use obstacle::Obstacle;
 pub use pivot::Pivot;
 pub use shaft_shape::ShaftShape;
+pub use stability::out_of_plane_margin;
 pub use touch::{Touch, TouchMechanics};

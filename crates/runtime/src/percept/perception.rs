@@ -253,6 +253,15 @@ impl Perception {
         self.whiskers[whisker].contact()
     }
 
+    /// The inclination of a whisker (rad): the angle between the shaft at its base and the surface that it follows. It is π/2
+    /// for a shaft that is perpendicular to the surface, and less for one that is swept back against the bend.
+    /// [`out_of_plane_margin`](crate::mechanics::out_of_plane_margin) tells whether the whisker stays in the plane.
+    /// `None` unless the whisker touches and records a contour.
+    #[must_use]
+    pub fn inclination(&self, whisker: usize) -> Option<f64> {
+        self.whiskers[whisker].inclination()
+    }
+
     /// The tip of a whisker (m, world frame), if this tick recorded it during a contact.
     #[must_use]
     pub fn recorded_tip(&self, whisker: usize) -> Option<Point2> {

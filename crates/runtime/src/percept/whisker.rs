@@ -1,9 +1,10 @@
 //! The perception of one whisker.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::geometry::{Point2, Pose, Vector2, rotate};
-use crate::machine::{Keypoints, Mark};
+use crate::geometry::{Point2, Pose, Vector2, rotate, wrap};
+use crate::machine::{ContourVector, Keypoints, Mark};
 use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
@@ -180,6 +181,18 @@ impl PerceivedWhisker {
             bias => math::hypot(contact.recorded_deviation, bias),
         };
         self.contact.map_or_else(|| self.tip_deviation(), both)
+    }
+
+    /// Angle (rad) between the shaft at the base and the surface behind the tip, against the direction in which the
+    /// contact bends the shaft. It is π/2 for a shaft that is perpendicular to the surface, and less for one that is
+    /// swept back. `None` unless the whisker touches and records a contour.
+    pub(super) fn inclination(&self) -> Option<f64> {
+        if !self.is_touching() || !self.contour.is_current() {
+            return None;
+        }
+        let normal = self.contour.at(0.0, ContourVector::Normal)?;
+        let from_inwards = wrap(self.yaw + self.base_angle() - math::atan2(-normal.y, -normal.x));
+        Some(FRAC_PI_2 - self.base_angle().signum() * from_inwards)
     }
 
     /// Records the tip as a point of the contour during a contact. An interrupted contour restarts.

@@ -20,6 +20,9 @@ pub struct Shaft {
     pub young_modulus: f64,
     /// Ratio of the material's damping to its stiffness (s).
     pub damping: f64,
+    /// Ratio of the bending stiffness out of the plane of motion to that in the plane. 1 for round wire, more for a
+    /// ribbon on edge. Only a spatial simulation uses it.
+    pub out_of_plane: f64,
     /// Number of rigid links in the chain of links.
     pub links: usize,
     /// Curvature at rest (1/m), positive to the left seen from the base. Simulators bend the shaft by it. Perception
@@ -114,6 +117,7 @@ impl Default for Shaft {
             density: 6450.0,
             young_modulus: 100e9,
             damping: 1e-3,
+            out_of_plane: 1.0,
             links: 16,
             curvature: 0.0,
         }

@@ -20,6 +20,9 @@ pub struct Whisker {
     pub base_body: Point2<f64>,
     /// Direction of the undeflected shaft in the body frame (rad, counter-clockwise from the heading).
     pub direction_body: f64,
+    /// Angle of the undeflected shaft above the plane of motion (rad). Only a spatial simulation uses it. Perception is
+    /// planar.
+    pub pitch: f64,
     /// The shaft.
     pub shaft: Shaft,
     /// The base hinge. Its angle is the main reading of the sensor.
@@ -35,6 +38,7 @@ impl Whisker {
             name: name.to_owned(),
             base_body: Point2::new(0.053, side * 0.030),
             direction_body: side * 105_f64.to_radians(),
+            pitch: 0.0,
             shaft: Shaft::default(),
             hinge: Hinge::default(),
             calibration: None,
