@@ -92,7 +92,7 @@ impl<'w> ArrayPilot<'w> {
     }
 
     /// Time of the rest of a touch (s), if the whole touch has a certain time (s).
-    pub(super) fn rest_time(&self, touch: f64) -> f64 {
+    pub(super) fn rest_time(touch: f64) -> f64 {
         (touch - MOTIONS).clamp(RESTS.0, RESTS.1)
     }
 
@@ -160,7 +160,7 @@ impl<'w> ArrayPilot<'w> {
             self.tick(&command(self), |_| ())?;
         }
         let (start, count) = (self.time(), ticks(time, self.rate));
-        let (mut poses, mut angles): (Vec<Pose>, [Mean; MAX_WHISKERS]) = (Vec::new(), Default::default());
+        let (mut poses, mut angles): (Vec<Pose>, [Moments; MAX_WHISKERS]) = (Vec::new(), Default::default());
         for _ in 0..count {
             self.tick(&command(self), |sample| {
                 poses.extend(sample.body.is_finite().then_some(sample.body));
@@ -170,7 +170,7 @@ impl<'w> ArrayPilot<'w> {
             })?;
         }
         let coordinate = |value: fn(&Pose) -> f64| {
-            let mut mean = Mean::default();
+            let mut mean = Moments::default();
             for pose in &poses {
                 mean.add(value(pose));
             }
@@ -197,15 +197,15 @@ impl Rest {
     }
 }
 
-/// A mean and a sum of squares, by Welford's method.
+/// Count, mean and sum of squared deviations, by Welford's method.
 #[derive(Debug, Clone, Copy, Default)]
-struct Mean {
+struct Moments {
     count: f64,
     mean: f64,
     squares: f64,
 }
 
-impl Mean {
+impl Moments {
     fn add(&mut self, value: f64) {
         if value.is_finite() {
             self.count += 1.0;

@@ -166,7 +166,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let (start, whisker) = (self.pilot.time(), self.whisker());
         let plan = TouchPlan::new(whisker, self.pin.radius, EXPECTED_DEVIATION, &self.noise());
         let mut fit = TouchFit::untouched(whisker);
-        let rest = self.pilot.rest_time((until - start) / limits.touches as f64);
+        let rest = ArrayPilot::rest_time((until - start) / limits.touches as f64);
         while self.touched.len() + self.missed.len() < limits.touches && self.pilot.time() + LAST < until {
             let is_hopeless = self.touched.is_empty() && self.missed.len() >= HOPELESS;
             if is_hopeless || plan.tip_deviation(&fit) < limits.deviation {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use serde::Serialize;
 use vibrissa_robot::array::Transducer;
 use vibrissa_robot::config::{BoardConfig, Config};
@@ -30,6 +30,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa cali
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
+#[command(group = ArgGroup::new("of_array").args(["mismatch_file", "mismatch_seed", "world", "no_prune"]).multiple(true).requires("itself"))]
 pub(super) struct CalibrateArguments {
     /// Let the array of the rig touch a pin and measure its own whiskers, in a simulator. Writes a calibration for each whisker
     #[arg(long = "self", conflicts_with_all = ["sets", "config", "whisker"])]

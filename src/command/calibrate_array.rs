@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
+use sha2::Sha256;
 use vibrissa_runtime::calibration::{Parameter, TouchFit};
 
 use super::calibrate::CalibrateArguments;
@@ -88,7 +89,7 @@ pub(super) fn calibrate_array(arguments: &CalibrateArguments) -> Result<Exit, Fa
         scene.rig.sensing.make_real();
     }
     let mismatch = arguments.mismatch.load(&mut files)?;
-    mismatch.apply(&mut scene, &mut Default::default(), 0).map_err(Failure::mismatch(path))?;
+    mismatch.apply(&mut scene, &mut Sha256::default(), 0).map_err(Failure::mismatch(path))?;
     make_directory(arguments.out.as_deref())?;
     let outputs = arguments.out.as_ref().map(|directory| {
         let mut file = |name: &str| files.output("--out", &directory.join(format!("{name}.yaml")));
