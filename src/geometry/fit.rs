@@ -80,7 +80,7 @@ pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to
 }
 
 /// Two arcs from one point to another, with the given directions at both.
-fn biarc((start, out): CurvePoint, (end, into): CurvePoint) -> [Piece; 2] {
+pub(super) fn biarc((start, out): CurvePoint, (end, into): CurvePoint) -> [Piece; 2] {
     let (out, into) = (out.normalize(), into.normalize());
     let chord = end - start;
     // The junction at which both arcs have tangents of equal length.

@@ -24,6 +24,7 @@ mod segment;
 mod shapes;
 mod simple;
 mod strip;
+mod texture;
 mod union;
 
 pub use arc::Arc;
@@ -47,5 +48,6 @@ pub use shapes::{
     convex_corner, polar_curve, polygon, regular_polygon, rounded_rectangle,
 };
 pub use strip::{Side, Strip, StripError};
+pub use texture::{Texture, TextureError, TextureKind};
 pub use union::{TOUCHING, UnionError, United, unite};
 pub use vibrissa_runtime::geometry::{Point2, Pose, Vector2, perpendicular, rotate, turn_between, unit, wrap};

@@ -98,7 +98,7 @@ const MAX_EXTENSION: f64 = 5e-3;
 impl Surfaces {
     pub(super) fn new(solids: &[Solid]) -> Self {
         let mut facets = Vec::new();
-        for outline in solids.iter().map(Solid::outline) {
+        for outline in solids.iter().map(Solid::surface) {
             let (first, pieces, corners) = (facets.len(), outline.pieces(), outline.corners());
             for (index, piece) in pieces.iter().enumerate() {
                 let following = (index + 1) % pieces.len();
@@ -141,7 +141,7 @@ impl Surfaces {
         }
         let leaf = |(index, facet): (usize, &Facet)| Leaf { index, bounds: facet.bounds };
         let tree = RTree::bulk_load(facets.iter().enumerate().map(leaf).collect());
-        Self { outlines: solids.iter().map(|solid| solid.outline().clone()).collect(), facets, tree }
+        Self { outlines: solids.iter().map(|solid| solid.surface().clone()).collect(), facets, tree }
     }
 
     /// Returns the penetration depth of a point (m), negative outside of all solids.

@@ -74,7 +74,7 @@ impl QuasiStaticWorld {
         if physics.shafts == ShaftModel::SpatialChain {
             return Err(QuasiStaticError::Spatial);
         }
-        if let Some(overlap) = solids.iter().find_map(|solid| overlap(rig, &start, solid.outline())) {
+        if let Some(overlap) = solids.iter().find_map(|solid| overlap(rig, &start, solid.surface())) {
             let part = match overlap {
                 Overlap::Platform => "the platform".to_owned(),
                 Overlap::Whisker(index) => format!("the whisker `{}`", rig.whiskers[index].name),

@@ -27,6 +27,7 @@ mod start;
 mod stop;
 #[cfg(test)]
 mod tests;
+mod texture;
 mod timing;
 mod tunnel;
 mod whisker;

@@ -5,10 +5,10 @@ use super::key::Key;
 use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
-use super::{corner, fault, outline, path, polar, tunnel};
+use super::{corner, fault, outline, path, polar, texture, tunnel};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{
-    Contour, ContourError, Point2, ShapeError, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
+    Contour, ContourError, Point2, ShapeError, Texture, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
 };
 use vibrissa_runtime::units::{Dimension, format_si};
 
@@ -37,8 +37,8 @@ const KINDS: [&str; 11] = [
 
 /// The geometry of an object.
 pub(super) enum Object {
-    /// The interior of an outline.
-    Plain(Contour),
+    /// The interior of an outline, possibly with a texture.
+    Plain { outline: Contour, texture: Option<Texture> },
     /// Two walls.
     Tunnel(Box<Tunnel>),
 }
@@ -60,8 +60,18 @@ pub(super) fn read_all(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Pla
 /// Reads an object, or all objects of a file, with the span of the key of their kind.
 fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Object>>> {
     let example = "circle: {centre: [40 cm, 40 cm], radius: 30 cm}";
-    let (kind, entry) = reader.variant(item, "an object", &KINDS, example)?;
-    let plain = |contour| Placed { value: Object::Plain(contour), span: entry.key.span };
+    let (item, texture) = without_texture(item);
+    let (kind, entry) = reader.variant(&item, "an object", &KINDS, example)?;
+    let texture = match texture {
+        Some(texture) if kind == "tunnel" => {
+            let message = "a tunnel cannot have a texture";
+            let fault = Diagnostic::error(fault::SHAPE, message, texture.key.span, "on a tunnel");
+            reader.report(fault.hint("leave it out, or draw each wall as a `path` with a texture"));
+            return None;
+        }
+        Some(texture) => Some(texture::read(reader, texture)?),
+        None => None,
+    };
     let contour = match kind {
         "circle" => read_circle(reader, entry),
         "rectangle" => read_rectangle(reader, entry),
@@ -72,13 +82,32 @@ fn read(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<Vec<Placed<Objec
         "concave_corner" => corner::read_concave(reader, entry),
         "polar" => polar::read(reader, entry),
         "path" => path::read(reader, entry),
-        "outline" => return outline::read(reader, entry).map(|contours| contours.map(plain).collect()),
+        "outline" => {
+            let contours: Vec<_> = outline::read(reader, entry)?.collect();
+            return contours.into_iter().map(|contour| plain(reader, contour, texture, entry.key.span)).collect();
+        }
         _ => {
             let tunnel = Object::Tunnel(Box::new(tunnel::read(reader, entry)?));
             return Some(vec![Placed { value: tunnel, span: entry.key.span }]);
         }
     };
-    Some(vec![plain(contour?)])
+    Some(vec![plain(reader, contour?, texture, entry.key.span)?])
+}
+
+/// Separates the key `texture` from the kind of an object.
+fn without_texture(item: &Placed<Node>) -> (Placed<Node>, Option<&Entry>) {
+    let Node::Mapping(entries) = &item.value else { return (item.clone(), None) };
+    let (texture, kinds): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.key.value == "texture");
+    let kinds = Node::Mapping(kinds.into_iter().cloned().collect());
+    (Placed { value: kinds, span: item.span }, texture.first().copied())
+}
+
+/// Creates an object, and counts the pieces of its texture.
+fn plain(reader: &mut Reader<'_>, outline: Contour, texture: Option<Texture>, span: Span) -> Option<Placed<Object>> {
+    if let Some(texture) = texture {
+        reader.make(texture.most_pieces(&outline), span)?;
+    }
+    Some(Placed { value: Object::Plain { outline, texture }, span })
 }
 
 fn read_circle(reader: &mut Reader<'_>, entry: &Entry) -> Option<Contour> {

@@ -28,13 +28,19 @@ impl Objects {
     /// Creates the solids of `objects`. Plain objects that touch become one solid with the span of the first.
     pub(super) fn of(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Self> {
         let mut all = Self { solids: Vec::new(), reference: Vec::new(), axes: Vec::new() };
-        let mut walls = Vec::new();
+        let mut separate = Vec::new();
         let mut work = Work::default();
         for Placed { value, span } in united(reader, objects)? {
             let solids = match value {
-                Object::Plain(contour) => {
-                    all.reference.push(contour.clone());
-                    vec![Solid::inside(contour)]
+                Object::Plain { outline, texture } => {
+                    all.reference.push(outline.clone());
+                    vec![match texture {
+                        Some(texture) => {
+                            separate.push((all.solids.len(), "a rough object"));
+                            Solid::textured(outline, &texture)
+                        }
+                        None => Solid::inside(outline),
+                    }]
                 }
                 Object::Tunnel(tunnel) => {
                     let Tunnel { axis, left, right } = *tunnel;
@@ -42,7 +48,7 @@ impl Objects {
                     let sides = [(left, Side::Right), (right, Side::Left)];
                     all.reference.extend(sides.iter().map(|(wall, inner)| wall.side(*inner).clone()));
                     all.axes.push(axis);
-                    walls.extend([all.solids.len(), all.solids.len() + 1]);
+                    separate.extend([0, 1].map(|wall| (all.solids.len() + wall, "a wall of a tunnel")));
                     sides.iter().map(|(wall, inner)| Solid::wall(wall, *inner)).collect()
                 }
             };
@@ -52,7 +58,7 @@ impl Objects {
                 all.solids.push(Placed { value, span });
             }
         }
-        all.check_walls(reader, &walls).then_some(all)
+        all.check_separate(reader, &separate).then_some(all)
     }
 
     /// The exact geometry for scores. `None` without objects.
@@ -72,7 +78,7 @@ impl Objects {
     /// Reports a rig that overlaps an object at the start.
     pub(super) fn check_clearance(&self, reader: &mut Reader<'_>, rig: &Rig, start: &Placed<Pose>) {
         for Placed { value: solid, span } in &self.solids {
-            let part = match overlap(rig, &start.value, solid.outline()) {
+            let part = match overlap(rig, &start.value, solid.surface()) {
                 None => continue,
                 Some(Overlap::Platform) => "the platform".to_owned(),
                 Some(Overlap::Whisker(index)) => {
@@ -87,20 +93,32 @@ impl Objects {
         }
     }
 
-    /// Checks that no wall of a tunnel overlaps another solid, and reports the first overlap.
-    fn check_walls(&self, reader: &mut Reader<'_>, walls: &[usize]) -> bool {
-        let mut pairs = walls.iter().flat_map(|&wall| {
-            let others = self.solids.iter().enumerate().filter(move |&(index, _)| index != wall);
-            others.map(move |(_, other)| (&self.solids[wall], other))
+    /// Checks that none of these solids overlaps another one, and reports the first overlap. They are given by their
+    /// indices, with a description.
+    fn check_separate(&self, reader: &mut Reader<'_>, separate: &[(usize, &str)]) -> bool {
+        let mut pairs = separate.iter().flat_map(|&(index, what)| {
+            let others = self.solids.iter().enumerate().filter(move |&(other, _)| other != index);
+            others.map(move |(_, other)| (&self.solids[index], what, other))
         });
-        let met = pairs.find(|(wall, other)| wall.value.outline().overlaps(other.value.outline()));
-        let Some((wall, other)) = met else { return true };
-        let message = "a wall of a tunnel overlaps or touches another object";
-        let fault = Diagnostic::error(fault::SHAPE, message, wall.span, "this tunnel");
-        let fault = if other.span == wall.span { fault } else { fault.note(other.span, "and this object") };
-        reader.report(fault.hint("move them apart: walls of a tunnel are not united with objects"));
+        let met = pairs.find(|(solid, _, other)| solid.value.surface().overlaps(other.value.surface()));
+        let Some((solid, what, other)) = met else { return true };
+        report_meeting(reader, what, solid.span, other.span);
         false
     }
+}
+
+/// Reports a wall or a rough object that overlaps or touches another one.
+fn report_meeting(reader: &mut Reader<'_>, what: &str, span: Span, other: Span) {
+    let message = format!("{what} overlaps or touches another object");
+    let is_wall = what.ends_with("tunnel");
+    let label = if is_wall { "this tunnel" } else { "this object" };
+    let fault = Diagnostic::error(fault::SHAPE, message, span, label);
+    let fault = if other == span { fault } else { fault.note(other, "and this object") };
+    reader.report(fault.hint(if is_wall {
+        "move them apart: walls of a tunnel are not united with objects"
+    } else {
+        "move them apart, or draw them as one outline with a texture: rough objects are not united with others"
+    }));
 }
 
 /// The work for building all solids in MuJoCo.
@@ -131,16 +149,16 @@ impl Work {
     }
 }
 
-/// Unites plain objects that touch.
+/// Unites plain objects that touch. Reports a rough object that touches another one.
 fn united(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Vec<Placed<Object>>> {
     let (mut outlines, mut spans) = (Vec::new(), Vec::new());
     for object in &objects {
-        if let Object::Plain(contour) = &object.value {
-            if !contour.is_closed() {
+        if let Object::Plain { outline, .. } = &object.value {
+            if !outline.is_closed() {
                 report(reader, &SolidError::Open, object.span);
                 return None;
             }
-            outlines.push(contour.clone());
+            outlines.push(outline.clone());
             spans.push(object.span);
         }
     }
@@ -154,12 +172,18 @@ fn united(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Vec<P
     let mut united = Vec::with_capacity(objects.len());
     let mut plain = 0;
     for Placed { value, span } in objects {
-        if let Object::Tunnel(_) = value {
+        let Object::Plain { outline, texture } = value else {
             united.push(Placed { value, span });
             continue;
-        }
+        };
+        let mut is_alone = false;
         while let Some(next) = found.next_if(|next| next.first == plain) {
-            united.push(Placed { value: Object::Plain(next.outline), span });
+            is_alone = next.outline.pieces() == outline.pieces();
+            united.push(Placed { value: Object::Plain { outline: next.outline, texture }, span });
+        }
+        if texture.is_some() && !is_alone {
+            report_meeting(reader, "a rough object", span, span);
+            return None;
         }
         plain += 1;
     }
@@ -215,6 +239,19 @@ fn report(reader: &mut Reader<'_>, error: &SolidError, place: Span) {
             "two of its sides are too close to each other".to_owned(),
             "move its sides apart",
         ),
+        SolidError::Waves { count, limit } => (
+            "the rough surface has too many waves to be simulated",
+            format!("{count} parts; the limit is {limit}"),
+            "make the wavelength longer, or the object smaller",
+        ),
+        SolidError::Texture(error) => (
+            "the object cannot have this texture",
+            error.to_string(),
+            "use a smaller amplitude, or move sides of the object apart",
+        ),
+        SolidError::Core(error) => {
+            ("the object cannot have this texture", error.to_string(), "use a slightly different amplitude")
+        }
         SolidError::Strip(error) => ("a wall of the tunnel meets itself", error.to_string(), "make the tunnel wider"),
     };
     reader.report(Diagnostic::error(fault::SHAPE, message, place, label).hint(hint));

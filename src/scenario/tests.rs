@@ -122,6 +122,7 @@ fn every_key_of_a_rig_can_be_set() {
   physics: {step: 1 ms, calm_step: 2 ms, rigid_in_air: false, integrator: implicitfast, solver: PGS, contact_time: 2 ms,
      contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm, object_height: 8 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
+     surface_roughness: 0.3 mm,
      angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN}";
     let expected = Rig {
         platform: Platform {
@@ -161,6 +162,7 @@ fn every_key_of_a_rig_can_be_set() {
             filter_cutoff: 60.0,
             contact_threshold: 7e-6,
             friction: 0.2,
+            surface_roughness: 3e-4,
             angle_noise: 3e-6,
             angle_resolution: 4e-3,
             forces: true,

@@ -18,6 +18,7 @@ const CONTROL_RATE: Key = Key::new("control_rate", Dimension::FREQUENCY, (0.1, 1
 const FILTER_CUTOFF: Key = Key::new("filter_cutoff", Dimension::FREQUENCY, (0.1, 1e5), "20 Hz");
 const CONTACT_THRESHOLD: Key = Key::new("contact_threshold", Dimension::ANGLE, (1e-9, 1.0), "20 urad");
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
+const SURFACE_ROUGHNESS: Key = Key::new("surface_roughness", Dimension::LENGTH, (0.0, 0.1), "0.05 mm");
 const ANGLE_NOISE: Key = Key::new("angle_noise", Dimension::ANGLE, (0.0, 1.0), "2 urad");
 const FORCE_NOISE: Key = Key::new("force_noise", Dimension::FORCE, (0.0, 1.0), "0.002 mN");
 const ANGLE_RESOLUTION: Key = Key::new("angle_resolution", Dimension::ANGLE, (0.0, 1.0), "1 urad");
@@ -42,6 +43,7 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
     places.filter_cutoff = fields.set(reader, &FILTER_CUTOFF, &mut sensing.filter_cutoff);
     fields.set(reader, &CONTACT_THRESHOLD, &mut sensing.contact_threshold);
     fields.set(reader, &FRICTION, &mut sensing.friction);
+    fields.set(reader, &SURFACE_ROUGHNESS, &mut sensing.surface_roughness);
     fields.set(reader, &ANGLE_NOISE, &mut sensing.angle_noise);
     fields.set(reader, &ANGLE_RESOLUTION, &mut sensing.angle_resolution);
     if let Some(entry) = fields.entry("forces")

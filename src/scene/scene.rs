@@ -59,7 +59,14 @@ impl Scene {
     /// True if the rig at `start`, with undeflected whiskers, is clear of all solids.
     #[must_use]
     pub fn is_clear_at(&self, start: &Pose) -> bool {
-        self.solids.iter().all(|solid| overlap(&self.rig, start, solid.outline()).is_none())
+        self.solids.iter().all(|solid| overlap(&self.rig, start, solid.surface()).is_none())
+    }
+
+    /// The surfaces that whiskers touch: the outlines of all solids with their textures.
+    #[must_use]
+    pub fn surfaces(&self) -> ContourSet {
+        let surfaces = ContourSet::new(self.solids.iter().map(|solid| solid.surface().clone()));
+        surfaces.unwrap_or_else(|| self.truth.surfaces.clone())
     }
 }
 

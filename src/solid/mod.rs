@@ -2,6 +2,7 @@
 
 mod decompose;
 mod part;
+mod rough;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod solid;
 mod wall;

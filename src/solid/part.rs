@@ -100,7 +100,7 @@ pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, So
 }
 
 /// The starting points of the chords of a piece.
-fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2> {
+pub(super) fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2> {
     let (count, length) = (chord_count(piece, sagitta), piece.length());
     (0..count).map(move |chord| piece.point_at(length * chord as f64 / count as f64))
 }

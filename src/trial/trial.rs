@@ -136,8 +136,7 @@ impl Trial {
     pub fn world(&self) -> Result<Box<dyn World>, ExecuteError> {
         let world = build_world(&self.scene, self.world, self.seed)?;
         if self.true_tips || self.program.uses_true_tips() {
-            let surfaces = self.scene.truth.surfaces.clone();
-            return Ok(Box::new(TrueTips::new(world, &self.true_rig(), surfaces)));
+            return Ok(Box::new(TrueTips::new(world, &self.true_rig(), self.scene.surfaces())));
         }
         Ok(world)
     }

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use vibrissa::geometry::{CentreLine, Contour, Corners, Opening, Point2, Pose, Side, Tunnel};
+use vibrissa::geometry::{
+    CentreLine, Contour, Corners, Opening, Point2, Pose, Side, Texture, TextureKind, Tunnel, circle, polygon,
+};
 use vibrissa::solid::{Part, Solid, SolidError};
 
 use crate::geometry::random;
@@ -42,7 +44,9 @@ fn is_inside(corners: &[Point2], point: Point2) -> bool {
 }
 
 fn are_convex(solid: &Solid) -> Result<(), TestCaseError> {
-    for corners in solid.parts().iter().map(outline) {
+    let prisms =
+        solid.parts().iter().filter_map(|part| if let Part::Prism { outline } = part { Some(outline) } else { None });
+    for corners in prisms {
         for k in 0..corners.len() {
             let [a, b, c] = [0, 1, 2].map(|next| corners[(k + next) % corners.len()]);
             let (into, out) = (b - a, c - b);
@@ -171,6 +175,41 @@ mod engine {
         fn every_solid_can_be_simulated(contour in random::closed()) {
             if let Ok(solid) = Solid::inside(contour) {
                 MujocoWorld::new(&Rig::default(), &vibrissa::physics::Physics::default(), &[solid], Pose::default(), 0).unwrap();
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn parts_of_a_rough_solid_fill_it_up_to_its_surface(
+        wavelength in 3e-3..1e-2_f64, ratio in 0.002..0.03_f64, is_round in any::<bool>(), seed in any::<u64>(),
+    ) {
+        let corners = [(0.0, 0.0), (0.15, 0.0), (0.05, 0.04), (0.0, 0.15)].map(|(x, y)| Point2::new(x, y));
+        let smooth = if is_round { circle(Point2::origin(), 0.08) } else { polygon(&corners) }.unwrap();
+        let amplitude = ratio * wavelength;
+        let texture = Texture { kind: TextureKind::Random, amplitude, wavelength, seed };
+        let solid = Solid::textured(smooth, &texture).unwrap();
+        are_convex(&solid)?;
+        let is_in_part = |point: Point2| solid.parts().iter().any(|part| match part {
+            Part::Prism { outline } => is_inside(outline, point),
+            Part::Cylinder { centre, radius } => (point - centre).norm() < *radius,
+        });
+        for sample in solid.surface().sample(0.7e-3) {
+            let outwards = Point2::new(sample.tangent.y, -sample.tangent.x).coords;
+            for depth in [-0.2, 0.2, 4.0, 9.0, 20.0].map(|multiple| multiple * amplitude) {
+                let point = sample.point - depth * outwards;
+                // Under a crest, another side may be nearer. In a sharp corner, the layers of both sides may leave a gap.
+                let is_near = (solid.surface().signed_distance(point) + depth).abs() < 0.05 * amplitude;
+                let is_thick = solid.surface().signed_distance(sample.point - 2.5 * depth * outwards) < -2.0 * depth;
+                if !is_near || (depth > 0.0 && !is_thick) {
+                    continue;
+                }
+                // A point on an edge between two parts is in neither, but one beside it is.
+                let found = [-1e-7, 1e-7].iter().any(|along| is_in_part(point + *along * sample.tangent));
+                prop_assert_eq!(found, depth > 0.0, "{} m deep at {}", depth, sample.arc_length);
             }
         }
     }

@@ -9,3 +9,4 @@ mod mujoco;
 mod quasi_static;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
+mod texture;

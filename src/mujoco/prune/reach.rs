@@ -46,7 +46,7 @@ impl Reach {
         let corners = rig.platform.outline_body().map(|corner| corner.coords.norm());
         let tips = rig.whiskers.iter().map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length);
         let extent = corners.into_iter().chain(tips).fold(0.0, f64::max) + TOLERANCE;
-        let surfaces = ContourSet::new(solids.iter().map(|solid| solid.outline().clone()));
+        let surfaces = ContourSet::new(solids.iter().map(|solid| solid.surface().clone()));
         Self { surfaces, boxes, parts, extent }
     }
 

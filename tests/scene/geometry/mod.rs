@@ -8,4 +8,5 @@ mod oracle;
 pub(crate) mod random;
 mod set;
 mod simple;
+mod texture;
 mod union;

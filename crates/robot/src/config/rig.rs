@@ -56,6 +56,7 @@ section!(SensingSection of Sensing {
     filter_cutoff: "some::frequency",
     contact_threshold: "some::angle",
     angle_noise: "some::angle",
+    surface_roughness: "some::length",
 });
 
 /// Readers of quantities that may be absent.

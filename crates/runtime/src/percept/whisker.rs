@@ -39,6 +39,8 @@ pub(super) struct PerceivedWhisker {
     contact_threshold: f64,
     /// Standard deviation of the filtered base angle (rad).
     base_angle_deviation: f64,
+    /// Standard deviation (m) of a surface about its outline.
+    surface_roughness: f64,
     /// Position of the base (m, world frame).
     pub(super) base_world: Point2,
     /// Direction of the undeflected shaft (rad, world frame).
@@ -70,6 +72,7 @@ impl PerceivedWhisker {
             curve,
             contact_threshold: sensing.contact_threshold,
             base_angle_deviation: base_angle_deviation(sensing),
+            surface_roughness: sensing.surface_roughness,
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: RecordedContour::new(Keypoints::default()),
@@ -166,7 +169,7 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Standard deviation of the contact position (m).
+    /// Standard deviation of the contact position (m), without the roughness of the surface.
     pub(super) fn tip_deviation(&self) -> f64 {
         match &self.contact {
             Some(contact) => contact.deviation,
@@ -174,13 +177,14 @@ impl PerceivedWhisker {
         }
     }
 
-    /// Standard deviation of a recorded tip (m). It contains scatter and bias.
+    /// Standard deviation of a recorded tip from the outline (m). It contains scatter, bias and the roughness of the
+    /// surface.
     pub(super) fn recorded_deviation(&self) -> f64 {
         let both = |contact: Contact| match contact.bias {
             0.0 => contact.recorded_deviation,
             bias => math::hypot(contact.recorded_deviation, bias),
         };
-        self.contact.map_or_else(|| self.tip_deviation(), both)
+        math::hypot(self.contact.map_or_else(|| self.tip_deviation(), both), self.surface_roughness)
     }
 
     /// Angle (rad) between the shaft at the base and the surface behind the tip, against the direction in which the

@@ -21,6 +21,8 @@ pub struct Sensing {
     /// Coefficient of sliding friction that contact estimators assume. Objects have their own coefficient, in
     /// `Physics`.
     pub friction: f64,
+    /// Standard deviation of surfaces about their outlines (m) that perception assumes, such as that of a texture.
+    pub surface_roughness: f64,
     /// True if samples contain shear and axial force at each base.
     pub forces: bool,
     /// Standard deviation of the noise on each of these forces (N).
@@ -63,6 +65,7 @@ impl Default for Sensing {
             filter_cutoff: 20.0,
             contact_threshold: 2e-5,
             friction: 0.0,
+            surface_roughness: 0.0,
             forces: false,
             force_noise: 0.0,
         }
