@@ -63,7 +63,7 @@ impl Jobs {
 pub(super) enum World {
     /// Simulation by MuJoCo
     Mujoco,
-    /// Quasi-static simulation: no inertia, no friction, several times faster
+    /// Quasi-static simulation: no inertia, several times faster
     #[value(name = "quasistatic")]
     QuasiStatic,
 }

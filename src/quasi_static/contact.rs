@@ -1,7 +1,8 @@
 //! Contacts between features of a whisker and features of the surfaces.
 
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Point2, Vector2, perpendicular};
 
+use super::friction::{Anchor, ConeForce};
 use super::rod::{Rod, Shape};
 use super::surface::{Junction, Surfaces};
 
@@ -11,8 +12,10 @@ pub(super) struct Pair {
     /// The index of the link. Either its far end or its side may touch.
     link: usize,
     features: FeaturePair,
-    /// The contact force (N), 0 while the features do not touch.
-    pub(super) force: f64,
+    /// The contact force, 0 while the features do not touch.
+    pub(super) force: ConeForce,
+    /// The state from which the slip is measured, or `None` before the first contact is computed.
+    pub(super) anchor: Option<Anchor>,
 }
 
 /// The kinds of feature pairs. Facets are given by their index, corners by the facet that precedes them.
@@ -43,8 +46,13 @@ pub(super) struct Contact {
     /// The distance between the surfaces (m), negative if they overlap.
     pub(super) gap: f64,
     pub(super) curvature: GapCurvature,
-    /// The contact force of the previous step (N).
-    pub(super) force: f64,
+    /// The radius (m) of the whisker at the contact. Friction acts at this distance from the axis.
+    pub(super) radius: f64,
+    /// The distance (m) by which the whisker has slipped along the surface since it was anchored, positive to the left
+    /// of the normal. Zero without friction.
+    pub(super) slip: f64,
+    /// The contact force of the previous step.
+    pub(super) force: ConeForce,
 }
 
 /// The curvature of the gap for motion along the surface, without the curvature that link rotations cause.
@@ -73,7 +81,7 @@ pub(super) fn broad_phase(rod: &Rod, shape: &Shape, surfaces: &Surfaces, pairs: 
     let mut add = |link: usize, features: FeaturePair, distance: f64| {
         if distance < PAIR_DISTANCE {
             let same = |pair: &&Pair| pair.link == link && pair.features.is_same(features);
-            pairs.push(previous.iter().find(same).copied().unwrap_or(Pair { link, features, force: 0.0 }));
+            pairs.push(previous.iter().find(same).copied().unwrap_or(Pair::new(link, features)));
         } else {
             clear = clear.min(distance);
         }
@@ -123,11 +131,35 @@ impl FeaturePair {
 }
 
 impl Pair {
+    fn new(link: usize, features: FeaturePair) -> Self {
+        Self { link, features, force: ConeForce::default(), anchor: None }
+    }
+
+    /// Measures the slip of the pair from this configuration on, unless it sticks.
+    pub(super) fn release_anchor(&mut self, rod: &Rod, shape: &Shape, surfaces: &Surfaces) {
+        if self.force.sticks() {
+            return;
+        }
+        self.anchor = None;
+        if self.force.acts() {
+            self.contact(rod, shape, surfaces, true);
+        }
+    }
+
     /// Returns the contact of the pair, or `None` if its features do not face each other.
-    fn contact(&mut self, rod: &Rod, shape: &Shape, surfaces: &Surfaces) -> Option<Contact> {
+    fn contact(&mut self, rod: &Rod, shape: &Shape, surfaces: &Surfaces, has_friction: bool) -> Option<Contact> {
         let link = self.link;
         let end = shape.ends[link + 1];
-        let of_end = |projection: super::surface::Projection| Contact {
+        let (force, anchor) = (self.force, &mut self.anchor);
+        let angle = shape.world_angle(link);
+        let slip = |anchor: &mut Option<Anchor>, now: Anchor, normal: Vector2, rolling: f64| {
+            if has_friction {
+                anchor.get_or_insert(now).slip(&now, perpendicular(normal), shape.tangents[link], rolling)
+            } else {
+                0.0
+            }
+        };
+        let of_end = |anchor: &mut Option<Anchor>, projection: super::surface::Projection| Contact {
             pair: 0,
             link,
             along: rod.link,
@@ -138,27 +170,36 @@ impl Pair {
             } else {
                 GapCurvature::Circling(projection.curvature)
             },
-            force: self.force,
+            radius: rod.end_radius(link),
+            slip: slip(anchor, Anchor { place: end, along: rod.link, angle }, projection.normal, -rod.end_radius(link)),
+            force,
         };
-        let of_side = |along: f64, point_aside: f64, side: f64, offset: f64| Contact {
-            pair: 0,
-            link,
-            along,
-            normal: -side * shape.left(link),
-            gap: side * point_aside - offset,
-            curvature: GapCurvature::Rolling(point_aside),
-            force: self.force,
-        };
+        // The side of the link touches a circle of `bulge` (m) about a point.
+        let of_side =
+            |anchor: &mut Option<Anchor>, place: Point2, (along, aside): (f64, f64), side: f64, bulge: f64| {
+                let normal = -side * shape.left(link);
+                Contact {
+                    pair: 0,
+                    link,
+                    along,
+                    normal,
+                    gap: side * aside - (bulge + rod.radius(link)),
+                    curvature: GapCurvature::Rolling(aside),
+                    radius: rod.radius(link),
+                    slip: slip(anchor, Anchor { place, along, angle }, normal, bulge),
+                    force,
+                }
+            };
         match &mut self.features {
             FeaturePair::EndOnFacet(index, is_outside) => {
                 let facet = surfaces.facet(*index);
                 let projection = if *is_outside { facet.project_retained(end) } else { facet.project(end) };
                 *is_outside = facet.is_outside(end) || (*is_outside && projection.is_some());
-                projection.filter(|_| *is_outside).map(of_end)
+                projection.filter(|_| *is_outside).map(|projection| of_end(anchor, projection))
             }
             FeaturePair::EndOnCorner(index) => {
                 let Junction::Convex(corner) = surfaces.facet(*index).junction else { return None };
-                corner.project(end).map(of_end)
+                corner.project(end).map(|projection| of_end(anchor, projection))
             }
             FeaturePair::SideOnCorner(index, side) => {
                 let Junction::Convex(corner) = surfaces.facet(*index).junction else { return None };
@@ -169,7 +210,7 @@ impl Pair {
                 if !is_beside || corner.side_of(shape.left(link)) == Some(aside.signum()) {
                     *side = aside.signum();
                 }
-                is_beside.then(|| of_side(along, aside, *side, rod.radius(link)))
+                is_beside.then(|| of_side(anchor, corner.point, (along, aside), *side, 0.0))
             }
             FeaturePair::SideOnBulge(index) => {
                 let facet = surfaces.facet(*index);
@@ -177,7 +218,7 @@ impl Pair {
                 let (along, aside) = link_coordinates(shape, link, centre);
                 let side = aside.signum();
                 let faces = along > 0.0 && along < rod.link && facet.spans(-side * shape.left(link));
-                faces.then(|| of_side(along, aside, side, radius + rod.radius(link)))
+                faces.then(|| of_side(anchor, centre, (along, aside), side, radius))
             }
         }
     }
@@ -208,13 +249,14 @@ pub(super) fn narrow_phase(
     surfaces: &Surfaces,
     pairs: &mut [Pair],
     contacts: &mut Vec<Contact>,
+    has_friction: bool,
 ) {
     contacts.clear();
     let mut orphaned = None;
     for (index, pair) in pairs.iter_mut().enumerate() {
-        match pair.contact(rod, shape, surfaces) {
+        match pair.contact(rod, shape, surfaces, has_friction) {
             Some(contact) => contacts.push(Contact { pair: index, ..contact }),
-            None if pair.force > 0.0 => {
+            None if pair.force.acts() => {
                 orphaned = Some((pair.link, std::mem::take(&mut pair.force)));
             }
             None => {}
@@ -224,7 +266,7 @@ pub(super) fn narrow_phase(
     if let Some((link, force)) = orphaned
         && let Some(successor) = contacts
             .iter_mut()
-            .filter(|contact| contact.force == 0.0 && contact.link.abs_diff(link) <= 1)
+            .filter(|contact| !contact.force.acts() && contact.link.abs_diff(link) <= 1)
             .min_by(|one, two| one.gap.total_cmp(&two.gap))
             .filter(|successor| successor.gap < TRANSFER_DISTANCE)
     {
@@ -255,7 +297,7 @@ fn drop_hidden(surfaces: &Surfaces, pairs: &[Pair], contacts: &mut Vec<Contact>)
                 at != index
                     && one.link == two.link
                     && facet(two).is_some_and(|other| other != own && meet(other))
-                    && (one.force > 0.0, one.gap, index) < (two.force > 0.0, two.gap, at)
+                    && (one.force.acts(), one.gap, index) < (two.force.acts(), two.gap, at)
             })
         });
         if is_hidden {

@@ -4,6 +4,7 @@ use crate::geometry::{Vector2, perpendicular};
 
 use super::bordered_tridiagonal::{BorderedTridiagonal, MAX_COLUMNS, SmallSystem};
 use super::contact::{Contact, GapCurvature};
+use super::friction::Edge;
 use super::rod::{Rod, Shape};
 
 /// Newton's method for the minimum bending energy without penetration, with an active set of contacts.
@@ -12,8 +13,15 @@ use super::rod::{Rod, Shape};
 /// of a contact force changes with the rotation of the links before it. This adds only to the diagonal. Every active
 /// contact, and the curvature of every surface, borders the matrix by a column. The cost of a step is therefore
 /// proportional to the number of links.
-#[derive(Debug, Default)]
+///
+/// With friction, the active set consists of edges of friction cones. One edge of a contact means that it slides: its gap
+/// is zero, and its force is along the edge. Both edges mean that it sticks: its slip is zero too, and its force is
+/// between the edges. An edge with a negative force is removed, so a contact that sticks begins to slide. A sliding
+/// contact whose slip reverses gets its other edge.
+#[derive(Debug)]
 pub(super) struct EquilibriumSolver {
+    /// The coefficient of friction.
+    friction: f64,
     bordered: BorderedTridiagonal,
     kkt: SmallSystem,
     diagonal: Vec<f64>,
@@ -21,18 +29,43 @@ pub(super) struct EquilibriumSolver {
     rotations: Vec<f64>,
     /// The displacement (m) of the near end of every link, linearised in the rotations.
     displacements: Vec<Vector2>,
+    active: ActiveSet,
 }
 
-/// The result of a step.
+/// The result of a step. [`EquilibriumSolver::active`] has its contact forces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
     /// The largest displacement of a link end (m).
     pub(super) max_displacement: f64,
     /// True for a Newton step towards a stable equilibrium. Otherwise the step is only a descent direction.
     pub(super) is_newton: bool,
-    /// The active contacts by their indices, with their forces (N).
-    pub(super) active: [(usize, f64); MAX_COLUMNS],
-    pub(super) count: usize,
+}
+
+/// The active edges, and the curvatures of their gaps.
+#[derive(Debug, Default)]
+struct ActiveSet {
+    edges: Vec<Active>,
+    curvatures: Vec<CurvatureColumn>,
+}
+
+/// An active edge of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Active {
+    /// The index of the contact.
+    pub(super) contact: usize,
+    pub(super) edge: Edge,
+    /// The multiple of the edge in the contact force (N).
+    pub(super) force: f64,
+    /// The generalised force of the edge.
+    push: Weighted,
+}
+
+/// A border column plus a multiple of another one.
+#[derive(Debug, Clone, Copy, Default)]
+struct Weighted {
+    column: usize,
+    other: usize,
+    share: f64,
 }
 
 /// The largest tolerated penetration (m).
@@ -44,20 +77,51 @@ const MAX_ITERATIONS: usize = 24;
 const MIN_SHARE: f64 = 1e-9;
 
 /// A border column for the curvature of a gap.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct CurvatureColumn {
     column: usize,
+    /// The generalised force by which the curvature acts: the same column, and with friction a multiple of the normal.
+    push: Weighted,
     /// The column with which it forms a product; itself for a square.
     partner: usize,
     /// The inverse of the coefficient of this product.
     inverse: f64,
 }
 
+impl Weighted {
+    fn terms(self) -> impl Iterator<Item = (usize, f64)> {
+        std::iter::once((self.column, 1.0)).chain((self.share != 0.0).then_some((self.other, self.share)))
+    }
+}
+
 impl EquilibriumSolver {
+    /// Creates the solver for a coefficient of friction.
+    pub(super) fn new(friction: f64) -> Self {
+        Self {
+            friction,
+            bordered: BorderedTridiagonal::default(),
+            kkt: SmallSystem::default(),
+            diagonal: Vec::new(),
+            rotations: Vec::new(),
+            displacements: Vec::new(),
+            active: ActiveSet::default(),
+        }
+    }
+
     /// Returns a step from a shape, or `None` if there is none. That happens if a whisker is pressed along its shaft.
     pub(super) fn step(&mut self, rod: &Rod, shape: &Shape, contacts: &[Contact]) -> Option<Step> {
+        let mut active = std::mem::take(&mut self.active);
         // Without the curvature columns, the equations always describe a minimum.
-        self.try_step(rod, shape, contacts, true).or_else(|| self.try_step(rod, shape, contacts, false))
+        let step = self
+            .try_step(rod, shape, contacts, true, &mut active)
+            .or_else(|| self.try_step(rod, shape, contacts, false, &mut active));
+        self.active = active;
+        step
+    }
+
+    /// The active edges of the last step.
+    pub(super) fn active(&self) -> &[Active] {
+        &self.active.edges
     }
 
     /// Rotates the links by a fraction of the last step.
@@ -67,109 +131,171 @@ impl EquilibriumSolver {
         }
     }
 
-    fn try_step(&mut self, rod: &Rod, shape: &Shape, contacts: &[Contact], is_newton: bool) -> Option<Step> {
+    fn try_step(
+        &mut self,
+        rod: &Rod,
+        shape: &Shape,
+        contacts: &[Contact],
+        is_newton: bool,
+        ActiveSet { edges: active, curvatures }: &mut ActiveSet,
+    ) -> Option<Step> {
         self.assemble_hessian(rod, shape, if is_newton { contacts } else { &[] });
         self.bordered.factor(&self.diagonal, &rod.off_diagonal)?;
         let free = self.bordered.add(|column| joint_moments(rod, shape, column))?;
-        let mut curvature_columns = [CurvatureColumn::default(); MAX_COLUMNS];
-        let (mut curvature_count, mut expected_positive) = (0, 0);
-        let mut active = [(0, 0.0); MAX_COLUMNS];
-        let mut columns = [0; MAX_COLUMNS];
-        let mut count = 0;
-        for (index, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.force > 0.0) {
+        active.clear();
+        curvatures.clear();
+        let mut expected_positive = 0;
+        for (index, contact) in contacts.iter().enumerate().filter(|(_, contact)| contact.force.acts()) {
+            let first_curvature = curvatures.len();
             if is_newton {
                 let (added, adds_positive) = self.add_curvature(rod, shape, contact)?;
-                for curve in added.into_iter().flatten() {
-                    *curvature_columns.get_mut(curvature_count)? = curve;
-                    curvature_count += 1;
-                }
+                curvatures.extend(added.into_iter().flatten());
                 expected_positive += usize::from(adds_positive);
             }
-            *active.get_mut(count)? = (index, contact.force);
-            columns[count] =
-                self.bordered.add(|column| displacement_gradient(rod, shape, contact, contact.normal, column))?;
-            count += 1;
+            let [normal, slip] = self.add_contact(rod, shape, contact)?;
+            for curve in &mut curvatures[first_curvature..] {
+                curve.push.other = normal;
+            }
+            for edge in Edge::BOTH.into_iter().filter(|&edge| contact.force.acts_along(edge)) {
+                active.push(self.activate(index, edge, [normal, slip]));
+            }
         }
-        let curvature_columns = &curvature_columns[..curvature_count];
         for _ in 0..MAX_ITERATIONS {
-            self.fill_kkt(free, &columns[..count], &active[..count], contacts, curvature_columns)?;
+            self.fill_kkt(free, active, contacts, curvatures)?;
+            let count = active.len();
             let Some((solution, positive)) = self.kkt.solve() else {
-                let redundant = self.redundant_contact(&columns[..count], &active[..count]).filter(|_| !is_newton)?;
-                count -= 1;
-                active.swap(redundant, count);
-                columns.swap(redundant, count);
+                let redundant = self.redundant_edge(active, contacts).filter(|_| !is_newton)?;
+                active.swap_remove(redundant);
                 continue;
             };
             let (forces, amplitudes) = solution.split_at(count);
             let worst = (0..count).min_by(|&a, &b| forces[a].total_cmp(&forces[b]));
             if let Some(worst) = worst.filter(|&worst| forces[worst] < -1e-12) {
-                count -= 1;
-                active.swap(worst, count);
-                columns.swap(worst, count);
+                active.swap_remove(worst);
                 continue;
             }
             for (active, &force) in active.iter_mut().zip(forces) {
-                active.1 = force;
+                active.force = force;
             }
-            let weights = columns[..count].iter().zip(forces).map(|(&column, &force)| (column, force));
-            let amplitudes =
-                curvature_columns.iter().zip(amplitudes).map(|(curve, amplitude)| (curve.column, -amplitude));
-            self.combine(free, weights.chain(amplitudes));
+            self.combine(free, active, curvatures, amplitudes);
             let max_displacement = self.update_displacements(rod, shape)?;
-            let is_active = |index: usize| active[..count].iter().any(|&(active, _)| active == index);
-            let gap_after =
-                |contact: &Contact| contact.gap + contact.normal.dot(&self.displacement_at(rod, shape, contact));
-            let inactive = contacts.iter().enumerate().filter(|(index, _)| !is_active(*index));
-            let deepest =
-                inactive.map(|(index, contact)| (index, gap_after(contact))).min_by(|one, two| one.1.total_cmp(&two.1));
-            let Some((index, _)) = deepest.filter(|&(_, gap)| gap < -TOLERANCE) else {
+            let Some(violated) = self.violation(rod, shape, contacts, active) else {
                 // Sylvester's law of inertia: at a minimum, the system has exactly this number of positive eigenvalues.
+                // With friction the system is not symmetric, and this is the continuation from small coefficients.
                 let stays = positive + self.bordered.negative == count + expected_positive;
-                return (stays || !is_newton).then_some(Step { max_displacement, is_newton, active, count });
+                return (stays || !is_newton).then_some(Step { max_displacement, is_newton });
             };
-            let contact = &contacts[index];
-            *active.get_mut(count)? = (index, 0.0);
-            columns[count] =
-                self.bordered.add(|column| displacement_gradient(rod, shape, contact, contact.normal, column))?;
-            count += 1;
+            let own = active.iter().find(|active| active.contact == violated);
+            let (columns, edges) = match own {
+                Some(&Active { edge, push, .. }) => ([push.column, push.other], [Some(edge.opposite()), None]),
+                None => {
+                    let columns = self.add_contact(rod, shape, &contacts[violated])?;
+                    // A contact sticks first. Otherwise a whisker that locks would find no force.
+                    (columns, [Some(Edge::Left), (self.friction > 0.0).then_some(Edge::Right)])
+                }
+            };
+            active.extend(edges.into_iter().flatten().map(|edge| self.activate(violated, edge, columns)));
         }
         None
     }
 
-    /// Selects the contact to remove from a linearly dependent active set, for example three contacts of one link with
-    /// a circle. The contact that was added last takes over forces of the others. Returns the contact whose force
+    /// Adds the columns of a contact: the normal, and the slip if there is friction.
+    fn add_contact(&mut self, rod: &Rod, shape: &Shape, contact: &Contact) -> Option<[usize; 2]> {
+        let normal = self.bordered.add(|column| displacement_gradient(rod, shape, contact, contact.normal, column))?;
+        if self.friction == 0.0 {
+            return Some([normal; 2]);
+        }
+        let slip = self.bordered.add(|column| {
+            displacement_gradient(rod, shape, contact, perpendicular(contact.normal), column);
+            column[contact.link] -= contact.radius;
+        })?;
+        Some([normal, slip])
+    }
+
+    fn activate(&self, contact: usize, edge: Edge, [normal, slip]: [usize; 2]) -> Active {
+        let push = Weighted { column: normal, other: slip, share: edge.sign() * self.friction };
+        Active { contact, edge, force: 0.0, push }
+    }
+
+    /// Returns the inactive contact that penetrates deepest after the step, or the sliding contact whose slip is
+    /// opposite to its direction and largest. `None` if there is neither.
+    fn violation(&self, rod: &Rod, shape: &Shape, contacts: &[Contact], active: &[Active]) -> Option<usize> {
+        let violation = |(index, contact): (usize, &Contact)| {
+            let mut edges = active.iter().filter(|active| active.contact == index);
+            let displacement = || self.displacement_at(rod, shape, contact);
+            match (edges.next(), edges.next()) {
+                (None, _) => Some((index, contact.gap + contact.normal.dot(&displacement()))),
+                (Some(slides), None) if self.friction > 0.0 => {
+                    let rolled = contact.radius * self.rotations[contact.link];
+                    let slip = contact.slip + perpendicular(contact.normal).dot(&displacement()) - rolled;
+                    Some((index, -slides.edge.sign() * slip))
+                }
+                _ => None,
+            }
+        };
+        let deepest = contacts.iter().enumerate().filter_map(violation).min_by(|one, two| one.1.total_cmp(&two.1));
+        deepest.filter(|&(_, gap)| gap < -TOLERANCE).map(|(index, _)| index)
+    }
+
+    /// Selects the edge to remove from a linearly dependent active set, for example three contacts of one link with
+    /// a circle. The edge that was added last takes over forces of the others. Returns the edge whose force
     /// reaches zero first, or `None` if no force decreases.
     ///
     /// Source: the dual step of Goldfarb and Idnani, Mathematical Programming 27 (1983), 1.
-    fn redundant_contact(&mut self, columns: &[usize], active: &[(usize, f64)]) -> Option<usize> {
-        let (&last, others) = columns.split_last()?;
-        let products = &self.bordered.products;
+    fn redundant_edge(&mut self, active: &[Active], contacts: &[Contact]) -> Option<usize> {
+        let (last, others) = active.split_last()?;
         self.kkt.size = others.len();
-        for (row, &column) in others.iter().enumerate() {
-            self.kkt.rhs[row] = products[column][last];
-            for (at, &other) in others.iter().enumerate() {
-                self.kkt.matrix[row][at] = products[column][other];
+        for (row, edge) in others.iter().enumerate() {
+            let (held, _) = held(active, edge, contacts);
+            self.kkt.rhs[row] = self.product(held, last.push);
+            for (at, other) in others.iter().enumerate() {
+                self.kkt.matrix[row][at] = self.product(held, other.push);
             }
         }
         let (shares, _) = self.kkt.solve()?;
         let taken = (0..others.len()).filter(|&at| shares[at] > MIN_SHARE);
-        taken.min_by(|&a, &b| (active[a].1 / shares[a]).total_cmp(&(active[b].1 / shares[b])))
+        taken.min_by(|&a, &b| (active[a].force / shares[a]).total_cmp(&(active[b].force / shares[b])))
+    }
+
+    /// The product `lᵀ T⁻¹ r` of two weighted columns.
+    fn product(&self, left: Weighted, right: Weighted) -> f64 {
+        let products = &self.bordered.products;
+        let with_right = |row: usize| {
+            let own = products[row][right.column];
+            if right.share == 0.0 { own } else { own + right.share * products[row][right.other] }
+        };
+        let own = with_right(left.column);
+        if left.share == 0.0 { own } else { own + left.share * with_right(left.other) }
     }
 
     /// Assembles the diagonal of the Hessian: joint stiffnesses and the geometric stiffness of contact forces.
     fn assemble_hessian(&mut self, rod: &Rod, shape: &Shape, contacts: &[Contact]) {
         self.diagonal.clone_from(&rod.diagonal);
-        for contact in contacts.iter().filter(|contact| contact.force > 0.0) {
-            let force = contact.force * contact.normal;
+        for contact in contacts.iter().filter(|contact| contact.force.acts()) {
+            let force = self.force(contact);
             for (entry, along) in self.diagonal.iter_mut().zip(&shape.tangents).take(contact.link) {
                 *entry += rod.link * force.dot(along);
             }
             let own = &mut self.diagonal[contact.link];
-            *own += contact.along * force.dot(&shape.tangents[contact.link]);
+            // The force on the first link rotates with it about its near end.
+            if !(contact.link == 0 && matches!(contact.curvature, GapCurvature::Rolling(_))) {
+                *own += contact.along * force.dot(&shape.tangents[contact.link]);
+            }
             if let GapCurvature::Rolling(aside) = contact.curvature {
                 *own -= force.dot(&shape.left(contact.link)) * aside;
             }
         }
+    }
+
+    /// The force of a contact on the whisker in the previous step (N, world frame).
+    fn force(&self, contact: &Contact) -> Vector2 {
+        contact.force.normal() * contact.normal
+            + contact.force.tangential(self.friction) * perpendicular(contact.normal)
+    }
+
+    /// The direction of an edge of the friction cone (world frame). Its normal component is 1.
+    pub(super) fn direction(&self, edge: Edge, contact: &Contact) -> Vector2 {
+        contact.normal + edge.sign() * self.friction * perpendicular(contact.normal)
     }
 
     /// Adds the border columns for the curvature of a gap. The flag is true if they add a positive eigenvalue.
@@ -180,6 +306,7 @@ impl EquilibriumSolver {
         contact: &Contact,
     ) -> Option<([Option<CurvatureColumn>; 2], bool)> {
         let link = contact.link;
+        let (normal, tangential) = (contact.force.normal(), contact.force.tangential(self.friction));
         match contact.curvature {
             GapCurvature::None => Some(([None; 2], false)),
             // The near end of the first link is fixed. This link rotates about it without sliding.
@@ -187,8 +314,9 @@ impl EquilibriumSolver {
             GapCurvature::Circling(curvature) => {
                 let tangent = perpendicular(contact.normal);
                 let column = self.bordered.add(|column| displacement_gradient(rod, shape, contact, tangent, column))?;
-                let inverse = -(contact.force * curvature).recip();
-                Some(([Some(CurvatureColumn { column, partner: column, inverse }), None], inverse > 0.0))
+                let inverse = -(normal * curvature).recip();
+                let push = Weighted { column, other: column, share: -tangential / normal };
+                Some(([Some(CurvatureColumn { column, push, partner: column, inverse }), None], inverse > 0.0))
             }
             GapCurvature::Rolling(_) => {
                 let tangent = shape.tangents[link];
@@ -200,9 +328,13 @@ impl EquilibriumSolver {
                     column.fill(0.0);
                     column[link] = 1.0;
                 })?;
-                let inverse = (contact.force * contact.normal.dot(&shape.left(link))).recip();
-                let pair = [(slide, turn), (turn, slide)];
-                Some((pair.map(|(column, partner)| Some(CurvatureColumn { column, partner, inverse })), true))
+                let inverse = (normal * contact.normal.dot(&shape.left(link))).recip();
+                let pair = [(slide, turn, tangential * inverse), (turn, slide, 0.0)];
+                let column = |(column, partner, share)| {
+                    let push = Weighted { column, other: column, share };
+                    Some(CurvatureColumn { column, push, partner, inverse })
+                };
+                Some((pair.map(column), true))
             }
         }
     }
@@ -212,44 +344,50 @@ impl EquilibriumSolver {
     fn fill_kkt(
         &mut self,
         free: usize,
-        columns: &[usize],
-        active: &[(usize, f64)],
+        active: &[Active],
         contacts: &[Contact],
         curvature_columns: &[CurvatureColumn],
     ) -> Option<()> {
-        let (kkt, products) = (&mut self.kkt, &self.bordered.products);
-        let forces = columns.len();
-        kkt.size = forces + curvature_columns.len();
-        if kkt.size > MAX_COLUMNS {
+        let forces = active.len();
+        let size = forces + curvature_columns.len();
+        if size > MAX_COLUMNS {
             return None;
         }
-        for (row, (&column, &(index, _))) in columns.iter().zip(active).enumerate() {
-            kkt.rhs[row] = -contacts[index].gap - products[column][free];
-            for (at, &other) in columns.iter().enumerate() {
-                kkt.matrix[row][at] = products[column][other];
+        self.kkt.size = size;
+        let single = |column: usize| Weighted { column, other: column, share: 0.0 };
+        let free = single(free);
+        for (row, edge) in active.iter().enumerate() {
+            let (held, gap) = held(active, edge, contacts);
+            self.kkt.rhs[row] = -gap - self.product(held, free);
+            for (at, other) in active.iter().enumerate() {
+                self.kkt.matrix[row][at] = self.product(held, other.push);
             }
             for (at, curve) in curvature_columns.iter().enumerate() {
-                kkt.matrix[row][forces + at] = -products[column][curve.column];
-                kkt.matrix[forces + at][row] = -products[column][curve.column];
+                self.kkt.matrix[row][forces + at] = -self.product(held, curve.push);
+                self.kkt.matrix[forces + at][row] = -self.product(single(curve.column), edge.push);
             }
         }
         for (row, curve) in curvature_columns.iter().enumerate() {
-            kkt.rhs[forces + row] = products[curve.column][free];
+            self.kkt.rhs[forces + row] = self.product(single(curve.column), free);
             for (at, other) in curvature_columns.iter().enumerate() {
                 let own = if other.column == curve.partner { curve.inverse } else { 0.0 };
-                kkt.matrix[forces + row][forces + at] = products[curve.column][other.column] + own;
+                self.kkt.matrix[forces + row][forces + at] = self.product(single(curve.column), other.push) + own;
             }
         }
         Some(())
     }
 
     /// Computes the rotations: the free solution plus weighted solutions of other columns.
-    fn combine(&mut self, free: usize, weights: impl Iterator<Item = (usize, f64)>) {
+    fn combine(&mut self, free: usize, active: &[Active], curvature_columns: &[CurvatureColumn], amplitudes: &[f64]) {
         self.rotations.clear();
         self.rotations.extend_from_slice(self.bordered.solved(free));
-        for (column, weight) in weights {
-            for (turn, solved) in self.rotations.iter_mut().zip(self.bordered.solved(column)) {
-                *turn += weight * solved;
+        let forces = active.iter().map(|active| (active.push, active.force));
+        let curvatures = curvature_columns.iter().zip(amplitudes).map(|(curve, amplitude)| (curve.push, -amplitude));
+        for (push, weight) in forces.chain(curvatures) {
+            for (column, share) in push.terms() {
+                for (turn, solved) in self.rotations.iter_mut().zip(self.bordered.solved(column)) {
+                    *turn += share * weight * solved;
+                }
             }
         }
     }
@@ -271,6 +409,15 @@ impl EquilibriumSolver {
         debug_assert!(contact.along <= rod.link);
         self.displacements[contact.link] + contact.along * self.rotations[contact.link] * shape.left(contact.link)
     }
+}
+
+/// Returns the direction in which an active edge holds the contact, and its gap (m) in this direction. A contact that
+/// slides is held along the normal. One that sticks is held along both edges.
+fn held(active: &[Active], edge: &Active, contacts: &[Contact]) -> (Weighted, f64) {
+    let contact = &contacts[edge.contact];
+    let sticks = active.iter().any(|other| other.contact == edge.contact && other.edge != edge.edge);
+    let share = if sticks { edge.push.share } else { 0.0 };
+    (Weighted { share, ..edge.push }, contact.gap + share * contact.slip)
 }
 
 /// Writes the derivative of a contact point's position along `direction` with respect to the rotation of every link

@@ -6,6 +6,7 @@ mod contact;
 mod equilibrium;
 mod first_order_lag;
 mod footprint;
+mod friction;
 mod platform_dynamics;
 mod rod;
 mod surface;

@@ -134,6 +134,11 @@ impl Shape {
         perpendicular(self.tangents[link])
     }
 
+    /// The direction of a link (rad, world frame).
+    pub(super) fn world_angle(&self, link: usize) -> f64 {
+        self.world_angles[link]
+    }
+
     /// The bounding box of the axis, without the thickness of the shaft.
     pub(super) fn bounds(&self) -> BoundingBox {
         let bounds = BoundingBox::around(self.ends[0], self.ends[0]);

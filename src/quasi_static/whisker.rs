@@ -7,6 +7,7 @@ use super::base_path::BasePath;
 use super::contact::{Contact, Pair, broad_phase, narrow_phase};
 use super::equilibrium::{EquilibriumSolver, Step};
 use super::first_order_lag::FirstOrderLag;
+use super::friction::ConeForce;
 use super::rod::{Rod, Shape};
 use super::surface::Surfaces;
 
@@ -18,6 +19,7 @@ pub(super) struct QuasiStaticWhisker {
     base_path: BasePath,
     hinge: FirstOrderLag,
     solver: EquilibriumSolver,
+    has_friction: bool,
     pairs: Vec<Pair>,
     contacts: Vec<Contact>,
     /// A lower bound (m) of the distance of all feature pairs that are not in `pairs`.
@@ -63,13 +65,15 @@ const MAX_SMOOTH_RATIO: f64 = 3.0;
 const PERTURBATION: f64 = 1e-4;
 
 impl QuasiStaticWhisker {
-    pub(super) fn new(whisker: &Whisker, base: Pose) -> Self {
+    /// Creates a straight whisker among surfaces with a coefficient of friction.
+    pub(super) fn new(whisker: &Whisker, friction: f64, base: Pose) -> Self {
         let rod = Rod::new(whisker);
         Self {
             shape: Shape::at_rest(&rod, base),
             base_path: BasePath::default(),
             hinge: FirstOrderLag::new(whisker.hinge.damping / whisker.hinge.stiffness),
-            solver: EquilibriumSolver::default(),
+            solver: EquilibriumSolver::new(friction),
+            has_friction: friction > 0.0,
             pairs: Vec::new(),
             contacts: Vec::new(),
             clear: 0.0,
@@ -186,20 +190,21 @@ impl QuasiStaticWhisker {
     /// The distance (m) to the nearest inactive contact or sharp corner. Behind a sharp corner, an end could leave the
     /// solid by another side.
     fn nearest_idle(&self, surfaces: &Surfaces) -> f64 {
-        let inactive = self.contacts.iter().filter(|contact| contact.force == 0.0).map(|contact| contact.gap);
+        let inactive = self.contacts.iter().filter(|contact| !contact.force.acts()).map(|contact| contact.gap);
         let corners = self.pairs.iter().filter_map(|pair| pair.sharp_corner(&self.shape, surfaces));
         inactive.chain(corners).fold(self.clear, f64::min)
     }
 
     /// Iterates towards the equilibrium for a pose of the base. Returns true if it converged.
     fn settle(&mut self, base: Pose, surfaces: &Surfaces) -> Result<bool, EquilibriumError> {
+        self.release_anchors(surfaces);
         self.shape.place(&self.rod, base);
         for _ in 0..MAX_STEPS {
             if self.clear < MIN_CLEARANCE {
                 self.clear = broad_phase(&self.rod, &self.shape, surfaces, &mut self.pairs);
             }
-            narrow_phase(&self.rod, &self.shape, surfaces, &mut self.pairs, &mut self.contacts);
-            let is_free = self.contacts.iter().all(|contact| contact.gap >= 0.0 && contact.force == 0.0);
+            narrow_phase(&self.rod, &self.shape, surfaces, &mut self.pairs, &mut self.contacts, self.has_friction);
+            let is_free = self.contacts.iter().all(|contact| contact.gap >= 0.0 && !contact.force.acts());
             if is_free && self.shape.is_at_rest() {
                 self.force = Vector2::zeros();
                 return Ok(true);
@@ -210,6 +215,9 @@ impl QuasiStaticWhisker {
             };
             if self.take(&step) {
                 return Ok(true);
+            }
+            if !step.is_newton {
+                self.release_anchors(surfaces);
             }
             if !step.is_newton && step.max_displacement < CONVERGED {
                 // The iteration stopped at a maximum or a saddle point.
@@ -222,25 +230,34 @@ impl QuasiStaticWhisker {
         Ok(false)
     }
 
+    /// Measures the slip of contacts that do not stick from the current configuration on.
+    fn release_anchors(&mut self, surfaces: &Surfaces) {
+        if self.has_friction {
+            for pair in &mut self.pairs {
+                pair.release_anchor(&self.rod, &self.shape, surfaces);
+            }
+        }
+    }
+
     /// Applies a step within the trust radius. Returns true if it converged.
     fn take(&mut self, step: &Step) -> bool {
         let trust_radius = if step.is_newton { self.clear } else { MAX_DESCENT };
         let share = (trust_radius / step.max_displacement).min(1.0);
         self.solver.take(&mut self.shape, share);
         self.clear -= share * step.max_displacement;
-        let active = &step.active[..step.count];
         for pair in &mut self.pairs {
-            pair.force = 0.0;
+            pair.force = ConeForce::default();
+        }
+        for contact in &mut self.contacts {
+            contact.force = ConeForce::default();
         }
         self.force = Vector2::zeros();
-        for contact in &mut self.contacts {
-            contact.force = 0.0;
-        }
-        for &(index, force) in active {
-            let contact = &mut self.contacts[index];
-            contact.force = force.max(f64::MIN_POSITIVE);
+        let active = self.solver.active();
+        for edge in active {
+            let contact = &mut self.contacts[edge.contact];
+            contact.force.add(edge.edge, edge.force.max(f64::MIN_POSITIVE));
             self.pairs[contact.pair].force = contact.force;
-            self.force += force * contact.normal;
+            self.force += edge.force * self.solver.direction(edge.edge, contact);
         }
         // A whisker without contact is at rest.
         if step.is_newton && share >= 1.0 && active.is_empty() {

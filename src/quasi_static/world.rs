@@ -16,14 +16,6 @@ use super::whisker::{EquilibriumError, QuasiStaticWhisker};
 /// The reasons for which a quasi-static simulation cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum QuasiStaticError {
-    /// Friction is not supported.
-    #[error(
-        "the quasi-static world has no friction, and `physics.friction` is {friction}; leave it out, or run in the world `mujoco`"
-    )]
-    Friction {
-        /// The coefficient of friction.
-        friction: f64,
-    },
     /// Whiskers cannot bend out of the plane.
     #[error(
         "the quasi-static world is planar, and `physics.whiskers` is `spatial`; leave it out, or run in the world `mujoco`"
@@ -67,10 +59,6 @@ impl QuasiStaticWorld {
         start: Pose,
         seed: u64,
     ) -> Result<Self, QuasiStaticError> {
-        let friction = physics.friction;
-        if friction > 0.0 {
-            return Err(QuasiStaticError::Friction { friction });
-        }
         if physics.shafts == ShaftModel::SpatialChain {
             return Err(QuasiStaticError::Spatial);
         }
@@ -90,7 +78,11 @@ impl QuasiStaticWorld {
         Ok(Self {
             surfaces: Surfaces::new(solids),
             platform: PlatformDynamics::at_rest(start, &rig.platform, physics),
-            whiskers: rig.whiskers.iter().map(|whisker| QuasiStaticWhisker::new(whisker, base(whisker))).collect(),
+            whiskers: rig
+                .whiskers
+                .iter()
+                .map(|whisker| QuasiStaticWhisker::new(whisker, physics.friction, base(whisker)))
+                .collect(),
             period: sensing.sample_rate.recip(),
             samples_per_tick,
             samples: Vec::with_capacity(samples_per_tick),

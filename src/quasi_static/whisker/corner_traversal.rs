@@ -130,7 +130,7 @@ fn depth(chain: &QuasiStaticWhisker, surfaces: &Surfaces) -> f64 {
 /// if there is none, or if the base later comes too near.
 fn beginning(path: &BasePath, whisker: &Whisker, surfaces: &Surfaces) -> Option<i32> {
     let is_clear = |&sample: &i32| {
-        let chain = QuasiStaticWhisker::new(whisker, path.at(f64::from(sample) * PERIOD, whisker.shaft.length));
+        let chain = QuasiStaticWhisker::new(whisker, 0.0, path.at(f64::from(sample) * PERIOD, whisker.shaft.length));
         depth(&chain, surfaces) < -2e-3
     };
     let first = (-300..=0).rev().find(is_clear)?;
@@ -151,7 +151,7 @@ fn passes() -> impl Strategy<Value = (Obstacle, BasePath, i32)> {
 fn pass(obstacle: Obstacle, path: &BasePath, beginning: i32) -> Result<bool, String> {
     let (whisker, surfaces) = (whisker(), obstacle.surfaces());
     let place = |sample: i32| path.at(f64::from(sample) * PERIOD, whisker.shaft.length);
-    let mut chain = QuasiStaticWhisker::new(&whisker, place(beginning));
+    let mut chain = QuasiStaticWhisker::new(&whisker, 0.0, place(beginning));
     let mut touched = false;
     for base in (beginning..200).map(place).take_while(|base| surfaces.depth(base.position) < -NEAR) {
         if let Err(error) = chain.follow(base, PERIOD, &surfaces, 3e-3) {

@@ -2,6 +2,7 @@
 
 mod balance;
 mod body;
+mod friction;
 mod minimum;
 pub(crate) mod scene;
 mod world;
