@@ -28,14 +28,6 @@ pub enum ExecuteError {
     /// The quasi-static world could not be built.
     #[error(transparent)]
     QuasiStatic(#[from] QuasiStaticError),
-    /// The quasi-static world does not support the true friction.
-    #[error(
-        "the quasi-static world has no friction, and `mismatch.friction` is {friction}; set it to 0, or run in the world `mujoco`"
-    )]
-    MismatchFriction {
-        /// The coefficient of friction.
-        friction: f64,
-    },
     /// The program was built without the world.
     #[error("this build has no world `{0}`; build the program with the feature `sim`, or use the world `quasistatic`")]
     NoWorld(WorldKind),
@@ -49,11 +41,6 @@ pub(crate) fn build_world(scene: &Scene, world: WorldSetup, seed: u64) -> Result
     let Some(array) = scene.true_array() else {
         return simulator(scene, (&scene.rig, &scene.physics), world, seed);
     };
-    if let Some(friction) = array.friction.filter(|&friction| friction > 0.0)
-        && world.kind == WorldKind::QuasiStatic
-    {
-        return Err(ExecuteError::MismatchFriction { friction });
-    }
     let physics = array.physics(&scene.physics);
     if array.is_measured_exactly() {
         return simulator(scene, (&array.rig, &physics), world, seed);
