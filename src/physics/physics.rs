@@ -14,7 +14,7 @@ pub struct Physics {
     /// The solver for contact forces.
     pub solver: Solver,
     /// Longest step (s) while all whiskers are calm. One such step replaces several regular ones. With friction it is at
-    /// most 1.11 ms.
+    /// most 1.11 ms. Spatial chains have no calm steps with friction.
     pub calm_step: f64,
     /// True if a whisker at rest and out of reach of all solids is treated as a rigid part of the platform.
     pub rigid_in_air: bool,
