@@ -2,6 +2,7 @@
 
 use crate::geometry::{Vector2, perpendicular};
 
+use super::active_set::{Active, ActiveSet, CurvatureColumn, Weighted, held};
 use super::bordered_tridiagonal::{BorderedTridiagonal, MAX_COLUMNS, SmallSystem};
 use super::contact::{Contact, GapCurvature};
 use super::friction::Edge;
@@ -41,33 +42,6 @@ pub(super) struct Step {
     pub(super) is_newton: bool,
 }
 
-/// The active edges, and the curvatures of their gaps.
-#[derive(Debug, Default)]
-struct ActiveSet {
-    edges: Vec<Active>,
-    curvatures: Vec<CurvatureColumn>,
-}
-
-/// An active edge of a contact.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Active {
-    /// The index of the contact.
-    pub(super) contact: usize,
-    pub(super) edge: Edge,
-    /// The multiple of the edge in the contact force (N).
-    pub(super) force: f64,
-    /// The generalised force of the edge.
-    push: Weighted,
-}
-
-/// A border column plus a multiple of another one.
-#[derive(Debug, Clone, Copy, Default)]
-struct Weighted {
-    column: usize,
-    other: usize,
-    share: f64,
-}
-
 /// The largest tolerated penetration (m).
 const TOLERANCE: f64 = 1e-10;
 /// The largest number of changes of the active set in a step.
@@ -75,24 +49,6 @@ const MAX_ITERATIONS: usize = 24;
 
 /// A contact is redundant only if the new contact takes over more than this share of its force.
 const MIN_SHARE: f64 = 1e-9;
-
-/// A border column for the curvature of a gap.
-#[derive(Debug, Clone, Copy)]
-struct CurvatureColumn {
-    column: usize,
-    /// The generalised force by which the curvature acts: the same column, and with friction a multiple of the normal.
-    push: Weighted,
-    /// The column with which it forms a product; itself for a square.
-    partner: usize,
-    /// The inverse of the coefficient of this product.
-    inverse: f64,
-}
-
-impl Weighted {
-    fn terms(self) -> impl Iterator<Item = (usize, f64)> {
-        std::iter::once((self.column, 1.0)).chain((self.share != 0.0).then_some((self.other, self.share)))
-    }
-}
 
 impl EquilibriumSolver {
     /// Creates the solver for a coefficient of friction.
@@ -409,15 +365,6 @@ impl EquilibriumSolver {
         debug_assert!(contact.along <= rod.link);
         self.displacements[contact.link] + contact.along * self.rotations[contact.link] * shape.left(contact.link)
     }
-}
-
-/// Returns the direction in which an active edge holds the contact, and its gap (m) in this direction. A contact that
-/// slides is held along the normal. One that sticks is held along both edges.
-fn held(active: &[Active], edge: &Active, contacts: &[Contact]) -> (Weighted, f64) {
-    let contact = &contacts[edge.contact];
-    let sticks = active.iter().any(|other| other.contact == edge.contact && other.edge != edge.edge);
-    let share = if sticks { edge.push.share } else { 0.0 };
-    (Weighted { share, ..edge.push }, contact.gap + share * contact.slip)
 }
 
 /// Writes the derivative of a contact point's position along `direction` with respect to the rotation of every link

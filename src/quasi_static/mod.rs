@@ -1,5 +1,6 @@
 //! The quasi-static simulator: whiskers in static equilibrium at every sample, with exact outlines.
 
+mod active_set;
 mod base_path;
 mod bordered_tridiagonal;
 mod contact;
