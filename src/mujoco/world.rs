@@ -17,10 +17,6 @@ use super::plugin::{PluginError, load_cable_plugin};
 /// The initial capacity for pairs of a pruned model.
 const INITIAL_CAPACITY: usize = 64;
 
-/// With friction, a whisker is calm below this speed relative to its base (m/s). A whisker that vibrates between sticking
-/// and sliding is faster. Short steps damp this vibration, and long ones sustain it.
-const STEADY_SPEED: f64 = 0.02;
-
 /// The reason why a MuJoCo simulation cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum MujocoError {
@@ -177,9 +173,7 @@ impl MujocoWorld {
     /// True if no whisker moves fast and the body touches nothing. A calm whisker moves at most a third of a millimetre
     /// in a step of 3.3 ms.
     fn is_calm(&self) -> bool {
-        let limit = if self.physics.friction > 0.0 { STEADY_SPEED } else { SNAP_OFF_SPEED };
-        let mut speeds = (0..self.rig.whiskers.len()).map(|whisker| self.engine.speed(&self.rig, whisker));
-        !self.body_touched && speeds.all(|speed| speed < limit)
+        !self.body_touched && (0..self.rig.whiskers.len()).all(|whisker| !self.is_snapping_off(whisker))
     }
 
     fn is_snapping_off(&self, whisker: usize) -> bool {

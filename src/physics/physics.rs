@@ -37,8 +37,6 @@ const FRICTION_STEP: f64 = 1.0 / 3600.0;
 const FRICTION_CONTACT_TIME: f64 = 1.25e-3;
 /// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
 const FRICTION_PENETRATION_LIMIT: f64 = 3e-3;
-/// The longest calm step (s) with friction.
-const FRICTION_CALM_STEP: f64 = 1.0 / 900.0;
 
 impl Physics {
     /// Sets the coefficient of friction. With friction, steps and contacts become as short as they must be for it. A
@@ -70,19 +68,14 @@ impl Physics {
     }
 
     /// The number of steps that a calm step replaces, out of `steps_per_sample`. It is the largest divisor for which
-    /// the calm step is not too long. With friction, tips vibrate in steps longer than [`FRICTION_CALM_STEP`].
+    /// the calm step is not too long. It is 1 with friction, which is stable only in short steps.
     #[must_use]
     pub(crate) fn steps_in_calm(&self, steps_per_sample: usize) -> usize {
-        let limit = match self.shafts {
-            _ if self.friction == 0.0 => f64::INFINITY,
-            ShaftModel::SpatialChain => self.step,
-            _ => FRICTION_CALM_STEP,
-        };
-        let calm_step = self.calm_step.min(limit);
         // The tolerance for a calm step equals that for a rounded step.
-        let fits =
-            |&steps: &usize| steps_per_sample.is_multiple_of(steps) && steps as f64 * self.step < 1.002 * calm_step;
-        (1..=steps_per_sample).rev().find(fits).unwrap_or(1)
+        let fits = |&steps: &usize| {
+            steps_per_sample.is_multiple_of(steps) && steps as f64 * self.step < 1.002 * self.calm_step
+        };
+        if self.friction > 0.0 { 1 } else { (1..=steps_per_sample).rev().find(fits).unwrap_or(1) }
     }
 }
 
