@@ -142,13 +142,12 @@ impl EquilibriumSolver {
                 return (stays || !is_newton).then_some(Step { max_displacement, is_newton });
             };
             let own = active.iter().find(|active| active.contact == violated);
-            let (columns, edges) = match own {
-                Some(&Active { edge, push, .. }) => ([push.column, push.other], [Some(edge.opposite()), None]),
-                None => {
-                    let columns = self.add_contact(rod, shape, &contacts[violated])?;
-                    // A contact sticks first. Otherwise a whisker that locks would find no force.
-                    (columns, [Some(Edge::Left), (self.friction > 0.0).then_some(Edge::Right)])
-                }
+            let (columns, edges) = if let Some(&Active { edge, push, .. }) = own {
+                ([push.column, push.other], [Some(edge.opposite()), None])
+            } else {
+                let columns = self.add_contact(rod, shape, &contacts[violated])?;
+                // A contact sticks first. Otherwise a whisker that locks would find no force.
+                (columns, [Some(Edge::Left), (self.friction > 0.0).then_some(Edge::Right)])
             };
             active.extend(edges.into_iter().flatten().map(|edge| self.activate(violated, edge, columns)));
         }
