@@ -27,7 +27,7 @@ const ESTIMATORS: [(ContactEstimatorKind, &str); 6] = [
     (ContactEstimatorKind::MomentAndShear, "ec1fad99e69334e8"),
     (ContactEstimatorKind::Recursive, "b4c84fa8ee72406b"),
     (ContactEstimatorKind::Polynomial, "5e0cbbe1716e3662"),
-    (ContactEstimatorKind::Truth, "c498d82cc8a44322"),
+    (ContactEstimatorKind::Truth, "48de25e755e3f0c9"),
 ];
 
 /// Number of ticks: 40 s.
