@@ -335,8 +335,13 @@ fn numbers(sign: &str, a: f64, b: f64) -> Value {
 }
 
 /// The lesser of two numbers; not a number if either is not.
+/// Of two zeros it is the second, as in the machine. A quotient by it depends on its sign.
 fn lesser(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+    match (a.is_nan() || b.is_nan(), a < b) {
+        (true, _) => f64::NAN,
+        (_, true) => a,
+        _ => b,
+    }
 }
 
 fn greater(a: f64, b: f64) -> f64 {
