@@ -27,6 +27,7 @@ impl ShaftModel {
 
     /// The count of numbers that describe a joint of a whisker: 0 is the base hinge, and the next are the joints of the
     /// links. A ball joint has `of_ball` numbers.
+    #[cfg(feature = "sim")]
     #[must_use]
     pub(crate) fn joint_size(self, joint: usize, of_ball: usize) -> usize {
         match (self, joint) {
