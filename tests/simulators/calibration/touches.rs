@@ -14,6 +14,7 @@ fn scene(mismatch: Mismatch) -> Scene {
     Scene { mismatch: Some(mismatch), ..scene }
 }
 
+#[cfg(feature = "sim")]
 fn plausible(text: &str) -> Mismatch {
     let text = std::fs::read_to_string(text).unwrap();
     vibrissa::scenario::read_mismatch(&Source::new("mismatch.yaml", text)).unwrap()
@@ -42,6 +43,7 @@ fn an_array_measures_its_own_differences_from_the_rig() {
     }
 }
 
+#[cfg(feature = "sim")]
 #[test]
 fn a_plausible_array_is_accepted_within_five_minutes() {
     let scene = scene(plausible("scenarios/mismatch/plausible.yaml"));

@@ -9,6 +9,7 @@ mod friction;
 mod pruning;
 #[cfg(feature = "sim")]
 mod seams;
+#[cfg(feature = "sim")]
 mod spatial;
 #[cfg(feature = "sim")]
 mod stability;
