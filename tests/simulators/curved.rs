@@ -38,7 +38,6 @@ fn chains(rig: &Rig, solids: &[Solid]) -> Vec<Box<dyn World>> {
 fn bent(curvature: f64) -> Vec<f64> {
     let (rig, disk) = (curved(curvature), Solid::inside(circle(Point2::new(0.38, 0.3), 0.3).unwrap()).unwrap());
     let disk = std::slice::from_ref(&disk);
-    #[cfg_attr(not(feature = "sim"), expect(unused_mut, reason = "there is one world"))]
     let mut worlds = chains(&rig, disk);
     #[cfg(feature = "sim")]
     {
