@@ -19,6 +19,10 @@ pub trait ContactEstimator: Debug + Send + Sync + Boxed {
     /// Forgets earlier readings at a gap. The default does nothing.
     fn interrupt(&mut self) {}
 
+    /// Sets the standard deviation (rad) of the noise of a base angle in each reading. It is called when a whisker in
+    /// free air has another noise than the rig states. The default, for estimators without uncertainty, does nothing.
+    fn set_noise(&mut self, _noise: f64) {}
+
     /// Returns the current contact for the filtered base angle `base_angle` (rad) and the pose `base` of the base, or
     /// `None` if it cannot be estimated.
     fn contact(&mut self, base_angle: f64, base: Pose) -> Option<Contact>;

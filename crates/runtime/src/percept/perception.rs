@@ -12,13 +12,14 @@ use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
+use super::offsets::Offsets;
 use super::one_channel::OneChannel;
 use super::recursive::{self, Recursive};
 use super::sliding::Sliding;
 use super::tip_curve::{TipCurve, TipCurveError};
 use super::tip_table::TipTable;
 use super::truth::Truth;
-use super::whisker::{PerceivedWhisker, base_angle_deviation};
+use super::whisker::PerceivedWhisker;
 
 use ContactEstimatorKind as Kind;
 
@@ -34,6 +35,8 @@ pub struct Perception {
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
     in_sample: Vec<Option<usize>>,
     disturbance: Disturbance,
+    /// Offsets of the readings of all whiskers of the rig, if they are estimated.
+    offsets: Option<Offsets>,
 }
 
 /// An error of constructing the perception of a rig.
@@ -121,9 +124,7 @@ impl Perception {
             };
             let curve = Arc::new(curve);
             let estimator: Box<dyn ContactEstimator> = match kind {
-                Kind::OneChannel | Kind::Polynomial => {
-                    Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), length))
-                }
+                Kind::OneChannel | Kind::Polynomial => Box::new(OneChannel::new(Arc::clone(&curve), sensing, length)),
                 Kind::Sliding => Box::new(Sliding::new(&whisker, TipTable::shared(&whisker), sensing)),
                 Kind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
                 Kind::MomentAndShear => return Err(PerceptionError::NoForces { whisker: whisker.name }),
@@ -145,6 +146,7 @@ impl Perception {
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             disturbance: Disturbance::new(rig),
+            offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
         })
     }
 
@@ -164,12 +166,14 @@ impl Perception {
     /// depends on it. The time keeps its last value.
     pub fn update(&mut self, samples: &[Sample]) {
         for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
-            whisker.base_angle.begin();
+            whisker.begin();
         }
+        let before = self.time;
         self.body = Pose::UNKNOWN;
         for sample in samples {
             for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
-                whisker.take(&sample.whiskers[index], sample.body);
+                let offset = self.offsets.as_ref().map_or(0.0, |offsets| offsets.value(index));
+                whisker.take(&sample.whiskers[index], offset, sample.body);
             }
             if sample.time.is_finite() {
                 self.time = sample.time;
@@ -181,7 +185,21 @@ impl Perception {
         for whisker in &mut self.whiskers {
             whisker.update(self.body);
         }
+        self.update_offsets(self.time - before);
         self.disturbance.update(samples, self.time, self.body);
+    }
+
+    /// Estimates the offsets after `period` (s).
+    fn update_offsets(&mut self, period: f64) {
+        let Some(offsets) = &mut self.offsets else { return };
+        if period > 0.0 {
+            offsets.predict(period);
+        }
+        for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
+            if let Some((reading, deviation)) = whisker.free_reading() {
+                offsets.measure(index, reading, deviation);
+            }
+        }
     }
 
     /// Sets the command that holds until the next tick. The detection of a blocked body uses it. The default is to

@@ -42,8 +42,6 @@ pub(super) struct Sliding {
     friction_angle: f64,
     /// Equilibrium base angle.
     angle: BaseAngle,
-    /// Contact threshold (rad).
-    contact_threshold: f64,
     /// Number of calm samples required before a new contact is estimated.
     calm_samples: usize,
     /// Number of successive calm samples so far.
@@ -107,7 +105,6 @@ impl Sliding {
             usual_normal: whisker.usual_normal(),
             friction_angle: math::atan(sensing.friction),
             angle,
-            contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
             state: State::Free,
@@ -263,7 +260,7 @@ impl ContactEstimator for Sliding {
             (base.position - position).norm() + self.length * (base.heading - heading).abs()
         });
         self.base_before = Some((base.position, base.heading));
-        if angle.abs() < self.contact_threshold {
+        if angle.abs() < self.angle.contact_threshold {
             self.state = State::Free;
             self.rest.end();
             return;
@@ -295,6 +292,11 @@ impl ContactEstimator for Sliding {
         self.base_before = None;
         self.state = State::Free;
         self.rest.end();
+    }
+
+    fn set_noise(&mut self, noise: f64) {
+        self.angle.set_noise(noise);
+        self.rest.set_deviation(self.angle.deviation);
     }
 
     fn contact(&mut self, _: f64, _: Pose) -> Option<Contact> {
