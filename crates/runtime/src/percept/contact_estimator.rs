@@ -6,6 +6,7 @@ use crate::geometry::{Pose, Vector2};
 use crate::signal::Reading;
 
 use super::contact::Contact;
+use super::pose_delay::Misfit;
 
 /// An estimator of the contact position of a whisker from its readings and the poses of its base.
 ///
@@ -15,6 +16,12 @@ pub trait ContactEstimator: Debug + Send + Sync + Boxed {
     /// Adds a reading, sampled with the base at `base`. Base angle and pose are finite. The default, for estimators
     /// without memory, does nothing.
     fn take(&mut self, _reading: &Reading, _base: Pose) {}
+
+    /// The misfit of the newest reading with the contact that was expected. `None` without an expectation, which is the
+    /// default.
+    fn misfit(&self) -> Option<Misfit> {
+        None
+    }
 
     /// Forgets earlier readings at a gap. The default does nothing.
     fn interrupt(&mut self) {}

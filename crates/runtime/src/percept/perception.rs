@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::machine::{BodyScalar, ContactEstimatorKind, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
+use crate::math;
 use crate::rig::{Rig, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
+use super::delays::Delays;
 use super::disturbance::Disturbance;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
@@ -37,6 +39,12 @@ pub struct Perception {
     disturbance: Disturbance,
     /// Offsets of the readings of all whiskers of the rig, if they are estimated.
     offsets: Option<Offsets>,
+    /// Delays of poses and commands, if they are estimated.
+    delays: Option<Delays>,
+    /// Pose by the newest sample, or unknown.
+    measured: Pose,
+    /// Time constant of the servos (s) according to the rig.
+    servo: f64,
 }
 
 /// An error of constructing the perception of a rig.
@@ -146,6 +154,9 @@ impl Perception {
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             disturbance: Disturbance::new(rig),
+            delays: sensing.estimation.delay.then(|| Delays::new(rig)),
+            measured: Pose::default(),
+            servo: rig.platform.servo,
             offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
         })
     }
@@ -169,24 +180,38 @@ impl Perception {
             whisker.begin();
         }
         let before = self.time;
-        self.body = Pose::UNKNOWN;
+        if let Some(time) = samples.iter().map(|sample| sample.time).rfind(|time| time.is_finite()) {
+            self.time = time;
+        }
+        let period = self.time - before;
+        if let Some(delays) = &mut self.delays
+            && period > 0.0
+        {
+            delays.begin(period);
+        }
+        (self.body, self.measured) = (Pose::UNKNOWN, Pose::UNKNOWN);
         for sample in samples {
+            let ago = math::max(self.time - sample.time, 0.0);
+            let body = self.delays.as_ref().map_or(sample.body, |delays| delays.pose(sample, ago));
             for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
                 let offset = self.offsets.as_ref().map_or(0.0, |offsets| offsets.value(index));
-                whisker.take(&sample.whiskers[index], offset, sample.body);
-            }
-            if sample.time.is_finite() {
-                self.time = sample.time;
+                let misfit = whisker.take(&sample.whiskers[index], offset, body);
+                if let Some((delays, misfit)) = self.delays.as_mut().zip(misfit) {
+                    delays.add(&misfit);
+                }
             }
             if sample.body.is_finite() {
-                self.body = sample.body;
+                (self.body, self.measured) = (body, sample.body);
             }
         }
         for whisker in &mut self.whiskers {
             whisker.update(self.body);
         }
-        self.update_offsets(self.time - before);
-        self.disturbance.update(samples, self.time, self.body);
+        self.update_offsets(period);
+        if let Some(delays) = &mut self.delays {
+            delays.end(self.measured);
+        }
+        self.disturbance.update(samples, self.time, self.measured);
     }
 
     /// Estimates the offsets after `period` (s).
@@ -206,6 +231,9 @@ impl Perception {
     /// stand still.
     pub fn command(&mut self, command: Command) {
         self.disturbance.command(command);
+        if let Some(delays) = &mut self.delays {
+            delays.command(command);
+        }
     }
 
     /// The fitted whiskers: the index of each in the policy and in the rig.
@@ -223,6 +251,19 @@ impl Perception {
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.body
+    }
+
+    /// Pose at which the next command takes effect, or [`Pose::UNKNOWN`] in a tick without a pose. Without a measured
+    /// delay of commands it is [`pose`](Self::pose).
+    #[must_use]
+    pub fn pose_at_effect(&self) -> Pose {
+        self.delays.as_ref().map_or(self.body, |delays| delays.at_effect(self.measured))
+    }
+
+    /// Measured time constant (s) of the servos, or that of the rig.
+    #[must_use]
+    pub fn servo(&self) -> f64 {
+        self.delays.as_ref().map_or(self.servo, Delays::servo)
     }
 
     /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.

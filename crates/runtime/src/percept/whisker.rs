@@ -15,6 +15,7 @@ use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::measured_noise::MeasuredNoise;
+use super::pose_delay::Misfit;
 use super::tip_curve::TipCurve;
 
 /// The perception of one whisker: its pose, base angle, contact and local contour.
@@ -121,8 +122,9 @@ impl PerceivedWhisker {
         (self.sum, self.count) = (0.0, 0);
     }
 
-    /// Adds a reading with this `offset` (rad), sampled with the platform at `body`.
-    pub(super) fn take(&mut self, reading: &Reading, offset: f64, body: Pose) {
+    /// Adds a reading with this `offset` (rad), sampled with the platform at `body`. Returns its misfit with an expected
+    /// contact.
+    pub(super) fn take(&mut self, reading: &Reading, offset: f64, body: Pose) -> Option<Misfit> {
         let base_angle = reading.base_angle - offset;
         self.base_angle.take(base_angle);
         let is_valid = base_angle.abs() <= GREATEST_ANGLE;
@@ -138,12 +140,13 @@ impl PerceivedWhisker {
         if is_valid && body.is_finite() {
             self.lost = 0;
             self.estimator.take(&Reading { base_angle, ..*reading }, self.base(body));
-        } else {
-            self.lost = self.lost.saturating_add(1);
-            if self.lost > self.bridged {
-                self.estimator.interrupt();
-            }
+            return self.estimator.misfit();
         }
+        self.lost = self.lost.saturating_add(1);
+        if self.lost > self.bridged {
+            self.estimator.interrupt();
+        }
+        None
     }
 
     /// The mean reading (rad) of this tick with its offset, and the standard deviation (rad) of its noise. `None` unless

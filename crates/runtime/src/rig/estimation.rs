@@ -13,15 +13,17 @@ pub struct Estimation {
     pub offset: bool,
     /// Noise of base angles is measured in free air.
     pub noise: bool,
+    /// Delays of poses and commands and the servos are measured, and compensated.
+    pub delay: bool,
 }
 
 impl Estimation {
     /// No estimate. Perception then believes what the rig states.
-    pub const OFF: Self = Self { lost_readings: false, offset: false, noise: false };
+    pub const OFF: Self = Self { lost_readings: false, offset: false, noise: false, delay: false };
 }
 
 impl Default for Estimation {
     fn default() -> Self {
-        Self { lost_readings: true, offset: true, noise: true }
+        Self { lost_readings: true, offset: true, noise: true, delay: true }
     }
 }
