@@ -59,8 +59,14 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
 /// Reads the switches of the estimates of perception.
 fn read_estimation(reader: &mut Reader<'_>, entry: &Entry, estimation: &mut Estimation) {
     let Some(mut fields) = Fields::of(reader, &entry.value, "the estimation", entry.key.span) else { return };
-    let Estimation { lost_readings, offset, noise, delay } = estimation;
-    for (name, switch) in [("lost_readings", lost_readings), ("offset", offset), ("noise", noise), ("delay", delay)] {
+    let Estimation { lost_readings, offset, noise, delay, pose_noise } = estimation;
+    for (name, switch) in [
+        ("lost_readings", lost_readings),
+        ("offset", offset),
+        ("noise", noise),
+        ("delay", delay),
+        ("pose_noise", pose_noise),
+    ] {
         if let Some(entry) = fields.entry(name)
             && let Some(flag) = reader.flag(&entry.value)
         {

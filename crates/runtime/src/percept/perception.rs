@@ -10,10 +10,10 @@ use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
-use super::delays::Delays;
 use super::disturbance::Disturbance;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
+use super::motions::Motions;
 use super::offsets::Offsets;
 use super::one_channel::OneChannel;
 use super::recursive::{self, Recursive};
@@ -39,8 +39,8 @@ pub struct Perception {
     disturbance: Disturbance,
     /// Offsets of the readings of all whiskers of the rig, if they are estimated.
     offsets: Option<Offsets>,
-    /// Delays of poses and commands, if they are estimated.
-    delays: Option<Delays>,
+    /// Delays and errors of poses and commands, if they are estimated.
+    motions: Option<Motions>,
     /// Pose by the newest sample, or unknown.
     measured: Pose,
     /// Time constant of the servos (s) according to the rig.
@@ -154,7 +154,7 @@ impl Perception {
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             disturbance: Disturbance::new(rig),
-            delays: sensing.estimation.delay.then(|| Delays::new(rig)),
+            motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Motions::new(rig)),
             measured: Pose::default(),
             servo: rig.platform.servo,
             offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
@@ -184,34 +184,36 @@ impl Perception {
             self.time = time;
         }
         let period = self.time - before;
-        if let Some(delays) = &mut self.delays
+        if let Some(motions) = &mut self.motions
             && period > 0.0
         {
-            delays.begin(period);
+            motions.begin(period);
         }
         (self.body, self.measured) = (Pose::UNKNOWN, Pose::UNKNOWN);
         for sample in samples {
             let ago = math::max(self.time - sample.time, 0.0);
-            let body = self.delays.as_ref().map_or(sample.body, |delays| delays.pose(sample, ago));
+            let body = self.motions.as_ref().map_or(sample.body, |motions| motions.pose(sample, ago));
             for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
                 let offset = self.offsets.as_ref().map_or(0.0, |offsets| offsets.value(index));
                 let misfit = whisker.take(&sample.whiskers[index], offset, body);
-                if let Some((delays, misfit)) = self.delays.as_mut().zip(misfit) {
-                    delays.add(&misfit);
+                if let Some((motions, misfit)) = self.motions.as_mut().zip(misfit) {
+                    motions.add(&misfit);
                 }
             }
             if sample.body.is_finite() {
                 (self.body, self.measured) = (body, sample.body);
             }
         }
+        let pose_deviation = self.motions.as_ref().map(Motions::pose_deviation).unwrap_or_default();
         for whisker in &mut self.whiskers {
-            whisker.update(self.body);
+            whisker.update(self.body, pose_deviation);
         }
         self.update_offsets(period);
-        if let Some(delays) = &mut self.delays {
-            delays.end(self.measured);
+        if let Some(motions) = &mut self.motions {
+            motions.end(self.measured);
         }
-        self.disturbance.update(samples, self.time, self.measured);
+        let expected = self.motions.as_ref().and_then(|motions| motions.expected(period));
+        self.disturbance.update(samples, self.time, self.measured, expected);
     }
 
     /// Estimates the offsets after `period` (s).
@@ -231,8 +233,8 @@ impl Perception {
     /// stand still.
     pub fn command(&mut self, command: Command) {
         self.disturbance.command(command);
-        if let Some(delays) = &mut self.delays {
-            delays.command(command);
+        if let Some(motions) = &mut self.motions {
+            motions.command(command);
         }
     }
 
@@ -257,13 +259,13 @@ impl Perception {
     /// delay of commands it is [`pose`](Self::pose).
     #[must_use]
     pub fn pose_at_effect(&self) -> Pose {
-        self.delays.as_ref().map_or(self.body, |delays| delays.at_effect(self.measured))
+        self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured))
     }
 
     /// Measured time constant (s) of the servos, or that of the rig.
     #[must_use]
     pub fn servo(&self) -> f64 {
-        self.delays.as_ref().map_or(self.servo, Delays::servo)
+        self.motions.as_ref().and_then(Motions::servo).unwrap_or(self.servo)
     }
 
     /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.

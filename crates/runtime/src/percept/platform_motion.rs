@@ -83,6 +83,8 @@ const MOST_LEFT: f64 = 0.4;
 /// Smallest delay (s), and the smallest ratio of time constants, that is corrected.
 const LEAST_DELAY: f64 = 8e-3;
 const LEAST_RATIO: f64 = 1.2;
+/// Relative difference of time constants that has no effect.
+const NEAR: f64 = 1e-3;
 /// Time (s) in which a correction follows what is measured.
 const FOLLOWING: f64 = 1.0;
 
@@ -121,9 +123,9 @@ impl PlatformMotion {
         self.command = command;
     }
 
-    /// Time constant of the servos (s).
-    pub(super) fn servo(&self) -> f64 {
-        self.servo
+    /// Measured time constant of the servos (s), if it is not the stated one.
+    pub(super) fn servo(&self) -> Option<f64> {
+        ((self.servo - self.stated_servo).abs() > NEAR * self.stated_servo).then_some(self.servo)
     }
 
     /// Delay (s) of measured poses behind their commands. It does not include the servos.
@@ -150,11 +152,12 @@ impl PlatformMotion {
         self.known = (self.known + self.steps).min(MEMORY);
     }
 
-    /// Compares the expected motions of this tick with the measured `pose`, which may be unknown.
-    pub(super) fn compare(&mut self, pose: Pose) {
+    /// Compares the expected motions of this tick with the measured `pose`, which may be unknown. Returns the measured
+    /// motion beyond the expected one, if both are known.
+    pub(super) fn compare(&mut self, pose: Pose) -> Option<Motion> {
         let before = std::mem::replace(&mut self.pose, pose);
         if !(before.is_finite() && pose.is_finite()) || self.known < MEMORY {
-            return;
+            return None;
         }
         let turn = turn_between(before.heading, pose.heading);
         let measured = (pose.position - before.position).push(turn);
@@ -169,6 +172,7 @@ impl PlatformMotion {
             }
         }
         self.estimate();
+        Some(measured - self.between(self.delay + self.period, self.delay))
     }
 
     /// Follows the servo and the delay with the smallest differences, if they are significant.

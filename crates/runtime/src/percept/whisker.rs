@@ -16,6 +16,7 @@ use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::measured_noise::MeasuredNoise;
 use super::pose_delay::Misfit;
+use super::pose_noise::PoseDeviation;
 use super::tip_curve::TipCurve;
 
 /// The perception of one whisker: its pose, base angle, contact and local contour.
@@ -163,12 +164,17 @@ impl PerceivedWhisker {
         Pose { position, heading: body.heading + self.direction_body }
     }
 
-    /// Updates pose and contact of the whisker, with the platform at `body`.
-    pub(super) fn update(&mut self, body: Pose) {
+    /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses.
+    pub(super) fn update(&mut self, body: Pose, pose_deviation: PoseDeviation) {
         let base = self.base(body);
         (self.base_world, self.yaw) = (base.position, base.heading);
         let base_angle = self.base_angle();
         self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
+        if pose_deviation != PoseDeviation::default()
+            && let Some(contact) = &mut self.contact
+        {
+            contact.add_pose_errors(body, pose_deviation);
+        }
         self.update_noise();
         let is_free = self.contact.is_none() && !self.is_touching();
         self.free_for = if is_free { self.free_for.saturating_add(self.count) } else { 0 };

@@ -1,21 +1,25 @@
-//! The measured delays of poses and commands.
+//! The measured delays and errors of poses and commands.
 
 use crate::geometry::Pose;
-use crate::rig::Rig;
+use crate::rig::{Estimation, Rig};
 use crate::signal::{Command, Sample};
 
 use super::platform_motion::{Motion, PlatformMotion};
 use super::pose_delay::{Misfit, PoseDelay};
+use super::pose_noise::{PoseDeviation, PoseNoise};
 
 /// The delays of poses and commands, and the poses without them.
 ///
-/// Commands and poses give the sum of both delays. Contacts give the delay of poses alone.
+/// Commands and poses give the sum of both delays, and the errors of poses. Contacts give the delay of poses alone.
 #[derive(Debug, Clone)]
-pub(super) struct Delays {
+pub(super) struct Motions {
     platform: PlatformMotion,
     contacts: PoseDelay,
+    noise: PoseNoise,
     /// Delay (s) of poses that is corrected.
     pose: f64,
+    /// What is corrected.
+    estimation: Estimation,
     /// Share of a difference by which the corrected delay follows the measured one in a tick.
     following: f64,
 }
@@ -23,11 +27,18 @@ pub(super) struct Delays {
 /// Time (s) in which the corrected delay follows the measured one.
 const FOLLOWING: f64 = 1.0;
 
-impl Delays {
+impl Motions {
     /// Creates the measurement for `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
         let following = (FOLLOWING * rig.sensing.control_rate).recip().min(1.0);
-        Self { platform: PlatformMotion::new(rig), contacts: PoseDelay::new(), pose: 0.0, following }
+        Self {
+            platform: PlatformMotion::new(rig),
+            contacts: PoseDelay::new(),
+            noise: PoseNoise::new(),
+            pose: 0.0,
+            estimation: rig.sensing.estimation,
+            following,
+        }
     }
 
     /// Sets the command that holds until the next tick.
@@ -44,7 +55,7 @@ impl Delays {
     /// the delay of poses.
     pub(super) fn pose(&self, sample: &Sample, ago: f64) -> Pose {
         if self.pose > 0.0 {
-            let until = ago + self.platform.delay() - self.pose;
+            let until = ago + self.delay() - self.pose;
             moved(sample.body, &self.platform.between(until + self.pose, until))
         } else {
             sample.body
@@ -58,26 +69,39 @@ impl Delays {
 
     /// Ends a tick with the measured `pose`, which may be unknown.
     pub(super) fn end(&mut self, pose: Pose) {
-        self.platform.compare(pose);
-        let measured = self.contacts.value(self.platform.delay());
+        let difference = self.platform.compare(pose);
+        self.noise.take(difference);
+        let measured = self.contacts.value(self.delay());
         self.pose += (measured - self.pose) * self.following;
     }
 
     /// The pose at which the next command takes effect, from the measured `pose`.
     pub(super) fn at_effect(&self, pose: Pose) -> Pose {
-        let delay = self.platform.delay();
+        let delay = self.delay();
         if delay > 0.0 { moved(pose, &self.platform.between(delay, 0.0)) } else { pose }
     }
 
-    /// Time constant (s) of the servos.
-    pub(super) fn servo(&self) -> f64 {
-        self.platform.servo()
+    /// The errors of measured poses.
+    pub(super) fn pose_deviation(&self) -> PoseDeviation {
+        if self.estimation.pose_noise { self.noise.deviation() } else { PoseDeviation::default() }
     }
 
-    /// The expected motion in the tick that ends with the newest measured pose.
-    pub(super) fn expected(&self, period: f64) -> Motion {
-        let delay = self.platform.delay();
-        self.platform.between(delay + period, delay)
+    /// Time constant (s) of the servos, if it is not the one of the rig.
+    pub(super) fn servo(&self) -> Option<f64> {
+        self.platform.servo().filter(|_| self.estimation.delay)
+    }
+
+    /// Delay (s) of a measured pose behind its command.
+    fn delay(&self) -> f64 {
+        if self.estimation.delay { self.platform.delay() } else { 0.0 }
+    }
+
+    /// The expected motion in the tick of `period` (s) that ends with the newest measured pose. `None` if it is as the
+    /// rig states.
+    pub(super) fn expected(&self, period: f64) -> Option<Motion> {
+        let delay = self.delay();
+        let is_as_stated = delay == 0.0 && self.servo().is_none();
+        (!is_as_stated).then(|| self.platform.between(delay + period, delay))
     }
 }
 
