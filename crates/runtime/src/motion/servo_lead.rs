@@ -51,3 +51,50 @@ impl ServoLead {
         lead
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_platform_with_other_servos_moves_as_the_stated_one(
+            commands in prop::collection::vec((-0.05..0.05_f64, -0.5..0.5_f64), 1..60), ratio in 0.3..4.0_f64,
+        ) {
+            let rig = Rig::default();
+            let servo = ratio * rig.platform.servo;
+            let period = rig.sensing.control_rate.recip();
+            let mut lead = ServoLead::new(&rig);
+            let (mut actual, mut wanted) = ([0.0; 2], [0.0; 2]);
+            for (speed, yaw_rate) in commands {
+                let command = Command { velocity_world: nalgebra::Vector2::new(speed, -speed), yaw_rate };
+                let given = lead.next(command, servo);
+                for _ in 0..1000 {
+                    let step = period / 1000.0;
+                    actual[0] += (given.velocity_world.x - actual[0]) * step / servo;
+                    actual[1] += (given.yaw_rate - actual[1]) * step / servo;
+                    wanted[0] += (speed - wanted[0]) * step / rig.platform.servo;
+                    wanted[1] += (yaw_rate - wanted[1]) * step / rig.platform.servo;
+                }
+                prop_assert!((actual[0] - wanted[0]).abs() < 1e-3 && (actual[1] - wanted[1]).abs() < 1e-2);
+            }
+        }
+
+        #[test]
+        fn commands_are_within_the_limits_and_those_for_stated_servos_are_the_same(
+            commands in prop::collection::vec((-1.0..1.0_f64, -3.0..3.0_f64), 1..30), ratio in 0.1..20.0_f64,
+        ) {
+            let rig = Rig::default();
+            let (mut lead, mut same) = (ServoLead::new(&rig), ServoLead::new(&rig));
+            for (speed, yaw_rate) in commands {
+                let command = Command { velocity_world: nalgebra::Vector2::new(speed, 0.0), yaw_rate };
+                let given = lead.next(command, ratio * rig.platform.servo);
+                prop_assert!(given.velocity_world.norm() <= rig.platform.speed_limit + 1e-12);
+                prop_assert!(given.yaw_rate.abs() <= rig.platform.yaw_rate_limit);
+                prop_assert_eq!(same.next(command, rig.platform.servo), command);
+            }
+        }
+    }
+}

@@ -106,3 +106,58 @@ impl Offsets {
             && math::square(offset) > math::square(SIGNIFICANT) * self.covariance[measured][measured];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::robust_variance::tests::normals;
+    use super::*;
+
+    const PERIOD: f64 = 1.0 / 30.0;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn a_whisker_in_contact_has_the_drift_of_one_in_free_air(
+            first in -8e-6..8e-6_f64, second in -8e-6..8e-6_f64, rate in -4e-7..4e-7_f64, values in normals(4200),
+        ) {
+            let mut offsets = Offsets::new(2);
+            for (tick, pair) in values.chunks(2).enumerate() {
+                let time = PERIOD * f64::from(u32::try_from(tick).unwrap_or(0));
+                offsets.predict(PERIOD);
+                let (noise, drift) = (2e-7, rate * time);
+                if time < 5.0 {
+                    offsets.measure(0, first + drift + noise * pair[0], noise);
+                }
+                offsets.measure(1, second + drift + noise * pair[1], noise);
+                if tick > 150 && first.abs() + second.abs() > 2e-6 {
+                    // The two had 5 s to differ.
+                    prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
+                    prop_assert!((offsets.value(0) - first - drift).abs() < 1.5e-6, "{time} s: {}", offsets.value(0) - first - drift);
+                }
+            }
+        }
+
+        #[test]
+        fn without_a_significant_offset_readings_are_not_changed(values in normals(2000)) {
+            let mut offsets = Offsets::new(1);
+            for value in values {
+                offsets.predict(PERIOD);
+                offsets.measure(0, 1.5e-7 * value, 1.5e-7);
+                prop_assert_eq!(offsets.value(0).to_bits(), 0.0_f64.to_bits());
+            }
+        }
+
+        #[test]
+        fn a_touch_is_no_offset(offset in -5e-6..5e-6_f64, touch in 3e-6..1.5e-5_f64) {
+            let mut offsets = Offsets::new(1);
+            for tick in 0..200 {
+                offsets.predict(PERIOD);
+                offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 1e-7);
+            }
+            prop_assert!((offsets.value(0) - offset).abs() < 4e-7);
+        }
+    }
+}

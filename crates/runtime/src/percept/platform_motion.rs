@@ -236,3 +236,68 @@ fn vertex(index: usize, count: usize, value: impl Fn(usize) -> f64) -> f64 {
     let bend = below - 2.0 * here + above;
     if bend > 0.0 { (0.5 * (below - above) / bend).clamp(-0.5, 0.5) } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::{Point2, Vector2};
+
+    /// A platform that is simulated in steps of 0.1 ms, with a delay (s) of commands or poses and with servos (s).
+    fn measured(commands: &[(f64, f64)], delay: f64, servo: f64) -> PlatformMotion {
+        let rig = Rig::default();
+        let mut platform = PlatformMotion::new(&rig);
+        let (step, per_tick) = (1e-4, 333);
+        let period = step * f64::from(per_tick);
+        let late = (delay / step).round();
+        let at = |index: f64| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+            let tick = (index.max(0.0) / f64::from(per_tick)) as usize;
+            // Every command holds for ten ticks. The first one is given at the end of the first tick.
+            let before = tick.checked_sub(1).and_then(|tick| commands.get(tick / 10));
+            before
+                .filter(|_| index >= 0.0)
+                .map_or(Motion::zeros(), |&(speed, rate)| Motion::new(speed, -0.5 * speed, rate))
+        };
+        let (mut speed, mut pose) = (Motion::zeros(), Motion::zeros());
+        for tick in 0..commands.len() * 10 {
+            for substep in 0..per_tick {
+                let index = f64::from(u32::try_from(tick).unwrap_or(0)) * f64::from(per_tick) + f64::from(substep);
+                speed += (at(index - late) - speed) * (step / servo);
+                pose += speed * step;
+            }
+            platform.advance(period);
+            platform.compare(Pose { position: Point2::new(pose.x, pose.y), heading: pose.z });
+            let next = at(f64::from(u32::try_from(tick + 1).unwrap_or(0)) * f64::from(per_tick));
+            platform.command(Command { velocity_world: Vector2::new(next.x, next.y), yaw_rate: next.z });
+        }
+        platform
+    }
+
+    fn commands() -> impl Strategy<Value = Vec<(f64, f64)>> {
+        prop::collection::vec((-0.05..0.05_f64, -1.0..1.0_f64), 60)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn delay_and_servo_are_found(commands in commands(), delay in 0.02..0.12_f64, ratio in 1.0..4.5_f64) {
+            let servo = ratio * Rig::default().platform.servo;
+            let platform = measured(&commands, delay, servo);
+            let found = platform.servo().unwrap_or(0.05);
+            prop_assert!((platform.delay() - delay).abs() < 0.01, "{} s, {delay} s", platform.delay());
+            prop_assert!((0.75..1.3).contains(&(found / servo)), "{found} s, {servo} s");
+            // Motions up to now, seen from the pose, which is as old as the delay.
+            prop_assert!((platform.delay() + found - delay - servo).abs() < 0.01);
+        }
+
+        #[test]
+        fn a_platform_as_stated_is_left_as_it_is(commands in commands()) {
+            let platform = measured(&commands, 0.0, Rig::default().platform.servo);
+            prop_assert_eq!(platform.delay().to_bits(), 0.0_f64.to_bits());
+            prop_assert_eq!(platform.servo(), None);
+        }
+    }
+}

@@ -62,3 +62,28 @@ impl PoseDelay {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::robust_variance::tests::normals;
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_delay_is_found_among_slips_and_never_exceeds_the_total(
+            values in normals(400), delay in 0.0..0.1_f64, corrected in 0.0..0.1_f64, most in 0.0..0.15_f64,
+        ) {
+            let mut poses = PoseDelay::new();
+            for pair in values.chunks(2) {
+                let by_delay = 0.03 * pair[0];
+                let slip = if pair[1] > 1.5 { 2e-3 } else { 0.0 };
+                let distance = by_delay * (delay - corrected) + 1e-5 * pair[1] + slip;
+                poses.add(&Misfit { distance, by_delay, variance: 1e-10 }, corrected);
+            }
+            prop_assert!(poses.value(most) <= most);
+            prop_assert!((poses.value(1.0) - delay).abs() < 0.006, "{} s", poses.value(1.0));
+        }
+    }
+}

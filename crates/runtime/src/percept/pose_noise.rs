@@ -72,3 +72,42 @@ impl PoseNoise {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::robust_variance::tests::normals;
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        #[test]
+        fn a_wander_is_found_on_a_platform_that_is_pushed(
+            values in normals(3600), position in 5e-5..5e-4_f64, heading in 5e-4..5e-3_f64, push in -1e-2..1e-2_f64,
+        ) {
+            let decay = (-1.0_f64 / 30.0).exp();
+            let mut noise = PoseNoise::new();
+            let mut error = Motion::zeros();
+            for values in values.chunks(3) {
+                let scale = Motion::new(position, position, heading) * (1.0 - decay * decay).sqrt();
+                let next = error * decay + scale.component_mul(&Motion::from_column_slice(values));
+                noise.take(Some(next - error + Motion::new(push, -push, push) / 30.0));
+                error = next;
+            }
+            let found = noise.deviation();
+            prop_assert!((0.6..1.6).contains(&(found.position / position)), "{found:?}");
+            prop_assert!((0.5..1.8).contains(&(found.heading / heading)), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn exact_poses_have_no_errors() {
+        let mut noise = PoseNoise::new();
+        for _ in 0..1000 {
+            noise.take(Some(Motion::new(1e-5, 2e-5, 1e-4)));
+        }
+        assert_eq!(noise.deviation(), PoseDeviation::default());
+    }
+}

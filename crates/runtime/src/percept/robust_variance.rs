@@ -58,3 +58,32 @@ impl RobustVariance {
         (deviation * (1.0 - SIGNIFICANT * own) > limit).then_some(deviation)
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// So many independent values of a normal distribution, as sums of uniform ones.
+    pub(in super::super) fn normals(count: usize) -> impl Strategy<Value = Vec<f64>> {
+        let uniform = prop::collection::vec(0.0..1.0_f64, 12);
+        prop::collection::vec(uniform.prop_map(|values| values.iter().sum::<f64>() - 6.0), count).no_shrink()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        #[test]
+        fn a_tenth_of_outliers_hardly_matters(values in normals(600), exponent in -6.0..2.0_f64) {
+            let deviation = 10.0_f64.powf(exponent);
+            let mut variance = RobustVariance::new(deviation);
+            for (index, value) in values.iter().enumerate() {
+                variance.take(if index % 10 == 0 { 1e3 * deviation } else { deviation * value });
+            }
+            let found = variance.beyond(0.0).unwrap_or(0.0);
+            prop_assert!((0.85..1.4).contains(&(found / deviation)), "{found} {deviation}");
+            prop_assert_eq!(variance.beyond(1.2 * found), None);
+        }
+    }
+}
