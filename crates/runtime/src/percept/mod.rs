@@ -6,6 +6,7 @@ mod contact;
 mod contact_estimator;
 mod disturbance;
 mod filtered_base_angle;
+mod inertia;
 mod local_contour;
 mod low_pass;
 mod measured_noise;

@@ -11,6 +11,7 @@ use crate::signal::{Command, Sample};
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
+use super::inertia::MeasuredAcceleration;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
 use super::motions::Motions;
@@ -39,6 +40,7 @@ pub struct Perception {
     disturbance: Disturbance,
     /// Offsets of the readings of all whiskers of the rig, if they are estimated.
     offsets: Option<Offsets>,
+    acceleration: MeasuredAcceleration,
     /// Delays and errors of poses and commands, if they are estimated.
     motions: Option<Motions>,
     /// Pose by the newest sample, or unknown.
@@ -155,6 +157,7 @@ impl Perception {
             in_sample: whiskers.to_vec(),
             disturbance: Disturbance::new(rig),
             motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Motions::new(rig)),
+            acceleration: MeasuredAcceleration::new(),
             measured: Pose::default(),
             servo: rig.platform.servo,
             offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
@@ -222,9 +225,10 @@ impl Perception {
         if period > 0.0 {
             offsets.predict(period);
         }
+        let Some(acceleration) = self.acceleration.take(self.measured, period) else { return };
         for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
-            if let Some((reading, deviation)) = whisker.free_reading() {
-                offsets.measure(index, reading, deviation);
+            if let Some((offset, deviation)) = whisker.measured_offset(&acceleration) {
+                offsets.measure(index, offset, deviation);
             }
         }
     }

@@ -12,6 +12,7 @@ use super::base_angle::NOISE_THRESHOLD;
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
+use super::inertia::{Acceleration, Inertia};
 use super::local_contour::LocalContour;
 use super::low_pass::LowPass;
 use super::measured_noise::MeasuredNoise;
@@ -52,6 +53,7 @@ pub(super) struct PerceivedWhisker {
     /// Number of readings in ticks since the whisker touched, and the number after which it is at rest.
     free_for: usize,
     settled_after: usize,
+    inertia: Inertia,
     sensing: Sensing,
     /// Position of the base (m, world frame).
     pub(super) base_world: Point2,
@@ -96,6 +98,7 @@ impl PerceivedWhisker {
             count: 0,
             free_for: samples(SETTLED, sensing),
             settled_after: samples(SETTLED, sensing),
+            inertia: Inertia::new(whisker),
             sensing: sensing.clone(),
             base_world: Point2::origin(),
             yaw: 0.0,
@@ -150,12 +153,14 @@ impl PerceivedWhisker {
         None
     }
 
-    /// The mean reading (rad) of this tick with its offset, and the standard deviation (rad) of its noise. `None` unless
-    /// the whisker is at rest in free air.
-    pub(super) fn free_reading(&self) -> Option<(f64, f64)> {
+    /// The mean offset (rad) of the readings of this tick, and its standard deviation (rad). `None` unless the whisker is
+    /// at rest in free air. The platform has this `acceleration`.
+    pub(super) fn measured_offset(&self, acceleration: &Acceleration) -> Option<(f64, f64)> {
         let is_at_rest = self.count > 0 && self.free_for >= self.settled_after;
         let count = self.count as f64;
-        is_at_rest.then(|| (self.sum / count, self.used_noise / count.sqrt()))
+        let bent = self.inertia.base_angle(acceleration);
+        let deviation = math::hypot(self.used_noise / count.sqrt(), INERTIA_DEVIATION * bent);
+        is_at_rest.then(|| (self.sum / count - bent, deviation))
     }
 
     /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
@@ -304,6 +309,8 @@ impl PerceivedWhisker {
 const BRIDGED: f64 = 0.03;
 /// Time (s) after a touch in which a whisker comes to rest.
 const SETTLED: f64 = 0.3;
+/// Relative standard deviation of the base angle due to inertia, because a whisker swings when that changes.
+const INERTIA_DEVIATION: f64 = 0.5;
 /// Relative change of the measured noise that has an effect.
 const NOISE_STEP: f64 = 0.1;
 
