@@ -13,6 +13,7 @@ use crate::signal::Reading;
 use super::base_angle::BaseAngle;
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
+use super::pose_delay::Misfit;
 use super::shaft_rest::ShaftRest;
 use super::sliding_contact::{SHAFT_FIRST, SlidingContact};
 use super::tip_bias::TipBias;
@@ -46,8 +47,6 @@ pub(super) struct Sliding {
     friction_angle: f64,
     /// Equilibrium base angle.
     angle: BaseAngle,
-    /// Contact threshold (rad).
-    contact_threshold: f64,
     /// Number of calm samples required before a new contact is estimated.
     calm_samples: usize,
     /// Number of successive calm samples so far.
@@ -58,7 +57,14 @@ pub(super) struct Sliding {
     rest: ShaftRest,
     /// Position of the base (m, world frame) and direction of the undeflected shaft (rad) at the previous sample.
     base_before: Option<(Point2, f64)>,
+    /// Sample rate (Hz).
+    sample_rate: f64,
+    /// Misfit of the newest reading.
+    misfit: Option<Misfit>,
 }
+
+/// Velocity of the base (m/s, world frame) and its yaw rate (rad/s).
+type Velocity = (Vector2, f64);
 
 /// The state of the estimator.
 #[derive(Debug, Clone, Copy)]
@@ -112,11 +118,12 @@ impl Sliding {
             usual_normal: whisker.usual_normal(),
             friction_angle: math::atan(sensing.friction),
             angle,
-            contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
             state: State::Free,
             base_before: None,
+            sample_rate: sensing.sample_rate,
+            misfit: None,
         }
     }
 
@@ -166,8 +173,15 @@ impl Sliding {
         State::Settled(SlidingContact { first_variance: math::square(SHAFT_FIRST.0), ..contact })
     }
 
-    /// One step of the filter while the tip slides.
-    fn slide(&self, last: &SlidingContact, angle: f64, base: Pose, path: f64) -> State {
+    /// One step of the filter while the tip slides, and the misfit of the reading.
+    fn slide(
+        &self,
+        last: &SlidingContact,
+        angle: f64,
+        base: Pose,
+        path: f64,
+        velocity: Velocity,
+    ) -> (State, Option<Misfit>) {
         let unsettled = State::Unsettled { left: Some(last.before[0]), bend_sign: last.bend_sign };
         // At a light contact, noise may rotate the surface beyond every force direction that bends the whisker. The
         // nearest possible direction is used if it is within the uncertainty.
@@ -175,7 +189,7 @@ impl Sliding {
         let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= deviation);
         let mut directions = turns.map(|turn| last.normal - last.bend_sign * turn);
         let found = directions.find_map(|direction| Some((direction, self.tip(angle, base, direction)?)));
-        let Some((direction, tip)) = found else { return unsettled };
+        let Some((direction, tip)) = found else { return (unsettled, None) };
         let normal = unit(direction);
         let tangent = perpendicular(normal);
         let slid = (Point2::from(tip.tip_base) - last.centre).dot(&tangent);
@@ -194,22 +208,27 @@ impl Sliding {
             math::square(tip.by_angle.dot(&normal) * self.angle.correlated_deviation) + math::square(SMOOTHNESS);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = math::square(innovation) < math::square(GATE) * variance;
+        let by_delay = transition * last.by_delay;
+        let misfit_by_delay = (measured * by_delay).x - along_normal(&tip, base, velocity, normal);
+        let misfit = Some(Misfit { distance: innovation, by_delay: misfit_by_delay, variance });
         if !is_sliding {
-            return unsettled;
+            return (unsettled, misfit);
         }
         let gain = covariance * measured.transpose() / variance;
         let centre = along - gain.y * innovation * normal;
         let left = Matrix2::identity() - gain * measured;
-        State::Settled(SlidingContact {
+        let state = State::Settled(SlidingContact {
             centre,
             before: [last.before[1], last.before[2], last.centre],
             normal: direction - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
             considered: left * considered * left.transpose() + noise * gain * gain.transpose(),
             tip,
+            by_delay: by_delay - gain * misfit_by_delay,
             farthest: math::max(last.farthest, (centre - last.first).norm()),
             ..*last
-        })
+        });
+        (state, misfit)
     }
 
     /// The state of a whisker that comes to rest without having been free. It may be caught.
@@ -284,15 +303,23 @@ impl ContactEstimator for Sliding {
         let path = self.base_before.map_or(0.0, |(position, heading)| {
             (base.position - position).norm() + self.length * (base.heading - heading).abs()
         });
+        let velocity = self.base_before.map_or((Vector2::zeros(), 0.0), |(position, heading)| {
+            ((base.position - position) * self.sample_rate, (base.heading - heading) * self.sample_rate)
+        });
         self.base_before = Some((base.position, base.heading));
-        if angle.abs() < self.contact_threshold {
+        self.misfit = None;
+        if angle.abs() < self.angle.contact_threshold {
             self.state = State::Free;
             self.rest.end();
             return;
         }
         self.state = match self.state {
             State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend_sign * bend_sign > 0.0 => self.slide(&contact, angle, base, path),
+            State::Settled(contact) if contact.bend_sign * bend_sign > 0.0 => {
+                let (state, misfit) = self.slide(&contact, angle, base, path, velocity);
+                self.misfit = misfit;
+                state
+            }
             State::Unsettled { left, bend_sign: before } if before * bend_sign > 0.0 => {
                 if self.calm_for < self.calm_samples {
                     State::Unsettled { left, bend_sign }
@@ -302,8 +329,12 @@ impl ContactEstimator for Sliding {
             }
             _ => State::Unsettled { left: None, bend_sign },
         };
-        match self.state {
+        match &mut self.state {
             State::Settled(contact) => {
+                if self.misfit.is_none() {
+                    // A new contact is where the tip is by the measured pose.
+                    contact.by_delay.y = -along_normal(&contact.tip, base, velocity, unit(contact.normal));
+                }
                 let normal = (contact.bend_sign * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
                 self.rest.take(angle, base, path, contact.centre, normal);
             }
@@ -311,12 +342,22 @@ impl ContactEstimator for Sliding {
         }
     }
 
+    fn misfit(&self) -> Option<Misfit> {
+        self.misfit
+    }
+
     fn interrupt(&mut self) {
         self.angle.clear();
+        self.misfit = None;
         self.calm_for = 0;
         self.base_before = None;
         self.state = State::Free;
         self.rest.end();
+    }
+
+    fn set_noise(&mut self, noise: f64) {
+        self.angle.set_noise(noise);
+        self.rest.set_deviation(self.angle.deviation);
     }
 
     fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {
@@ -352,6 +393,13 @@ const LANDING_STEPS: i32 = 35;
 const CAUGHT: f64 = 5e-3;
 /// Steps of the Gauss-Newton method from the best of these directions.
 const LANDING_ITERATIONS: usize = 6;
+
+/// Speed (m/s) along the normal with which the tip's centre by the mechanics moves along with its base. It is its change
+/// by the delay of poses.
+fn along_normal(tip: &TipPosition, base: Pose, (velocity, yaw_rate): Velocity, normal: Vector2) -> f64 {
+    let arm = tip.tip_base - base.position.coords;
+    normal.dot(&(velocity + yaw_rate * (perpendicular(arm) - tip.by_direction)))
+}
 
 /// Rate (m/rad) at which a surface through the tip moves away from `left` when its normal rotates.
 fn offset_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {

@@ -1,6 +1,6 @@
 //! The contact of a sliding tip.
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
 
 use crate::geometry::{Point2, perpendicular, unit};
 use crate::math;
@@ -22,6 +22,8 @@ pub(super) struct SlidingContact {
     pub(super) covariance: Matrix2<f64>,
     /// The same covariance with the errors that the gain ignores: contacts with different compliance.
     pub(super) considered: Matrix2<f64>,
+    /// Change of the normal's direction (rad/s) and of the position (m/s) by the delay of poses behind readings.
+    pub(super) by_delay: Vector2<f64>,
     /// The tip position by the mechanics, with its derivatives by the base angle and by the normal's direction.
     pub(super) tip: TipPosition,
     /// Position of the first contact (m, world frame), and the largest distance from it since (m). The variance of the
@@ -54,6 +56,7 @@ impl SlidingContact {
             normal,
             covariance,
             considered: covariance,
+            by_delay: Vector2::zeros(),
             tip: *tip,
             first: centre,
             farthest: 0.0,
