@@ -12,30 +12,37 @@ use crate::signal::MAX_WHISKERS;
 pub(super) struct Offsets {
     /// Number of whiskers.
     count: usize,
-    /// The offset (µrad) of whisker `i` at `2 i`, and its rate (µrad/s) at `2 i + 1`.
+    /// The offset (µrad) of whisker `i` at `2 i`, and its rate (µrad/s) at `2 i + 1`. Behind them is the effect of
+    /// inertia.
     state: [f64; STATES],
     covariance: [[f64; STATES]; STATES],
     /// True once an offset is known to differ from 0.
     is_known: bool,
 }
 
-const STATES: usize = 2 * MAX_WHISKERS;
+const STATES: usize = 2 * MAX_WHISKERS + 1;
 /// Standard deviation (µrad) of an offset at the start of a run.
 const FIRST_OFFSET: f64 = 10.0;
 /// Standard deviations (µrad/s) of the common rate and of the difference of a whisker's rate from it.
 const COMMON_RATE: f64 = 0.3;
 const OWN_RATE: f64 = 0.05;
+/// Standard deviation of the effect of inertia over the calculated one, which is expected.
+const INERTIA: f64 = 0.7;
 /// Growth of the variance of these rates (µrad²/s³), which change within minutes.
 const COMMON_CHANGE: f64 = 1e-4;
 const OWN_CHANGE: f64 = 4e-6;
 /// Growth of the variance of an offset (µrad²/s).
 const WALK: f64 = 4e-4;
-/// Standard deviation (µrad) of the mean reading of a tick in free air, because a whisker swings. It adds to noise.
+/// Standard deviation (µrad) of the mean reading of a tick in free air, because a whisker swings, and its share of the
+/// effect of inertia. Both add to noise.
 const SWING: f64 = 0.3;
+const SWING_SHARE: f64 = 0.5;
+/// Largest effect of inertia (µrad) for a measurement. A whisker swings after a larger one.
+const MOST_BENT: f64 = 1.0;
 /// Largest difference of a measured offset from the expected one, in standard deviations. A larger one is a touch.
 const GATE: f64 = 4.0;
 /// Offset (rad) that perception tolerates without a correction, and its standard deviations that make it significant.
-pub(super) const TOLERATED: f64 = 3e-7;
+const TOLERATED: f64 = 3e-7;
 const SIGNIFICANT: f64 = 3.0;
 
 const MICRO: f64 = 1e-6;
@@ -43,10 +50,14 @@ const MICRO: f64 = 1e-6;
 impl Offsets {
     /// Creates the offsets of so many whiskers, at most [`MAX_WHISKERS`].
     pub(super) fn new(count: usize) -> Self {
+        let count = count.min(MAX_WHISKERS);
+        let mut state = [0.0; STATES];
+        state[2 * count] = 1.0;
         let mut covariance = [[0.0; STATES]; STATES];
         for (row, line) in covariance.iter_mut().enumerate() {
             for (column, value) in line.iter_mut().enumerate() {
                 *value = match (row % 2, column % 2) {
+                    _ if row >= 2 * count || column >= 2 * count => 0.0,
                     (0, 0) if row == column => math::square(FIRST_OFFSET),
                     (1, 1) if row == column => math::square(COMMON_RATE) + math::square(OWN_RATE),
                     (1, 1) => math::square(COMMON_RATE),
@@ -54,7 +65,8 @@ impl Offsets {
                 };
             }
         }
-        Self { count: count.min(MAX_WHISKERS), state: [0.0; STATES], covariance, is_known: false }
+        covariance[2 * count][2 * count] = math::square(INERTIA);
+        Self { count, state, covariance, is_known: false }
     }
 
     /// The offset (rad) of a whisker, or 0 while none is significant.
@@ -64,7 +76,7 @@ impl Offsets {
 
     /// Continues the drift for `period` (s).
     pub(super) fn predict(&mut self, period: f64) {
-        let states = 2 * self.count;
+        let states = 2 * self.count + 1;
         for whisker in 0..self.count {
             self.state[2 * whisker] += self.state[2 * whisker + 1] * period;
             for column in 0..states {
@@ -85,19 +97,28 @@ impl Offsets {
         }
     }
 
-    /// Adds a measured offset (rad) of a whisker in free air with its standard deviation (rad).
-    pub(super) fn measure(&mut self, whisker: usize, offset: f64, deviation: f64) {
-        let (states, measured) = (2 * self.count, 2 * whisker);
-        let variance = self.covariance[measured][measured] + math::square(SWING) + math::square(deviation / MICRO);
-        let innovation = offset / MICRO - self.state[measured];
+    /// Adds the mean reading (rad) of a whisker in free air, with the base angle (rad) that is calculated for inertia.
+    /// `deviation` (rad) is the standard deviation of the noise.
+    pub(super) fn measure(&mut self, whisker: usize, reading: f64, bent: f64, deviation: f64) {
+        let (inertia, measured, bent) = (2 * self.count, 2 * whisker, bent / MICRO);
+        if bent.abs() > MOST_BENT {
+            return;
+        }
+        let column: [f64; STATES] =
+            std::array::from_fn(|row| self.covariance[row][measured] + bent * self.covariance[row][inertia]);
+        let variance = column[measured]
+            + bent * column[inertia]
+            + math::square(SWING)
+            + math::square(SWING_SHARE * bent)
+            + math::square(deviation / MICRO);
+        let innovation = reading / MICRO - self.state[measured] - bent * self.state[inertia];
         if math::square(innovation) > math::square(GATE) * variance {
             return;
         }
-        let column: [f64; STATES] = std::array::from_fn(|row| self.covariance[row][measured]);
-        for row in 0..states {
+        for row in 0..=inertia {
             let gain = column[row] / variance;
             self.state[row] += gain * innovation;
-            for other in 0..states {
+            for other in 0..=inertia {
                 self.covariance[row][other] -= gain * column[other];
             }
         }
@@ -129,9 +150,9 @@ mod tests {
                 offsets.predict(PERIOD);
                 let (noise, drift) = (2e-7, rate * time);
                 if time < 5.0 {
-                    offsets.measure(0, first + drift + noise * pair[0], noise);
+                    offsets.measure(0, first + drift + noise * pair[0], 0.0, noise);
                 }
-                offsets.measure(1, second + drift + noise * pair[1], noise);
+                offsets.measure(1, second + drift + noise * pair[1], 0.0, noise);
                 if tick > 150 && first.abs() + second.abs() > 2e-6 {
                     // The two had 5 s to differ.
                     prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
@@ -145,7 +166,7 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for value in values {
                 offsets.predict(PERIOD);
-                offsets.measure(0, 1.5e-7 * value, 1.5e-7);
+                offsets.measure(0, 1.5e-7 * value, 0.0, 1.5e-7);
                 prop_assert_eq!(offsets.value(0).to_bits(), 0.0_f64.to_bits());
             }
         }
@@ -155,9 +176,23 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for tick in 0..200 {
                 offsets.predict(PERIOD);
-                offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 1e-7);
+                offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7);
             }
             prop_assert!((offsets.value(0) - offset).abs() < 4e-7);
+        }
+
+        #[test]
+        fn whiskers_are_found_to_have_inertia_or_none(effect in 0.0..1.2_f64, offset in 2e-6..8e-6_f64, values in normals(600)) {
+            let mut offsets = Offsets::new(2);
+            for (tick, pair) in values.chunks(2).enumerate() {
+                // The platform rotates in every second second.
+                let bent = if tick / 30 % 2 == 0 { 2.5e-7 } else { 0.0 };
+                offsets.predict(PERIOD);
+                offsets.measure(0, offset + effect * bent + 1e-8 * pair[0], bent, 1e-8);
+                offsets.measure(1, -offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8);
+            }
+            prop_assert!((offsets.value(0) - offset).abs() < 1.2e-7, "{}", offsets.value(0) - offset);
+            prop_assert!((offsets.value(1) + offset).abs() < 1.2e-7);
         }
     }
 }

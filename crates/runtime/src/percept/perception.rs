@@ -258,8 +258,8 @@ impl Perception {
         }
         let Some(acceleration) = self.acceleration.take(self.measured, period) else { return };
         for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
-            if let Some((offset, deviation)) = whisker.measured_offset(&acceleration) {
-                offsets.measure(index, offset, deviation);
+            if let Some([reading, bent, deviation]) = whisker.free_reading(&acceleration) {
+                offsets.measure(index, reading, bent, deviation);
             }
         }
         for contour in &mut self.contours {

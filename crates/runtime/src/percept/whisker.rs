@@ -16,7 +16,6 @@ use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
 use super::inertia::{Acceleration, Inertia};
 use super::low_pass::LowPass;
 use super::measured_noise::MeasuredNoise;
-use super::offsets::TOLERATED;
 use super::pose_delay::Misfit;
 use super::pose_noise::PoseDeviation;
 use super::recorded_contour::RecordedContour;
@@ -154,14 +153,12 @@ impl PerceivedWhisker {
         None
     }
 
-    /// The mean offset (rad) of the readings of this tick, and its standard deviation (rad). `None` unless the whisker is
-    /// at rest in free air, and the `acceleration` of the platform bends it by less than perception tolerates.
-    pub(super) fn measured_offset(&self, acceleration: &Acceleration) -> Option<(f64, f64)> {
-        let bent = self.inertia.base_angle(acceleration).abs();
-        let is_at_rest = self.count > 0 && self.free_for >= self.settled_after && bent < TOLERATED;
+    /// The mean reading (rad) of this tick, the base angle (rad) that is calculated for this `acceleration` of the
+    /// platform, and the standard deviation (rad) of the noise. `None` unless the whisker is at rest in free air.
+    pub(super) fn free_reading(&self, acceleration: &Acceleration) -> Option<[f64; 3]> {
+        let is_at_rest = self.count > 0 && self.free_for >= self.settled_after;
         let count = self.count as f64;
-        let deviation = math::hypot(self.used_noise / count.sqrt(), INERTIA_DEVIATION * bent);
-        is_at_rest.then(|| (self.sum / count, deviation))
+        is_at_rest.then(|| [self.sum / count, self.inertia.base_angle(acceleration), self.used_noise / count.sqrt()])
     }
 
     /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
@@ -299,8 +296,6 @@ fn offset(whisker: &Whisker) -> f64 {
 const BRIDGED: f64 = 0.03;
 /// Time (s) after a touch in which a whisker comes to rest.
 const SETTLED: f64 = 0.3;
-/// Standard deviation of a measured offset over the base angle due to inertia.
-const INERTIA_DEVIATION: f64 = 2.0;
 /// Relative change of the measured noise that has an effect.
 const NOISE_STEP: f64 = 0.1;
 
