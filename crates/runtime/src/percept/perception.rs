@@ -242,6 +242,9 @@ impl Perception {
         for whisker in &mut self.whiskers {
             whisker.update(self.body, pose_deviation);
         }
+        for contour in &mut self.contours {
+            contour.begin();
+        }
         self.update_offsets(period);
         if let Some(motions) = &mut self.motions {
             motions.end(self.measured);
@@ -261,9 +264,6 @@ impl Perception {
             if let Some([reading, bent, deviation]) = whisker.free_reading(&acceleration) {
                 offsets.measure(index, reading, bent, deviation);
             }
-        }
-        for contour in &mut self.contours {
-            contour.begin();
         }
     }
 

@@ -77,9 +77,9 @@ const ARM: f64 = 0.1;
 /// Share of a difference that is left after a tick. Differences of half a minute count.
 const REMEMBERED: f64 = 0.999;
 /// Smallest sum of squared differences (m²) that is not due to forces or errors of poses, and the largest share of it
-/// that another servo or delay may leave.
+/// that another servo or delay may leave. A platform that is blocked leaves more with all of them.
 const LEAST_COST: f64 = 1e-6;
-const MOST_LEFT: f64 = 0.4;
+const MOST_LEFT: f64 = 0.15;
 /// Smallest delay (s), and the smallest ratio of time constants, that is corrected.
 const LEAST_DELAY: f64 = 8e-3;
 const LEAST_RATIO: f64 = 1.2;

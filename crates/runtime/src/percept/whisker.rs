@@ -55,6 +55,8 @@ pub(super) struct PerceivedWhisker {
     /// Sum of the readings of this tick (rad) with their offset, and their number.
     sum: f64,
     count: usize,
+    /// Largest magnitude of a base angle (rad) in this tick.
+    largest: f64,
     /// Number of readings in ticks since the whisker touched, and the number after which it is at rest.
     free_for: usize,
     settled_after: usize,
@@ -98,6 +100,7 @@ impl PerceivedWhisker {
             bridged: if sensing.estimation.lost_readings { samples(BRIDGED, sensing) } else { 0 },
             sum: 0.0,
             count: 0,
+            largest: 0.0,
             free_for: samples(SETTLED, sensing),
             settled_after: samples(SETTLED, sensing),
             inertia: Inertia::new(whisker),
@@ -122,7 +125,7 @@ impl PerceivedWhisker {
     /// Begins a tick. Its readings follow.
     pub(super) fn begin(&mut self) {
         self.base_angle.begin();
-        (self.sum, self.count) = (0.0, 0);
+        (self.sum, self.count, self.largest) = (0.0, 0, 0.0);
     }
 
     /// Adds a reading with this `offset` (rad) beyond that of the calibration, sampled with the platform at `body`. Returns its misfit with an expected
@@ -135,6 +138,7 @@ impl PerceivedWhisker {
         if is_valid {
             self.sum += measured;
             self.count += 1;
+            self.largest = math::max(self.largest, base_angle.abs());
         }
         if !is_valid || self.free_for == 0 {
             self.noise.interrupt();
@@ -180,7 +184,7 @@ impl PerceivedWhisker {
             contact.add_pose_errors(body, pose_deviation);
         }
         self.update_noise();
-        let is_free = self.contact.is_none() && !self.is_touching();
+        let is_free = self.contact.is_none() && !self.is_touching() && self.largest < self.contact_threshold;
         self.free_for = if is_free { self.free_for.saturating_add(self.count) } else { 0 };
         self.marks = Default::default();
     }
