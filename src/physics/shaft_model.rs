@@ -10,7 +10,7 @@ pub enum ShaftModel {
     /// joint has the armature of the base hinge.
     Cable,
     /// The chain with further hinges that let it bend out of the plane, under gravity. They are at the base and at
-    /// [every second link](Self::bends_out_of_plane).
+    /// every second link.
     SpatialChain,
 }
 
