@@ -133,9 +133,18 @@ impl Footprint {
                 nearest_corners = distances.fold(nearest_corners, f64::min);
             }
             if let Some((centre, radius)) = facet.bulge() {
-                for side in sides.iter().filter(|side| facet.spans(-side.outwards)) {
-                    if let Some(height) = side.height(centre) {
-                        add(centre - radius * side.outwards, -side.outwards, height - radius);
+                for side in &sides {
+                    if facet.spans(-side.outwards) {
+                        if let Some(height) = side.height(centre) {
+                            add(centre - radius * side.outwards, -side.outwards, height - radius);
+                        }
+                        continue;
+                    }
+                    // A side that is nearly parallel to a face touches the far end of that face after a small rotation.
+                    for end in facet.ends {
+                        if let Some(height) = side.height(end) {
+                            add(end, -side.outwards, height);
+                        }
                     }
                 }
             }

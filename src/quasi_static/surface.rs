@@ -25,7 +25,7 @@ pub(super) struct Facet {
     /// The distance (m) from the start and from the end within which a known outside point is retained at a concave
     /// corner. Such a point may be behind the other side for a moment.
     retention: [f64; 2],
-    ends: [Point2; 2],
+    pub(super) ends: [Point2; 2],
     bounds: BoundingBox,
     /// The index of the following facet.
     pub(super) next: usize,
